@@ -1,0 +1,23 @@
+# One place for what every target of weft is compiled with.
+
+add_library(weft_options INTERFACE)
+target_compile_features(weft_options INTERFACE cxx_std_20)
+target_compile_options(weft_options INTERFACE
+  -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow
+  # The same bytes from every compiler: no fused multiply-add where the source does not say so.
+  -ffp-contract=off
+  $<$<BOOL:${WEFT_WERROR}>:-Werror>)
+
+# -O3 pays in the medial axis and the raster loops; asserts stay on, they guard the lattice and cost nothing measurable.
+string(REPLACE "-O2" "-O3" CMAKE_CXX_FLAGS_RELWITHDEBINFO "${CMAKE_CXX_FLAGS_RELWITHDEBINFO}")
+set(CMAKE_CXX_FLAGS_RELEASE "-O3")
+
+if(WEFT_SANITIZE)
+  add_compile_options(-fsanitize=${WEFT_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${WEFT_SANITIZE})
+endif()
+
+find_program(CCACHE ccache)
+if(CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+endif()

@@ -1,0 +1,13 @@
+# Every library weft stands on, all from Debian packages; which module uses which stands in lib/CMakeLists.txt.
+find_package(fmt REQUIRED)
+find_package(TBB REQUIRED)
+find_package(CGAL REQUIRED)
+find_package(Eigen3 REQUIRED NO_MODULE)
+find_package(nlohmann_json REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(polyclipping REQUIRED IMPORTED_TARGET polyclipping)
+pkg_check_modules(libcrypto REQUIRED IMPORTED_TARGET libcrypto)
+pkg_check_modules(libzip REQUIRED IMPORTED_TARGET libzip)
+pkg_check_modules(expat REQUIRED IMPORTED_TARGET expat)
+pkg_check_modules(libpng REQUIRED IMPORTED_TARGET libpng)
+find_package(Boost REQUIRED COMPONENTS program_options)

@@ -1,0 +1,25 @@
+# weft_module(NAME [USES module...] [PUBLIC lib...] [PRIVATE lib...])
+#
+# A module is a folder of lib/ and the library made of the .cpp files in it. USES names the modules whose headers it may
+# include; the row also goes to modules.txt, from which a test checks every #include (tests/architecture.cmake).
+set_property(GLOBAL PROPERTY WEFT_MODULES "")
+file(WRITE ${CMAKE_BINARY_DIR}/modules.txt "")
+
+function(weft_module name)
+  cmake_parse_arguments(arg "" "" "USES;PUBLIC;PRIVATE" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+  list(TRANSFORM arg_USES PREPEND weft_ OUTPUT_VARIABLE used)
+  if(sources)
+    add_library(weft_${name} STATIC ${sources})
+    set(scope PUBLIC)
+    target_link_libraries(weft_${name} PRIVATE $<BUILD_INTERFACE:weft_options> ${arg_PRIVATE})
+  else()
+    add_library(weft_${name} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  target_include_directories(weft_${name} ${scope}
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/weft>)
+  target_link_libraries(weft_${name} ${scope} ${used} ${arg_PUBLIC})
+  set_property(GLOBAL APPEND PROPERTY WEFT_MODULES ${name})
+  file(APPEND ${CMAKE_BINARY_DIR}/modules.txt "${name}:${arg_USES}\n")
+endfunction()

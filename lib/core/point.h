@@ -1,0 +1,53 @@
+#pragma once
+#include <cmath>
+#include <compare>
+#include <cstdint>
+
+#include "core/microns.h"
+
+namespace weft {
+
+/// A point, or a vector between two, on the lattice of whole microns.
+struct Point {
+  Um x = 0, y = 0;
+  friend constexpr bool operator==(Point, Point) = default;
+  friend constexpr auto operator<=>(Point, Point) = default;
+};
+
+constexpr Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }
+constexpr Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
+constexpr Point operator-(Point a) { return {-a.x, -a.y}; }
+
+/// A place in the machine.
+struct Point3 {
+  Um x = 0, y = 0, z = 0;
+  friend constexpr bool operator==(Point3, Point3) = default;
+  friend constexpr auto operator<=>(Point3, Point3) = default;
+};
+constexpr Point flat(Point3 p) { return {p.x, p.y}; }
+
+/// Twice the signed area of the triangle abc; > 0 when c lies left of a->b. Exact.
+constexpr std::int64_t orient(Point a, Point b, Point c) {
+  const std::int64_t ux = std::int64_t{b.x} - a.x, uy = std::int64_t{b.y} - a.y;
+  const std::int64_t vx = std::int64_t{c.x} - a.x, vy = std::int64_t{c.y} - a.y;
+  return ux * vy - uy * vx;
+}
+
+/// Dot product of two difference vectors, µm². Exact.
+constexpr std::int64_t dot(Point a, Point b) { return std::int64_t{a.x} * b.x + std::int64_t{a.y} * b.y; }
+
+/// Squared distance, µm². Exact.
+constexpr std::int64_t distance2(Point a, Point b) {
+  const std::int64_t x = std::int64_t{b.x} - a.x, y = std::int64_t{b.y} - a.y;
+  return x * x + y * y;
+}
+
+/// Distance in fractional microns.
+inline double distance(Point a, Point b) { return std::sqrt(static_cast<double>(distance2(a, b))); }
+
+/// The point at fraction t of a->b, to the nearest micron.
+inline Point lerp(Point a, Point b, double t) {
+  return {rounded(a.x + t * (static_cast<double>(b.x) - a.x)), rounded(a.y + t * (static_cast<double>(b.y) - a.y))};
+}
+
+}  // namespace weft

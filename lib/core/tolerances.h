@@ -1,0 +1,17 @@
+#pragma once
+#include "core/microns.h"
+
+/// Every tolerance of the program that is not a setting: value, unit, meaning, and who relies on it.
+namespace weft::tolerances {
+using namespace weft::literals;
+
+/// Open contours whose ends are no further apart than this are closed in place. slice/stitch.
+inline constexpr Um stitch_gap = 0.1_mm;
+
+/// A region smaller than this prints nothing and is dropped after Booleans, µm²: a square of 0.02 mm. geometry/boolean.
+inline constexpr double sliver_area_um2 = 400;
+
+/// How far a chord may stand off a round corner made by an offset. geometry/offset.
+inline constexpr Um arc = 5_um;
+
+}  // namespace weft::tolerances

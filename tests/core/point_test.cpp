@@ -1,0 +1,38 @@
+#include <catch2/catch.hpp>
+
+#include "core/hash.h"
+#include "core/polygon.h"
+
+using namespace weft;
+
+TEST_CASE("core: a literal in millimetres is whole microns") {
+  STATIC_REQUIRE(0.45_mm == 450);
+  STATIC_REQUIRE(20_mm == 20000);
+  CHECK(from_mm(-0.0125) == -13);
+}
+
+TEST_CASE("core: orient is exact at the corners of the lattice") {
+  const Point a{-max_coord, -max_coord}, b{max_coord, max_coord};
+  CHECK(orient(a, b, {0, 0}) == 0);
+  CHECK(orient(a, b, {0, 1}) > 0);
+  CHECK(orient(a, b, {1, 0}) < 0);
+}
+
+TEST_CASE("core: area counts holes as missing") {
+  const Region frame{{{0, 0}, {10000, 0}, {10000, 10000}, {0, 10000}}, {{{2000, 2000}, {2000, 8000}, {8000, 8000}, {8000, 2000}}}};
+  CHECK(area_mm2(frame) == Approx(64.0));
+  CHECK(perimeter_of(frame.outer) == Approx(40000));
+}
+
+TEST_CASE("core: a point is inside, on or outside of a ring") {
+  const Ring triangle{{0, 0}, {4000, 0}, {2000, 3000}};
+  CHECK(side_of(triangle, {2000, 1000}) == Side::inside);
+  CHECK(side_of(triangle, {1000, 1500}) == Side::on);
+  CHECK(side_of(triangle, {4000, 0}) == Side::on);
+  CHECK(side_of(triangle, {5000, 0}) == Side::outside);
+  CHECK(side_of(triangle, {0, 3000}) == Side::outside);
+}
+
+TEST_CASE("core: sha256 agrees with FIPS 180-4, example B.1") {
+  CHECK(sha256("abc") == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
