@@ -1,0 +1,30 @@
+#pragma once
+#include <vector>
+
+#include "core/notice.h"
+#include "core/polygon.h"
+#include "model/bead.h"
+
+namespace weft {
+
+/// A slice of one object: what is solid between z − height and z.
+struct SlicedLayer {
+  Um z = 0;       ///< top of the layer: where the nozzle is while printing it
+  Um height = 0;  ///< of this layer
+  Regions regions;
+};
+
+/// Walls of one layer.
+struct WallLayer {
+  Beads beads;
+  Regions inside;  ///< what the walls leave for skin and infill, up to the inner edge of the innermost walls
+  Notices notices;
+};
+
+/// Skin and infill of one layer.
+struct FillLayer {
+  Beads beads;
+  Notices notices;
+};
+
+}  // namespace weft

@@ -1,0 +1,63 @@
+#pragma once
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/notice.h"
+#include "model/bead.h"
+
+namespace weft {
+
+/// Lays a bead down from its first junction to its last (a closed bead has its first junction repeated at the end here).
+struct Extrude {
+  std::vector<Junction> path;
+  Role role = Role::outer_wall;
+  Um height = 0;                        ///< of the layer at this place
+  double speed_mm_s = 0;                ///< set by motion; 0 before
+  std::vector<float> segment_speed_mm_s;  ///< set by motion where speed varies along the path: one a segment; else empty
+};
+
+/// Moves without extruding, through the points in order; starts where the last step ended.
+struct Travel {
+  std::vector<Point3> path;
+  double speed_mm_s = 0;      ///< set by motion
+  bool crosses_wall = false;  ///< leaves the part it was in; such a travel is retracted
+};
+
+/// Draws filament back; `wipe` retraces that path while doing so.
+struct Retract {
+  Polyline wipe;
+  friend bool operator==(const Retract&, const Retract&) = default;
+};
+/// Pushes it forward again.
+struct Prime {};
+
+/// Part-cooling fan, 0 … 1.
+struct SetFan { double share = 0; };
+
+/// Everything until the next ObjectEnd belongs to that object (index into PrintPlan::objects).
+struct ObjectStart { std::uint32_t object = 0; };
+struct ObjectEnd { std::uint32_t object = 0; };
+
+using Step = std::variant<Extrude, Travel, Retract, Prime, SetFan, ObjectStart, ObjectEnd>;
+
+/// One layer of the whole plate, in the order it is printed.
+struct LayerPlan {
+  Um z = 0, height = 0;
+  std::vector<Step> steps;
+};
+
+/// What firmware calls an object: one copy of one model.
+struct ObjectLabel {
+  std::string name;
+  Point centre;
+  Ring outline;  ///< convex hull on the bed
+};
+
+struct PrintPlan {
+  std::vector<LayerPlan> layers;
+  std::vector<ObjectLabel> objects;
+  Notices notices;
+};
+
+}  // namespace weft
