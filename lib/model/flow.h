@@ -36,7 +36,8 @@ inline Um band(Um line_width, Um height) { return from_mm(spacing_mm(to_mm(line_
 /// The line width of a band; the inverse of `band` up to the rounding to microns.
 inline Um line_width(Um band_width, Um height) {
   const double band_mm = to_mm(band_width), height_mm = to_mm(height);
-  if (band_mm < height_mm * (1.0 - rounding)) return band_width;
+  constexpr double half_micron = 0.0005;  // the band was rounded
+  if (band_mm < height_mm * (1.0 - rounding) - half_micron) return band_width;
   return from_mm(band_mm + height_mm * rounding);
 }
 
