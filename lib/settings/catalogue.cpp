@@ -1,0 +1,185 @@
+#include "settings/catalogue.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <stdexcept>
+
+namespace weft {
+namespace {
+
+template <class T>
+struct OptionalOf : std::false_type { using type = T; };
+template <class T>
+struct OptionalOf<std::optional<T>> : std::true_type { using type = T; };
+
+template <class T>
+std::vector<std::string_view> choice_names() {
+  std::vector<std::string_view> names;
+  if constexpr (std::is_enum_v<T>) {
+    static_assert([] {
+      constexpr auto choices = choices_of(T{});
+      for (std::size_t i = 0; i < choices.size(); ++i)
+        if (choices[i].value != static_cast<T>(i)) return false;
+      return true;
+    }(), "row i of choices_of is value i");
+    for (const auto& choice : choices_of(T{})) names.push_back(choice.name);
+  }
+  return names;
+}
+
+template <class T>
+std::string print_value(const T& v, Unit unit) {
+  if constexpr (OptionalOf<T>::value)
+    return v ? print_value(*v, unit) : "auto";
+  else if constexpr (std::is_enum_v<T>)
+    return std::string(choices_of(T{})[static_cast<std::size_t>(v)].name);
+  else
+    return value::print(v, unit);
+}
+
+template <class T>
+T parse_value(std::string_view text, Unit unit) {
+  if constexpr (OptionalOf<T>::value) {
+    if (value::trimmed(text) == "auto") return std::nullopt;
+    return parse_value<typename OptionalOf<T>::type>(text, unit);
+  } else if constexpr (std::is_enum_v<T>) {
+    return static_cast<T>(value::parse_choice(text, choice_names<T>()));
+  } else {
+    T out{};
+    value::parse(text, unit, out);
+    return out;
+  }
+}
+
+template <class T>
+std::string_view type_name(Unit unit) {
+  if constexpr (OptionalOf<T>::value) return type_name<typename OptionalOf<T>::type>(unit);
+  else if constexpr (std::is_enum_v<T>) return "choice";
+  else if constexpr (std::is_same_v<T, bool>) return "flag";
+  else if constexpr (std::is_same_v<T, Um>) return unit == Unit::mm ? "length" : "integer";
+  else if constexpr (std::is_same_v<T, double>) return "number";
+  else if constexpr (std::is_same_v<T, std::string>) return "text";
+  else if constexpr (std::is_same_v<T, LengthOrShare>) return "length or %";
+  else if constexpr (std::is_same_v<T, SpeedOrShare>) return "speed or %";
+  else if constexpr (std::is_same_v<T, Ring>) return "points";
+  else return "polygons";
+}
+
+/// Throws unless `v` lies in the row's range. A share is not ranged: its base is not known here.
+template <class T, class Bound>
+void check_range(const T& v, const Bound& least, const Bound& most, Unit unit) {
+  if constexpr (OptionalOf<T>::value) {
+    if (v) check_range(*v, least, most, unit);
+  } else if constexpr (std::is_same_v<T, LengthOrShare>) {
+    if (!v.is_share) check_range(v.length, least, most, unit);
+  } else if constexpr (std::is_same_v<T, SpeedOrShare>) {
+    if (!v.is_share) check_range(v.value, least, most, unit);
+  } else if (v < least || v > most) {
+    throw std::invalid_argument(fmt::format("{} {} is outside {} … {}{}{}", print_value(v, unit), symbol_of(unit), print_value(least, unit),
+                                            print_value(most, unit), unit == Unit::none ? "" : " ", symbol_of(unit)));
+  }
+}
+
+template <class S, class Row>
+CatalogueEntry entry_of(const S& section, const Row& row) {
+  using T = typename Row::field_type;
+  constexpr bool ranged = !std::is_same_v<decltype(row.least), detail::NoBound>;
+  CatalogueEntry e;
+  e.section = section.name;
+  e.key = row.key;
+  e.type = type_name<T>(row.unit);
+  e.unit = symbol_of(row.unit);
+  e.meaning = row.meaning;
+  e.prusa = row.prusa;
+  e.automatic = OptionalOf<T>::value;
+  e.choices = choice_names<typename OptionalOf<T>::type>();
+  if constexpr (ranged) {
+    e.least = print_value(row.least, row.unit);
+    e.most = print_value(row.most, row.unit);
+  }
+  const auto group = section.group;
+  const auto field = row.field;
+  const Unit unit = row.unit;
+  e.print = [=](const Settings& s) { return print_value((s.*group).*field, unit); };
+  e.parse = [=](Settings& s, std::string_view text) {
+    T v = parse_value<T>(text, unit);
+    if constexpr (ranged) check_range(v, row.least, row.most, unit);
+    (s.*group).*field = std::move(v);
+  };
+  e.default_text = e.print(Settings{});
+  return e;
+}
+
+std::vector<CatalogueEntry> every_entry() {
+  std::vector<CatalogueEntry> out;
+  auto add_section = [&](const auto& section) {
+    std::apply([&](const auto&... row) { (out.push_back(entry_of(section, row)), ...); }, section.rows);
+  };
+  std::apply([&](const auto&... section) { (add_section(section), ...); }, sections);
+  return out;
+}
+
+/// Levenshtein distance. Source: Wagner & Fischer 1974, two rows.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t above = row[j];
+      row[j] = std::min({row[j - 1] + 1, above + 1, diagonal + (a[i - 1] == b[j - 1] ? 0u : 1u)});
+      diagonal = above;
+    }
+  }
+  return row.back();
+}
+
+std::string underscored(std::string_view key) {
+  std::string out(key);
+  std::replace(out.begin(), out.end(), '-', '_');
+  return out;
+}
+
+}  // namespace
+
+const std::vector<CatalogueEntry>& catalogue() {
+  static const std::vector<CatalogueEntry> entries = every_entry();
+  return entries;
+}
+
+const CatalogueEntry* find_setting(std::string_view key) {
+  static const std::vector<std::pair<std::string_view, const CatalogueEntry*>> by_key = [] {
+    std::vector<std::pair<std::string_view, const CatalogueEntry*>> out;
+    for (const auto& e : catalogue()) out.emplace_back(e.key, &e);
+    std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    return out;
+  }();
+  const std::string wanted = underscored(key);
+  const auto at = std::lower_bound(by_key.begin(), by_key.end(), std::string_view(wanted),
+                                   [](const auto& a, std::string_view k) { return a.first < k; });
+  return at != by_key.end() && at->first == wanted ? at->second : nullptr;
+}
+
+std::string_view nearest_setting(std::string_view wrong) {
+  const std::string wanted = underscored(wrong);
+  std::string_view best;
+  std::size_t least = wanted.size() / 2 + 1;  // more than half of it wrong is no likeness
+  for (const auto& e : catalogue())
+    for (const auto name : {e.key, e.prusa})
+      if (!name.empty())
+        if (const auto d = edit_distance(wanted, name); d < least) least = d, best = e.key;
+  return best;
+}
+
+std::string as_text(const Settings& settings, std::string_view section) {
+  std::string out;
+  for (const auto& e : catalogue())
+    if (section.empty() || e.section == section) out += fmt::format("{} = {}\n", e.key, e.print(settings));
+  return out;
+}
+
+}  // namespace weft

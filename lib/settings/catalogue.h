@@ -1,0 +1,35 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "settings/settings.h"
+
+namespace weft {
+
+/// One setting as text: what `weft settings` prints, and the way in and out for every file and option.
+struct CatalogueEntry {
+  std::string_view section, key, type, unit, meaning, prusa;
+  std::string default_text, least, most;      ///< least and most are empty where there is no range
+  std::vector<std::string_view> choices;      ///< of an enumeration
+  bool automatic = false;                     ///< `auto` is a value
+  std::function<std::string(const Settings&)> print;
+  /// @throws std::invalid_argument with one clause: wrong type, or out of range
+  std::function<void(Settings&, std::string_view)> parse;
+};
+
+/// Every setting, in the order of `sections`.
+const std::vector<CatalogueEntry>& catalogue();
+
+/// The entry of a key, or null. Keys are compared exactly, but '-' counts as '_'.
+const CatalogueEntry* find_setting(std::string_view key);
+
+/// The known key nearest to a wrong one by edit distance, or empty when nothing is near.
+std::string_view nearest_setting(std::string_view wrong);
+
+/// `key = value` of every setting of a section (all of them when empty), a line each: the block in the G-code and what
+/// cache keys are made of.
+std::string as_text(const Settings& settings, std::string_view section = {});
+
+}  // namespace weft

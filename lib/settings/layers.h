@@ -1,0 +1,23 @@
+#pragma once
+#include "settings/schema.h"
+
+namespace weft {
+using namespace weft::literals;
+
+/// How the model is cut.
+struct LayerSettings {
+  Um layer_height = 0.2_mm;
+  std::optional<Um> initial_layer_height;  ///< auto: layer_height
+  Um resolution = 0.0125_mm;
+};
+
+inline constexpr std::tuple layer_schema{
+    setting("layer_height", &LayerSettings::layer_height, Unit::mm, 0.02_mm, 2_mm, "Height of a layer.", "layer_height"),
+    setting("initial_layer_height", &LayerSettings::initial_layer_height, Unit::mm, 0.02_mm, 2_mm,
+            "Height of the first layer; auto is layer_height.", "first_layer_height"),
+    setting("resolution", &LayerSettings::resolution, Unit::mm, 0_mm, 1_mm,
+            "How far a simplified outline may stand off the model's.", "gcode_resolution"),
+};
+static_assert(complete<LayerSettings>(layer_schema));
+
+}  // namespace weft

@@ -1,0 +1,37 @@
+#pragma once
+#include "settings/schema.h"
+
+namespace weft {
+using namespace weft::literals;
+
+/// The filament: what it is, how hot, how fast it melts.
+struct MaterialSettings {
+  std::string material_type = "PLA";
+  Um filament_diameter = 1.75_mm;
+  double material_density = 1.24;
+  double material_flow = 100;
+  double material_max_volumetric_speed = 12;
+  int material_print_temperature = 210;
+  std::optional<int> material_print_temperature_layer_0;
+  int material_bed_temperature = 60;
+  std::optional<int> material_bed_temperature_layer_0;
+};
+
+inline constexpr std::tuple material_schema{
+    setting("material_type", &MaterialSettings::material_type, "Kind of plastic, for comments and messages.", "filament_type"),
+    setting("filament_diameter", &MaterialSettings::filament_diameter, Unit::mm, 0.5_mm, 5_mm, "Diameter of the filament.", "filament_diameter"),
+    setting("material_density", &MaterialSettings::material_density, Unit::g_cm3, 0.1, 20, "Density, for the weight in the report.", "filament_density"),
+    setting("material_flow", &MaterialSettings::material_flow, Unit::percent, 1, 300, "Multiplies every extrusion.", "extrusion_multiplier"),
+    setting("material_max_volumetric_speed", &MaterialSettings::material_max_volumetric_speed, Unit::mm3_s, 0.1, 500,
+            "What the hot end melts; speeds are lowered to stay below it.", "filament_max_volumetric_speed"),
+    setting("material_print_temperature", &MaterialSettings::material_print_temperature, Unit::celsius, 0, 500, "Nozzle temperature.", "temperature"),
+    setting("material_print_temperature_layer_0", &MaterialSettings::material_print_temperature_layer_0, Unit::celsius, 0, 500,
+            "Nozzle temperature of the first layer; auto is material_print_temperature.", "first_layer_temperature"),
+    setting("material_bed_temperature", &MaterialSettings::material_bed_temperature, Unit::celsius, 0, 200, "Bed temperature; 0 leaves the bed alone.",
+            "bed_temperature"),
+    setting("material_bed_temperature_layer_0", &MaterialSettings::material_bed_temperature_layer_0, Unit::celsius, 0, 200,
+            "Bed temperature of the first layer; auto is material_bed_temperature.", "first_layer_bed_temperature"),
+};
+static_assert(complete<MaterialSettings>(material_schema));
+
+}  // namespace weft

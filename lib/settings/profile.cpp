@@ -1,0 +1,95 @@
+#include "settings/profile.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "core/error.h"
+#include "settings/catalogue.h"
+#include "settings/ini.h"
+
+namespace weft {
+namespace {
+
+std::string contents_of(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) throw Error{Error::Kind::file, "is a folder, not a profile", path.string(), "name an ini file in it"};
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw Error{Error::Kind::file, "cannot be read", path.string(), "check the path and its permissions"};
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void apply_file(Profile& profile, const std::filesystem::path& path, std::vector<std::filesystem::path>& chain) {
+  const auto entries = parse_ini(contents_of(path), path.string());
+  std::map<std::string, int> seen;
+  for (const auto& e : entries) {
+    const auto [first, is_new] = seen.emplace(e.key, e.line);
+    if (!is_new)
+      throw Error{Error::Kind::settings, fmt::format("'{}' was already given on line {}", e.key, first->second),
+                  fmt::format("{}:{}", path.string(), e.line), "keep one of the two"};
+  }
+  chain.push_back(std::filesystem::weakly_canonical(path));
+  for (const auto& e : entries) {
+    if (e.key != "inherits") continue;
+    const auto parent = path.parent_path() / e.value;
+    const auto where = fmt::format("{}:{}", path.string(), e.line);
+    const auto canonical = std::filesystem::weakly_canonical(parent);
+    for (const auto& above : chain)
+      if (above == canonical) throw Error{Error::Kind::settings, fmt::format("inherits '{}', which inherits this file", e.value), where, "break the circle"};
+    if (!std::filesystem::is_regular_file(parent))
+      throw Error{Error::Kind::settings, fmt::format("inherits '{}', which is not there", parent.string()), where, "the path is relative to this file"};
+    apply_file(profile, parent, chain);
+  }
+  for (const auto& e : entries)
+    if (e.key != "inherits") apply_value(profile, e.key, e.value, fmt::format("{}:{}", path.string(), e.line));
+  chain.pop_back();
+}
+
+}  // namespace
+
+void apply_file(Profile& profile, const std::filesystem::path& path) {
+  std::vector<std::filesystem::path> chain;
+  apply_file(profile, path, chain);
+}
+
+void apply_value(Profile& profile, const std::string& key, const std::string& text, const std::string& where) {
+  const auto* entry = find_setting(key);
+  if (!entry) {
+    const auto near = nearest_setting(key);
+    throw Error{Error::Kind::settings, fmt::format("unknown setting '{}'", key), where,
+                near.empty() ? "`weft settings` lists them all" : fmt::format("did you mean '{}'?", near)};
+  }
+  try {
+    entry->parse(profile.settings, text);
+  } catch (const std::invalid_argument& problem) {
+    throw Error{Error::Kind::settings, fmt::format("{}: {}", entry->key, problem.what()), where,
+                entry->least.empty() ? fmt::format("default: {}", entry->default_text)
+                                     : fmt::format("range {} … {}{}{}, default {}{}", entry->least, entry->most, entry->unit.empty() ? "" : " ", entry->unit,
+                                                   entry->default_text, entry->automatic ? ", or auto" : "")};
+  }
+  profile.origins[std::string(entry->key)].push_back({where, text});
+}
+
+std::string origin_of(const Profile& profile, const std::string& key) {
+  const auto at = profile.origins.find(key);
+  return at == profile.origins.end() ? "default" : at->second.back().where;
+}
+
+void check_consistency(const Profile& profile) {
+  const auto& s = profile.settings;
+  const auto refuse = [&](const char* key, std::string what, std::string hint) {
+    throw Error{Error::Kind::settings, fmt::format("{}: {}", key, what), origin_of(profile, key), std::move(hint)};
+  };
+  const auto nozzle = s.machine.nozzle_diameter;
+  if (s.layers.layer_height > nozzle)
+    refuse("layer_height", fmt::format("{} mm is more than nozzle_diameter {} mm", to_mm(s.layers.layer_height), to_mm(nozzle)), "a bead cannot be higher than the nozzle is wide");
+  if (s.layers.initial_layer_height.value_or(0) > nozzle)
+    refuse("initial_layer_height", fmt::format("{} mm is more than nozzle_diameter {} mm", to_mm(*s.layers.initial_layer_height), to_mm(nozzle)),
+           "a bead cannot be higher than the nozzle is wide");
+  if (s.machine.bed_shape == BedShape::polygon && s.machine.bed_polygon.size() < 3)
+    refuse("bed_polygon", "a bed of shape polygon needs at least three corners", "give them as 0x0, 220x0, 220x220, 0x220");
+}
+
+}  // namespace weft

@@ -1,0 +1,39 @@
+#pragma once
+#include "settings/audit.h"
+#include "settings/layers.h"
+#include "settings/machine.h"
+#include "settings/material.h"
+#include "settings/walls.h"
+
+namespace weft {
+
+/// Every setting of a job, resolved. A stage takes its own group only.
+struct Settings {
+  MachineSettings machine;
+  MaterialSettings material;
+  LayerSettings layers;
+  WallSettings walls;
+  AuditSettings audit;
+};
+
+/// A group: its name (the section of an ini), where it lies, and its rows. The order is that of manuals and of the
+/// block of settings in the G-code.
+template <class Group, class Schema>
+struct Section {
+  std::string_view name;
+  Group Settings::*group;
+  const Schema& rows;
+};
+template <class Group, class Schema>
+Section(std::string_view, Group Settings::*, const Schema&) -> Section<Group, Schema>;
+
+inline constexpr std::tuple sections{
+    Section{"machine", &Settings::machine, machine_schema},
+    Section{"material", &Settings::material, material_schema},
+    Section{"layers", &Settings::layers, layer_schema},
+    Section{"walls", &Settings::walls, wall_schema},
+    Section{"audit", &Settings::audit, audit_schema},
+};
+static_assert(field_count<Settings>() == std::tuple_size_v<decltype(sections)>, "a group has no section");
+
+}  // namespace weft

@@ -1,0 +1,225 @@
+#include "settings/value.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+
+namespace weft::value {
+namespace {
+
+[[noreturn]] void refuse(std::string_view text, std::string_view what) {
+  throw std::invalid_argument(fmt::format("'{}' is not {}", text, what));
+}
+
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+bool same_word(std::string_view a, std::string_view b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (lower(a[i]) != lower(b[i])) return false;
+  return true;
+}
+
+/// The number at the front of `text`, which is advanced past it and the white space behind it.
+double take_number(std::string_view& text, std::string_view whole, std::string_view what) {
+  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  double v = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), v);
+  if (error != std::errc{} || !std::isfinite(v)) refuse(whole, what);
+  text = trimmed(text.substr(static_cast<std::size_t>(end - text.data())));
+  return v;
+}
+
+/// Is `suffix` a way to write the unit? The plain-ASCII spellings of the symbols count too.
+bool names_unit(std::string_view suffix, Unit unit) {
+  if (suffix.empty() || suffix == symbol_of(unit)) return true;
+  switch (unit) {
+    case Unit::mm_s2: return suffix == "mm/s2" || suffix == "mm/s^2";
+    case Unit::mm3_s: return suffix == "mm3/s" || suffix == "mm^3/s";
+    case Unit::mm3_s2: return suffix == "mm3/s2" || suffix == "mm^3/s^2";
+    case Unit::mm2: return suffix == "mm2" || suffix == "mm^2";
+    case Unit::degrees: return suffix == "deg";
+    case Unit::celsius: return suffix == "C";
+    case Unit::g_cm3: return suffix == "g/cm3";
+    case Unit::layers: return suffix == "layer";
+    default: return false;
+  }
+}
+
+std::string what_of(std::string_view noun, Unit unit) {
+  return unit == Unit::none ? std::string(noun) : fmt::format("{} in {}", noun, symbol_of(unit));
+}
+
+double quantity(std::string_view text, Unit unit, std::string_view noun) {
+  const auto whole = text = trimmed(text);
+  const double v = take_number(text, whole, what_of(noun, unit));
+  if (!names_unit(text, unit)) refuse(whole, what_of(noun, unit));
+  return v;
+}
+
+Um length_from(double mm, std::string_view whole) {
+  const double um = mm * 1000.0;
+  if (std::abs(um) > max_coord) refuse(whole, "a length within 16 m");
+  // Refused rather than rounded in silence: the lattice is whole microns. 1e-6 µm lets decimal fractions through.
+  if (std::abs(um - std::round(um)) > 1e-6) refuse(whole, "a length in whole microns (at most three decimals)");
+  return static_cast<Um>(std::lround(um));
+}
+
+template <class F>
+void for_each_part(std::string_view text, char separator, F f) {
+  for (;;) {
+    const auto at = text.find(separator);
+    f(trimmed(text.substr(0, at)));
+    if (at == std::string_view::npos) return;
+    text.remove_prefix(at + 1);
+  }
+}
+
+}  // namespace
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+void parse(std::string_view text, Unit unit, Um& out) {
+  if (unit != Unit::mm) {  // a whole number; Um and int are one type
+    const double v = quantity(text, unit, "a whole number");
+    if (v != std::round(v) || std::abs(v) > 1e9) refuse(trimmed(text), "a whole number");
+    out = static_cast<int>(v);
+    return;
+  }
+  out = length_from(quantity(text, unit, "a length"), trimmed(text));
+}
+
+void parse(std::string_view text, Unit unit, double& out) { out = quantity(text, unit, "a number"); }
+
+void parse(std::string_view text, Unit, bool& out) {
+  const auto t = trimmed(text);
+  for (const auto yes : {"true", "yes", "on", "1"})
+    if (same_word(t, yes)) return void(out = true);
+  for (const auto no : {"false", "no", "off", "0"})
+    if (same_word(t, no)) return void(out = false);
+  refuse(t, "true or false");
+}
+
+void parse(std::string_view text, Unit, std::string& out) {
+  out.clear();
+  text = trimmed(text);
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '\\' || i + 1 == text.size()) {
+      out += text[i];
+      continue;
+    }
+    switch (const char c = text[++i]) {
+      case 'n': out += '\n'; break;
+      case 'r': out += '\r'; break;
+      case 't': out += '\t'; break;
+      case '\\': out += '\\'; break;
+      default: (out += '\\') += c;
+    }
+  }
+}
+
+void parse(std::string_view text, Unit, LengthOrShare& out) {
+  const auto whole = text = trimmed(text);
+  const double v = take_number(text, whole, "a length in mm or a share in %");
+  if (text == "%") return void(out = share(v));
+  if (!names_unit(text, Unit::mm)) refuse(whole, "a length in mm or a share in %");
+  out = length(length_from(v, whole));
+}
+
+void parse(std::string_view text, Unit, SpeedOrShare& out) {
+  const auto whole = text = trimmed(text);
+  const double v = take_number(text, whole, "a speed in mm/s or a share in %");
+  if (text != "%" && !names_unit(text, Unit::mm_s)) refuse(whole, "a speed in mm/s or a share in %");
+  out = {v, text == "%"};
+}
+
+void parse(std::string_view text, Unit, Ring& out) {
+  out.clear();
+  const auto whole = trimmed(text);
+  if (whole.empty()) return;
+  constexpr std::string_view what = "a list of points in mm such as 0x0, 220x0, 220x220, 0x220";
+  for_each_part(whole, ',', [&](std::string_view part) {
+    const auto x = part.find('x');
+    if (x == std::string_view::npos) refuse(whole, what);
+    auto number_of = [&](std::string_view t) {
+      t = trimmed(t);
+      const double v = take_number(t, whole, what);
+      if (!t.empty()) refuse(whole, what);
+      if (std::abs(v) * 1000.0 > max_coord) refuse(whole, "within 16 m");
+      return from_mm(v);
+    };
+    out.push_back({number_of(part.substr(0, x)), number_of(part.substr(x + 1))});
+  });
+}
+
+void parse(std::string_view text, Unit unit, std::vector<Ring>& out) {
+  out.clear();
+  if (trimmed(text).empty()) return;
+  for_each_part(text, ';', [&](std::string_view part) {
+    if (!part.empty()) parse(part, unit, out.emplace_back());
+  });
+}
+
+std::size_t parse_choice(std::string_view text, const std::vector<std::string_view>& names) {
+  const auto t = trimmed(text);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (same_word(t, names[i])) return i;
+  refuse(t, fmt::format("one of {}", fmt::join(names, ", ")));
+}
+
+std::string number(double v, int decimals) {
+  std::string out = fmt::format("{:.{}f}", v, decimals);
+  if (out.find('.') != std::string::npos) {
+    while (out.back() == '0') out.pop_back();
+    if (out.back() == '.') out.pop_back();
+  }
+  return out == "-0" ? "0" : out;
+}
+
+std::string print(Um v, Unit unit) { return unit == Unit::mm ? number(to_mm(v)) : fmt::format("{}", v); }
+std::string print(double v, Unit unit) { return number(v) + (unit == Unit::percent ? "%" : ""); }
+std::string print(bool v, Unit) { return v ? "true" : "false"; }
+
+std::string print(const std::string& v, Unit) {
+  std::string out;
+  for (const char c : v) {
+    switch (c) {
+      case '\n': out += "\\n"; break;
+      case '\r': out += "\\r"; break;
+      case '\t': out += "\\t"; break;
+      case '\\': out += "\\\\"; break;
+      default: out += c;
+    }
+  }
+  return out;
+}
+
+std::string print(const LengthOrShare& v, Unit) { return v.is_share ? number(v.percent) + "%" : number(to_mm(v.length)); }
+std::string print(const SpeedOrShare& v, Unit) { return number(v.value) + (v.is_share ? "%" : ""); }
+
+std::string print(const Ring& v, Unit) {
+  std::string out;
+  for (const Point p : v) {
+    if (!out.empty()) out += ", ";
+    out += number(to_mm(p.x)) + "x" + number(to_mm(p.y));
+  }
+  return out;
+}
+
+std::string print(const std::vector<Ring>& v, Unit unit) {
+  std::string out;
+  for (const auto& ring : v) {
+    if (!out.empty()) out += "; ";
+    out += print(ring, unit);
+  }
+  return out;
+}
+
+}  // namespace weft::value

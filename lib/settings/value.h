@@ -1,0 +1,68 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/polygon.h"
+#include "settings/unit.h"
+
+/// The types a setting may have, and their text: one parser and one printer a type, used by every door settings come
+/// through. `parse` throws std::invalid_argument with one clause ("'0.2abc' is not a length in mm"); nothing is guessed.
+namespace weft {
+
+/// A length that may be given as a share of another: `0.1 mm` or `25 %`. Resolved where it is read.
+struct LengthOrShare {
+  Um length = 0;
+  double percent = 0;
+  bool is_share = false;
+  Um of(Um base) const { return is_share ? rounded(base * percent / 100.0) : length; }
+  friend bool operator==(const LengthOrShare&, const LengthOrShare&) = default;
+};
+constexpr LengthOrShare share(double percent) { return {0, percent, true}; }
+constexpr LengthOrShare length(Um um) { return {um, 0, false}; }
+
+/// A speed that may be given as a share of another.
+struct SpeedOrShare {
+  double value = 0;  ///< mm/s, or %
+  bool is_share = false;
+  double of(double base_mm_s) const { return is_share ? base_mm_s * value / 100.0 : value; }
+  friend bool operator==(const SpeedOrShare&, const SpeedOrShare&) = default;
+};
+
+/// One choice of an enumeration; the enumeration's `choices_of(E)` returns an array of them, row i for value i.
+template <class E>
+struct Choice {
+  E value;
+  std::string_view name;
+};
+
+namespace value {
+
+void parse(std::string_view text, Unit unit, Um& out);  ///< a length when the unit is mm, else a whole number
+void parse(std::string_view text, Unit unit, double& out);
+void parse(std::string_view text, Unit unit, bool& out);
+void parse(std::string_view text, Unit unit, std::string& out);           ///< `\n`, `\r`, `\t`, `\\` are unescaped
+void parse(std::string_view text, Unit unit, LengthOrShare& out);
+void parse(std::string_view text, Unit unit, SpeedOrShare& out);
+void parse(std::string_view text, Unit unit, Ring& out);                  ///< `0x0, 220x0, 220x220, 0x220`, mm
+void parse(std::string_view text, Unit unit, std::vector<Ring>& out);     ///< rings separated by `;`
+/// Index of the choice, without regard to case.
+std::size_t parse_choice(std::string_view text, const std::vector<std::string_view>& names);
+
+std::string print(Um v, Unit unit);
+std::string print(double v, Unit unit);
+std::string print(bool v, Unit unit);
+std::string print(const std::string& v, Unit unit);
+std::string print(const LengthOrShare& v, Unit unit);
+std::string print(const SpeedOrShare& v, Unit unit);
+std::string print(const Ring& v, Unit unit);
+std::string print(const std::vector<Ring>& v, Unit unit);
+
+/// A number as short as it can be, without locale: 0.45, 220, -1.5.
+std::string number(double v, int decimals = 6);
+
+std::string_view trimmed(std::string_view text);
+
+}  // namespace value
+}  // namespace weft
