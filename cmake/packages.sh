@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# What weft is built with: Debian 12 packages, and nothing from anywhere else. Installs those that are missing; when none is
+# missing it touches neither network nor package manager. Elsewhere (no dpkg): cmake names the library that it cannot find.
+set -euo pipefail
+
+packages=(
+  g++ cmake ninja-build pkg-config
+  libcgal-dev libeigen3-dev libpolyclipping-dev                 # geometry
+  libfmt-dev libtbb-dev libboost-program-options-dev nlohmann-json3-dev libssl-dev
+  libzip-dev libexpat1-dev libpng-dev                           # 3MF, pictures
+  catch2                                                        # tests
+)
+
+command -v dpkg-query > /dev/null || exit 0
+missing=()
+for package in "${packages[@]}"; do
+  status=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2> /dev/null || true)
+  [ "$status" = installed ] || missing+=("$package")
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+as_root=()
+[ "$(id -u)" -eq 0 ] || as_root=(sudo)
+echo "installing ${missing[*]}"
+"${as_root[@]}" apt-get update -qq
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" > /dev/null
