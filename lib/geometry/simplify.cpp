@@ -1,0 +1,111 @@
+#include "geometry/simplify.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft::geometry {
+namespace {
+
+bool needless(Point before, Point at, Point after) {
+  return orient(before, at, after) == 0;
+}
+
+/// Directions from an anchor along which a chord passes all points seen so far within the bound.
+class Cone {
+ public:
+  Cone(Point anchor, double bound) : anchor_(anchor), bound_(bound) {}
+
+  /// Whether the chord from the anchor to p passes every point seen so far within the bound.
+  bool admits(Point p) const {
+    const double x = static_cast<double>(p.x) - anchor_.x, y = static_cast<double>(p.y) - anchor_.y;
+    if (x * x + y * y < farthest2_) return false;  // it would end short of a point seen
+    if (!bounded_) return true;
+    return right_x_ * y - right_y_ * x >= 0 && left_x_ * y - left_y_ * x <= 0 &&
+           (right_x_ + left_x_) * x + (right_y_ + left_y_) * y > 0;
+  }
+
+  /// Narrows the cone so that chords keep within the bound of p.
+  void see(Point p) {
+    const double x = static_cast<double>(p.x) - anchor_.x, y = static_cast<double>(p.y) - anchor_.y;
+    const double length2 = x * x + y * y;
+    farthest2_ = std::max(farthest2_, length2);
+    if (length2 <= bound_ * bound_) return;                     // every chord from the anchor passes it
+    const double reach = std::sqrt(length2 - bound_ * bound_);  // tangents to the circle about p
+    const double rx = x * reach + y * bound_, ry = y * reach - x * bound_;
+    const double lx = x * reach - y * bound_, ly = y * reach + x * bound_;
+    if (!bounded_ || right_x_ * ry - right_y_ * rx > 0) right_x_ = rx, right_y_ = ry;
+    if (!bounded_ || left_x_ * ly - left_y_ * lx < 0) left_x_ = lx, left_y_ = ly;
+    bounded_ = true;
+  }
+
+ private:
+  Point anchor_;
+  double bound_;
+  double farthest2_ = 0;
+  bool bounded_ = false;
+  double right_x_ = 0, right_y_ = 0, left_x_ = 0, left_y_ = 0;
+};
+}  // namespace
+
+void drop_collinear(Ring& ring) {
+  std::size_t kept = 0;
+  for (const Point p : ring) {
+    while (kept >= 2 && needless(ring[kept - 2], ring[kept - 1], p)) --kept;
+    if (kept == 1 && ring[0] == p) continue;
+    ring[kept++] = p;
+  }
+  std::size_t first = 0;
+  for (bool changed = true; changed && kept - first >= 3;) {  // the seam
+    changed = false;
+    if (needless(ring[kept - 2], ring[kept - 1], ring[first]))
+      --kept, changed = true;
+    else if (needless(ring[kept - 1], ring[first], ring[first + 1]))
+      ++first, changed = true;
+  }
+  if (kept - first < 3) kept = first = 0;
+  ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(kept), ring.end());
+  ring.erase(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(first));
+}
+
+void drop_collinear_of_line(Polyline& line) {
+  std::size_t kept = 0;
+  for (const Point p : line) {
+    if (kept >= 1 && line[kept - 1] == p) continue;
+    // A line may turn back on itself: only a point between its neighbours goes.
+    while (kept >= 2 && needless(line[kept - 2], line[kept - 1], p) &&
+           dot(line[kept - 1] - line[kept - 2], p - line[kept - 1]) > 0)
+      --kept;
+    line[kept++] = p;
+  }
+  line.resize(kept);
+}
+
+Polyline simplified_line(std::span<const Point> line, Um bound) {
+  if (line.size() < 3 || bound <= 0) return {line.begin(), line.end()};
+  Polyline out{line[0]};
+  Cone cone(line[0], bound);
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    if (!cone.admits(line[i])) {
+      out.push_back(line[i - 1]);
+      cone = Cone(line[i - 1], bound);
+    }
+    cone.see(line[i]);
+  }
+  out.push_back(line.back());
+  return out;
+}
+
+Ring simplified(const Ring& ring, Um bound) {
+  if (ring.size() <= 3 || bound <= 0) return ring;
+  // Start at an extreme point: it is on the hull wherever the ring begins, and moves with the ring.
+  const auto start = std::min_element(ring.begin(), ring.end());
+  Polyline opened(start, ring.end());
+  opened.insert(opened.end(), ring.begin(), start + 1);
+  Ring out = simplified_line(opened, bound);
+  out.pop_back();
+  const std::int64_t before = double_area(ring), after = double_area(out);
+  const bool collapsed = out.size() < 3 || after == 0 || (after > 0) != (before > 0);
+  return collapsed ? ring : out;
+}
+
+}  // namespace weft::geometry

@@ -1,0 +1,24 @@
+#pragma once
+#include "core/polygon.h"
+
+#include <span>
+
+namespace weft::geometry {
+
+/// Removes repeated points, points on the straight line between their neighbours, and spikes of no width. Exact.
+/// A ring without area becomes empty. Cost: O(n).
+void drop_collinear(Ring& ring);
+/// The same for an open line; its ends stay.
+void drop_collinear_of_line(Polyline& line);
+
+/// The line with fewer points: the Hausdorff distance to the original is at most `bound`; ends and remaining points are
+/// points of the original. Cost: O(n).
+/// Source: greedy with a cone of admissible directions: Sklansky & Gonzalez 1980, "Fast polygonal approximation of
+///         digitized curves"; a point is dropped only when the kept chord passes every dropped point within the bound.
+Polyline simplified_line(std::span<const Point> line, Um bound);
+
+/// The same for a ring. A ring that would collapse (less than three points, no area, turned over) keeps its points.
+/// A ring with itself may cross afterwards where it is narrower than 2 × bound; `simplified(Regions)` sees to that.
+Ring simplified(const Ring& ring, Um bound);
+
+}  // namespace weft::geometry

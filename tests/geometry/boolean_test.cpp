@@ -1,0 +1,72 @@
+#include "geometry/boolean.h"
+
+#include "shapes.h"
+
+#include <catch2/catch.hpp>
+
+using namespace weft;
+using namespace weft::geometry;
+using shapes::rectangle;
+
+TEST_CASE("geometry: areas obey inclusion and exclusion, on seeded stars", "[law]") {
+  shapes::Dice dice(5);
+  for (int i = 0; i < 60; ++i) {
+    const Regions a{{shapes::star(dice, {0, 0}, 9000, dice.between(3, 50)), {}}};
+    const Regions b{
+        {shapes::star(dice, {dice.between(-6000, 6000), dice.between(-6000, 6000)}, 9000, dice.between(3, 50)), {}}};
+    const double both = area_mm2(intersect(a, b)), either = area_mm2(unite(a, b));
+    const double margin = 0.01;  // mm²: rounding of the crossings, and slivers
+    CHECK(both + either == Approx(area_mm2(a) + area_mm2(b)).margin(margin));
+    CHECK(area_mm2(subtract(a, b)) == Approx(area_mm2(a) - both).margin(margin));
+    CHECK(area_mm2(exclusive_or(a, b)) == Approx(either - both).margin(margin));
+  }
+}
+
+TEST_CASE("geometry: outers come back counter-clockwise, holes clockwise, islands as regions of their own") {
+  const Regions plate{rectangle({0, 0}, {30000, 30000})};
+  const Regions ring = subtract(plate, {rectangle({5000, 5000}, {25000, 25000})});
+  const Regions all = unite(ring, {rectangle({10000, 10000}, {20000, 20000})});
+  REQUIRE(all.size() == 2);
+  std::size_t holes = 0;
+  for (const auto& region : all) {
+    CHECK(double_area(region.outer) > 0);
+    for (const auto& hole : region.holes) CHECK(double_area(hole) < 0);
+    holes += region.holes.size();
+  }
+  CHECK(holes == 1);
+  CHECK(area_mm2(all) == Approx(900.0 - 400 + 100));
+}
+
+TEST_CASE("geometry: the winding rule decides what rings enclose") {
+  const Ring big = rectangle({0, 0}, {10000, 10000}).outer, small = rectangle({2000, 2000}, {4000, 4000}).outer;
+  const std::vector<Ring> same{big, small}, opposite{big, shapes::reversed(small)};
+  CHECK(area_mm2(regions_from_rings(same)) == Approx(100.0));
+  CHECK(area_mm2(regions_from_rings(opposite)) == Approx(96.0));
+  CHECK(area_mm2(regions_from_rings(same, WindingRule::even_odd)) == Approx(96.0));
+  const std::vector<Ring> inside_out{shapes::reversed(big)};
+  CHECK(area_mm2(regions_from_rings(inside_out)) == Approx(100.0));
+  CHECK(regions_from_rings(inside_out, WindingRule::positive).empty());
+}
+
+TEST_CASE("geometry: a ring that crosses itself becomes proper regions") {
+  const std::vector<Ring> bow_tie{{{0, 0}, {10000, 10000}, {10000, 0}, {0, 10000}}};
+  const Regions parts = regions_from_rings(bow_tie);
+  CHECK(area_mm2(parts) == Approx(50.0));
+  for (const auto& part : parts) CHECK(double_area(part.outer) > 0);
+}
+
+TEST_CASE("geometry: slivers are dropped") {
+  const Regions plate{rectangle({0, 0}, {10000, 10000})};
+  CHECK(subtract(plate, {rectangle({0, 0}, {9999, 10000})}).size() == 1);
+  CHECK(subtract(plate, {rectangle({0, 15}, {10000, 10000}), rectangle({20, 0}, {10000, 10000})}).empty());
+}
+
+TEST_CASE("geometry: moving the input of a Boolean by whole microns moves the output", "[law]") {
+  const Point by = GENERATE(Point{1, 0}, Point{-7, 90'001}, Point{12'345'677, -3'000'001});
+  shapes::Dice dice(9);
+  for (int i = 0; i < 30; ++i) {
+    const Regions a{{shapes::star(dice, {0, 0}, 9000, 25), {}}}, b{{shapes::star(dice, {3000, 1000}, 9000, 25), {}}};
+    CHECK(intersect(moved(a, by), moved(b, by)) == moved(intersect(a, b), by));
+    CHECK(subtract(moved(a, by), moved(b, by)) == moved(subtract(a, b), by));
+  }
+}

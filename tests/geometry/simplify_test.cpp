@@ -1,0 +1,74 @@
+#include "geometry/simplify.h"
+
+#include "shapes.h"
+
+#include <algorithm>
+
+#include <catch2/catch.hpp>
+
+using namespace weft;
+using namespace weft::geometry;
+
+namespace {
+double distance_to_segment(Point p, Point a, Point b) {
+  const double length2 = static_cast<double>(distance2(a, b));
+  const double t = length2 == 0 ? 0 : std::clamp(static_cast<double>(dot(p - a, b - a)) / length2, 0.0, 1.0);
+  return std::hypot(a.x + t * (b.x - a.x) - p.x, a.y + t * (b.y - a.y) - p.y);
+}
+}  // namespace
+
+TEST_CASE("geometry: simplifying keeps every dropped point within the bound of its chord", "[law]") {
+  shapes::Dice dice(21);
+  for (int i = 0; i < 300; ++i) {
+    const Um bound = dice.between(1, 60);
+    Polyline line{{0, 0}};
+    const Um step = dice.between(1, 80);
+    for (int k = 0; k < 200; ++k)
+      line.push_back(line.back() + Point{dice.between(-step, 2 * step), dice.between(-step, step)});
+    const Polyline simple = simplified_line(line, bound);
+    REQUIRE(simple.front() == line.front());
+    REQUIRE(simple.back() == line.back());
+    std::size_t at = 0;  // walk both: each kept point is found again in order, what lies between is near the chord
+    for (std::size_t k = 1; k < simple.size(); ++k) {
+      std::size_t end = at + 1;
+      double worst = 0;
+      while (end < line.size() && line[end] != simple[k])
+        worst = std::max(worst, distance_to_segment(line[end++], simple[k - 1], simple[k]));
+      REQUIRE(end < line.size());
+      CHECK(worst <= bound + 1e-6);
+      at = end;
+    }
+  }
+}
+
+TEST_CASE("geometry: a fine circle keeps its shape with few points") {
+  Ring circle;
+  for (int i = 0; i < 3000; ++i)
+    circle.push_back({rounded(10000 * std::cos(i * 2 * std::numbers::pi / 3000)),
+                      rounded(10000 * std::sin(i * 2 * std::numbers::pi / 3000))});
+  const Ring simple = simplified(circle, 12);
+  CHECK(simple.size() < 120);
+  for (const Point p : simple) CHECK(std::count(circle.begin(), circle.end(), p) > 0);
+  CHECK(static_cast<double>(double_area(simple)) == Approx(static_cast<double>(double_area(circle))).epsilon(0.002));
+}
+
+TEST_CASE("geometry: a ring smaller than the bound does not collapse") {
+  const Ring tiny{{0, 0}, {5, 0}, {5, 5}, {2, 6}, {0, 5}};
+  CHECK(simplified(tiny, 100) == tiny);
+}
+
+TEST_CASE("geometry: collinear points, repeated points and spikes are dropped exactly") {
+  Ring ring{{500, 0}, {1000, 0}, {1000, 0}, {2000, 0}, {1000, 0}, {1000, 1000}, {500, 1000}, {0, 1000}, {0, 0}};
+  drop_collinear(ring);
+  CHECK(ring.size() == 4);
+  CHECK(double_area(ring) == 2'000'000);
+  Ring flat_ring{{0, 0}, {1000, 0}, {500, 0}};
+  drop_collinear(flat_ring);
+  CHECK(flat_ring.empty());
+  Ring nearly{{0, 0}, {1000000, 1}, {2000000, 3}, {0, 1000}};
+  drop_collinear(nearly);
+  CHECK(nearly.size() == 4);
+  Polyline back_and_forth{{0, 0}, {0, 0}, {500, 0}, {1000, 0}, {200, 0}};
+  drop_collinear_of_line(back_and_forth);
+  CHECK(back_and_forth == Polyline{{0, 0}, {1000, 0}, {200, 0}});
+}
