@@ -34,6 +34,7 @@ struct MachineSettings {
   Um machine_reach_z_min = 0_mm;
   std::optional<Um> machine_reach_z_max;
   std::optional<Ring> home_position;
+  Ring nozzle_offsets;
   Um nozzle_diameter = 0.4_mm;
   Firmware firmware = Firmware::marlin;
   double machine_max_speed_x = 300;
@@ -67,6 +68,8 @@ inline constexpr std::tuple machine_schema{
     setting("machine_reach_z_max", &MachineSettings::machine_reach_z_max, Unit::mm, 1_mm, 10000_mm,
             "Highest Z that the nozzle can go to; auto is machine_height."),
     setting("home_position", &MachineSettings::home_position, "Where G28 leaves the nozzle, one point; auto: unknown."),
+    setting("nozzle_offsets", &MachineSettings::nozzle_offsets,
+            "Where each nozzle stands from the first, in order of tool number, when the firmware does not allow for it.", "extruder_offset"),
     setting("nozzle_diameter", &MachineSettings::nozzle_diameter, Unit::mm, 0.05_mm, 5_mm, "Diameter of the nozzle's opening.", "nozzle_diameter"),
     setting("firmware", &MachineSettings::firmware, "The firmware that reads the file.", "gcode_flavor"),
     setting("machine_max_speed_x", &MachineSettings::machine_max_speed_x, Unit::mm_s, 1, 5000, "Speed limit of X.", "machine_max_feedrate_x"),
@@ -87,5 +90,19 @@ inline constexpr std::tuple machine_schema{
             "Speed at which X and Y may change in a corner (Marlin's jerk, Klipper's square corner velocity).", "machine_max_jerk_x"),
 };
 static_assert(complete<MachineSettings>(machine_schema));
+
+/// The print surface, counter-clockwise. A circle of diameter machine_width becomes an inscribed polygon that stands off it
+/// by at most tolerances::arc. Pre: a consistent machine (settings/profile.h).
+Ring print_surface(const MachineSettings& machine);
+
+/// The area that the nozzle can go to, counter-clockwise: machine_reach, or the print surface where that is empty.
+Ring reach_area(const MachineSettings& machine);
+
+/// Highest Z that the nozzle can go to, and Z up to which bed_exclude_areas hold.
+inline Um reach_z_max(const MachineSettings& machine) { return machine.machine_reach_z_max.value_or(machine.machine_height); }
+inline Um exclude_height(const MachineSettings& machine) { return machine.exclude_height.value_or(machine.machine_height); }
+
+/// Do no two edges of the ring cross, touch or overlap, but for neighbours at their common corner? Exact. O(n²).
+bool is_simple(const Ring& ring);
 
 }  // namespace weft

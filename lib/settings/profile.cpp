@@ -77,6 +77,31 @@ std::string origin_of(const Profile& profile, const std::string& key) {
   return at == profile.origins.end() ? "default" : at->second.back().where;
 }
 
+namespace {
+
+/// The outlines that the boundary audit measures against must enclose something and not cross themselves.
+template <class Refuse>
+void check_areas(const MachineSettings& machine, const Refuse& refuse) {
+  constexpr auto hint = "give at least three corners, in order around the area";
+  const auto sound = [](const Ring& ring) { return ring.size() >= 3 && double_area(ring) != 0 && is_simple(ring); };
+  if (machine.bed_shape == BedShape::polygon && !sound(machine.bed_polygon))
+    refuse("bed_polygon", "the outline crosses itself or encloses nothing", hint);
+  if (machine.bed_shape == BedShape::circle && machine.machine_width != machine.machine_depth)
+    refuse("machine_depth", fmt::format("{} mm is not machine_width {} mm", to_mm(machine.machine_depth), to_mm(machine.machine_width)),
+           "a bed of shape circle is as deep as it is wide");
+  for (std::size_t i = 0; i < machine.bed_exclude_areas.size(); ++i)
+    if (!sound(machine.bed_exclude_areas[i]))
+      refuse("bed_exclude_areas", fmt::format("area {} crosses itself or encloses nothing", i + 1), hint);
+  if (!machine.machine_reach.empty() && !sound(reach_area(machine)))
+    refuse("machine_reach", "the outline crosses itself or encloses nothing", "give two opposite corners of a box, or a polygon");
+  if (machine.machine_reach_z_min >= reach_z_max(machine))
+    refuse("machine_reach_z_min", "is not below the highest Z of the reach", "lower it, or raise machine_reach_z_max");
+  if (machine.home_position && machine.home_position->size() != 1)
+    refuse("home_position", "is not one point", "give it as 0x0, or auto when it is not known");
+}
+
+}  // namespace
+
 void check_consistency(const Profile& profile) {
   const auto& s = profile.settings;
   const auto refuse = [&](const char* key, std::string what, std::string hint) {
@@ -90,6 +115,7 @@ void check_consistency(const Profile& profile) {
            "a bead cannot be higher than the nozzle is wide");
   if (s.machine.bed_shape == BedShape::polygon && s.machine.bed_polygon.size() < 3)
     refuse("bed_polygon", "a bed of shape polygon needs at least three corners", "give them as 0x0, 220x0, 220x220, 0x220");
+  check_areas(s.machine, refuse);
 }
 
 }  // namespace weft
