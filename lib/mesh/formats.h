@@ -1,0 +1,40 @@
+#pragma once
+#include "mesh/read.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// The readers behind read.h. Each takes bytes that look like its format and gives the bodies in them, welded and not
+/// yet repaired. All throw Error::Kind::model.
+namespace weft::mesh {
+
+/// What a reader works on.
+struct Source {
+  std::string_view bytes;
+  const std::string& path;
+  double scale = 1.0;
+};
+
+struct Body {
+  std::string name;
+  Mesh mesh;
+};
+
+/// Whether the size is to the byte that of the number of triangles in the header. The word `solid` in the header and
+/// the values of the bytes say nothing; and as a count, four bytes of text would ask for gigabytes.
+bool is_binary_stl(std::string_view bytes);
+/// What is wrong with the size of something that may be a binary STL; nothing when it is sound, or more likely
+/// something else: a damaged file is still within a factor of 1000 of the size that its count asks for.
+std::optional<std::string> damage_of_binary_stl(std::string_view bytes);
+std::vector<Body> read_binary_stl(const Source& source);
+
+/// Whether text begins with `solid`, in any case.
+bool is_ascii_stl(std::string_view text);
+std::vector<Body> read_ascii_stl(const Source& source);
+
+/// "is not a number", "is infinite" or "lies beyond ±16 m": why a coordinate is not placeable.
+std::string fault_of(double mm);
+
+}  // namespace weft::mesh

@@ -1,0 +1,101 @@
+#include "mesh/read.h"
+
+#include "core/error.h"
+#include "core/hash.h"
+#include "mesh/file_bytes.h"
+#include "mesh/formats.h"
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace weft::mesh {
+namespace {
+
+/// What is not text has a zero byte among its first ones: a binary STL in its header or in its count.
+bool is_text(std::string_view bytes) {
+  return bytes.substr(0, 4096).find('\0') == bytes.npos;
+}
+
+std::string_view without_byte_order_mark(std::string_view text) {
+  return text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
+}
+
+Error unknown(const Source& source) {
+  const std::size_t size = source.bytes.size();
+  const auto error = [&](std::string what, std::string hint) {
+    return Error(Error::Kind::model, std::move(what), source.path, std::move(hint));
+  };
+  if (size == 0) return error("the file is empty", "export the model again");
+  if (const auto damage = damage_of_binary_stl(source.bytes); damage && !is_text(source.bytes))
+    return error(*damage, "copy or export it again");
+  return error("not a model: neither STL, OBJ nor 3MF", "export the model as one of these");
+}
+
+struct Reader {
+  Format format;
+  std::vector<Body> (*read)(const Source&);
+};
+
+Reader reader_for(const Source& source) {
+  if (is_binary_stl(source.bytes)) return {Format::stl_binary, read_binary_stl};
+  if (is_text(source.bytes) && is_ascii_stl(source.bytes)) return {Format::stl_ascii, read_ascii_stl};
+  throw unknown(source);
+}
+
+}  // namespace
+
+std::string_view name_of(Format format) {
+  switch (format) {
+    case Format::stl_binary:
+      return "binary STL";
+    case Format::stl_ascii:
+      return "ASCII STL";
+    case Format::obj:
+      return "OBJ";
+    case Format::three_mf:
+      return "3MF";
+  }
+  return "";
+}
+
+std::string fault_of(double mm) {
+  if (std::isnan(mm)) return "is not a number";
+  if (std::isinf(mm)) return "is infinite";
+  return fmt::format("is {:g} mm, beyond ±16 m", mm);
+}
+
+Loaded read(std::string_view bytes, const std::string& path_as_typed, const ReadOptions& options) {
+  Loaded loaded{.path = path_as_typed, .sha256 = {}, .objects = {}};
+  const Source source{without_byte_order_mark(bytes), path_as_typed, options.scale};
+  const Reader reader = reader_for(source);
+  loaded.format = reader.format;
+  for (Body& body : reader.read(source)) {
+    loaded.triangles_in_file += body.mesh.triangles.size();
+    Repaired repaired = repair(std::move(body.mesh));
+    if (!repaired.mesh.triangles.empty())
+      loaded.objects.push_back({std::move(body.name), std::move(repaired.mesh), repaired.repairs});
+  }
+  if (loaded.objects.empty())
+    throw Error(Error::Kind::model,
+                loaded.triangles_in_file == 0
+                    ? fmt::format("{} without a triangle", name_of(loaded.format))
+                    : fmt::format("none of its {} triangles has a size of a micron or encloses anything",
+                                  loaded.triangles_in_file),
+                path_as_typed, loaded.triangles_in_file == 0 ? "export the model again" : "check the unit and --scale");
+  loaded.sha256 = sha256(bytes);
+  return loaded;
+}
+
+Loaded read_file(const std::string& path_as_typed, const ReadOptions& options) {
+  const FileBytes file(path_as_typed);
+  return read(file.view(), path_as_typed, options);
+}
+
+}  // namespace weft::mesh

@@ -1,0 +1,46 @@
+#pragma once
+#include "mesh/mesh.h"
+#include "mesh/repair.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace weft::mesh {
+
+enum class Format { stl_binary, stl_ascii, obj, three_mf };
+std::string_view name_of(Format format);
+
+/// A body of the file. Of an STL or OBJ there is one, whatever number of solids or groups it lists: they are shells of
+/// one body. Of a 3MF there is one for each item of its build.
+struct Object {
+  std::string name;  ///< as the file has it; may be empty
+  Mesh mesh;         ///< welded and repaired, in the coordinates of the file (of the build, for 3MF)
+  Repairs repairs;   ///< what was done to it and what is still odd
+};
+
+struct Loaded {
+  std::string path;  ///< as typed
+  Format format = Format::stl_binary;
+  std::string sha256;                 ///< of the file's bytes
+  std::string unit = "millimeter";    ///< what the file says, in 3MF's words; STL and OBJ do not say
+  std::size_t triangles_in_file = 0;  ///< before any repair; every copy in a 3MF's build counts
+  std::vector<Object> objects;        ///< not empty, and each has a triangle
+};
+
+struct ReadOptions {
+  /// Multiplies every coordinate. Belongs here and not to the placement: a part drawn in metres or inches would
+  /// lose its detail if it met the lattice before it is scaled. Pre: finite, > 0.
+  double scale = 1.0;
+};
+
+/// The model in `bytes`. Its format is told by its content, never by its name.
+/// Throws: Error::Kind::model, naming the triangle, byte or line, for what is not a model, is damaged (truncated, wrong
+/// count, bad index, not a finite number, beyond ±16 m) or holds nothing to print.
+/// Cost: linear.
+Loaded read(std::string_view bytes, const std::string& path_as_typed, const ReadOptions& options = {});
+
+/// The same of a file. Throws: Error::Kind::file as well, for what cannot be opened or is a directory.
+Loaded read_file(const std::string& path_as_typed, const ReadOptions& options = {});
+
+}  // namespace weft::mesh
