@@ -1,22 +1,89 @@
 #pragma once
 #include "settings/schema.h"
 
+#include <array>
+
 namespace weft {
 using namespace weft::literals;
+
+/// Which wall of a part is printed first.
+enum class WallOrder { inside_out, outside_in, outer_inner_outer };
+constexpr auto choices_of(WallOrder) {
+  return std::array{Choice<WallOrder>{WallOrder::inside_out, "inside_out"},
+                    Choice<WallOrder>{WallOrder::outside_in, "outside_in"},
+                    Choice<WallOrder>{WallOrder::outer_inner_outer, "outer_inner_outer"}};
+}
 
 /// Beads along the outlines.
 struct WallSettings {
   int wall_line_count = 3;
   std::optional<Um> wall_line_width_0;
   std::optional<Um> wall_line_width_x;
+  LengthOrShare min_wall_line_width = share(85);
+  std::optional<LengthOrShare> min_even_wall_line_width;
+  std::optional<LengthOrShare> min_odd_wall_line_width;
+  LengthOrShare max_wall_line_width = share(225);
+  int wall_distribution_count = 1;
+  LengthOrShare wall_transition_length = share(100);
+  double wall_transition_angle = 50;
+  Um wall_transition_filter_distance = 1_mm;
+  Um min_feature_size = 0.05_mm;
+  Um min_wall_length = 0.1_mm;
+  bool flow_compensation = true;
+  Um min_output_width = 0.2_mm;
+  double min_flow_ratio = 5;
+  double max_flow_ratio = 100;
+  WallOrder wall_order = WallOrder::inside_out;
+  bool alternate_extra_wall = false;
+  Um xy_offset = 0_mm;
+  Um xy_offset_layer_0 = 0_mm;
+  Um hole_xy_offset = 0_mm;
 };
 
 inline constexpr std::tuple wall_schema{
-    setting("wall_line_count", &WallSettings::wall_line_count, Unit::none, 0, 1000, "Walls on each side of the part.", "perimeters"),
-    setting("wall_line_width_0", &WallSettings::wall_line_width_0, Unit::mm, 0.05_mm, 5_mm, "Line width of the outermost wall; auto is 1.05 × nozzle_diameter.",
-            "external_perimeter_extrusion_width"),
+    setting("wall_line_count", &WallSettings::wall_line_count, Unit::none, 0, 1000, "Walls on each side of the part.",
+            "perimeters"),
+    setting("wall_line_width_0", &WallSettings::wall_line_width_0, Unit::mm, 0.05_mm, 5_mm,
+            "Line width of the outermost wall; auto is 1.05 × nozzle_diameter.", "external_perimeter_extrusion_width"),
     setting("wall_line_width_x", &WallSettings::wall_line_width_x, Unit::mm, 0.05_mm, 5_mm,
             "Line width of the other walls; auto keeps the cross-section of the nozzle.", "perimeter_extrusion_width"),
+    setting("min_wall_line_width", &WallSettings::min_wall_line_width, Unit::mm, 0.001_mm, 5_mm,
+            "Narrowest wall where there is room for another choice; a share is of nozzle_diameter.", "min_bead_width"),
+    setting("min_even_wall_line_width", &WallSettings::min_even_wall_line_width, Unit::mm, 0.001_mm, 5_mm,
+            "The middle wall of a thin part becomes two when each is at least this wide; auto is min_wall_line_width."),
+    setting("min_odd_wall_line_width", &WallSettings::min_odd_wall_line_width, Unit::mm, 0.001_mm, 5_mm,
+            "A middle wall is added when it is at least this wide; auto is min_wall_line_width."),
+    setting("max_wall_line_width", &WallSettings::max_wall_line_width, Unit::mm, 0.05_mm, 10_mm,
+            "Widest wall: what does not fit becomes another wall; a share is of nozzle_diameter."),
+    setting("wall_distribution_count", &WallSettings::wall_distribution_count, Unit::none, 1, 1000,
+            "How many of the innermost walls on each side share the difference between the part's thickness and the "
+            "nominal widths.",
+            "wall_distribution_count"),
+    setting("wall_transition_length", &WallSettings::wall_transition_length, Unit::mm, 0.001_mm, 100_mm,
+            "Length over which a wall is added or removed; a share is of nozzle_diameter.", "wall_transition_length"),
+    setting("wall_transition_angle", &WallSettings::wall_transition_angle, Unit::degrees, 1, 120,
+            "Parts that taper at a larger angle are corners: their walls turn back instead of being merged."),
+    setting("wall_transition_filter_distance", &WallSettings::wall_transition_filter_distance, Unit::mm, 0_mm, 1000_mm,
+            "A change of the number of walls that is undone within this length is left out."),
+    setting("min_feature_size", &WallSettings::min_feature_size, Unit::mm, 0.001_mm, 5_mm,
+            "Parts thinner than this are left out."),
+    setting("min_wall_length", &WallSettings::min_wall_length, Unit::mm, 0_mm, 100_mm,
+            "Shorter middle walls are left out."),
+    setting("flow_compensation", &WallSettings::flow_compensation,
+            "Walls too narrow for a steady strand are planned at min_output_width with less flow."),
+    setting("min_output_width", &WallSettings::min_output_width, Unit::mm, 0.01_mm, 5_mm,
+            "Narrowest planned wall; a quarter of the line width when that is more."),
+    setting("min_flow_ratio", &WallSettings::min_flow_ratio, Unit::percent, 0.1, 100,
+            "Least flow of a compensated wall."),
+    setting("max_flow_ratio", &WallSettings::max_flow_ratio, Unit::percent, 1, 200, "Most flow of a compensated wall."),
+    setting("wall_order", &WallSettings::wall_order, "Which wall of a part is printed first."),
+    setting("alternate_extra_wall", &WallSettings::alternate_extra_wall, "One more wall on every second layer."),
+    setting("xy_offset", &WallSettings::xy_offset, Unit::mm, -10_mm, 10_mm,
+            "Moves all outlines outwards (a negative value inwards).", "xy_size_compensation"),
+    setting("xy_offset_layer_0", &WallSettings::xy_offset_layer_0, Unit::mm, -10_mm, 10_mm,
+            "Moves the outlines of the first layer further outwards; negative against an elephant foot."),
+    setting("hole_xy_offset", &WallSettings::hole_xy_offset, Unit::mm, -10_mm, 10_mm,
+            "Widens holes (a negative value narrows them), besides xy_offset."),
 };
 static_assert(complete<WallSettings>(wall_schema));
 

@@ -1,0 +1,27 @@
+#pragma once
+#include "model/layer.h"
+#include "settings/walls.h"
+
+#include <cstddef>
+
+namespace weft::walls {
+
+/// What walls are built from, besides their settings.
+struct WallInput {
+  const SlicedLayer& layer;
+  std::size_t index = 0;              ///< of the layer; 0 lies on the bed
+  Um nozzle_diameter = 0.4_mm;        ///< what automatic widths and shares are measured against
+  const Regions* over_air = nullptr;  ///< where nothing lies below; there beads keep the nozzle's own strand
+};
+
+/// Lays beads along the outlines of one layer, widening or narrowing them so that no gap is left.
+/// Post:   the bands cover `layer.regions` (moved by the xy offsets) less `inside`; beads of a part follow each other
+/// in
+///         the order they are printed; Bead::part is the index of the region they lie in.
+/// Throws: nothing on odd geometry: what could not be printed is a notice.
+/// Cost:   O(n log n) in the vertices, about 20 µs a vertex.
+/// Source: Kuipers et al. 2020, "A framework for adaptive width control of dense contour-parallel toolpaths in fused
+///         deposition modeling"; widths are bands (model/flow.h).
+WallLayer build(const WallSettings& settings, const WallInput& input);
+
+}  // namespace weft::walls
