@@ -1,1 +1,61 @@
-int main() { return 0; }
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "command.h"
+#include "verbs.h"
+
+namespace {
+using namespace weft;
+using namespace weft::app;
+
+std::string overview() {
+  std::string out = "weft: turns triangle meshes and ini profiles into audited G-code\n\n";
+  for (const auto& verb : verbs) out += fmt::format("  weft {:<9} {}\n{:17}{}\n", verb.name, verb.usage, "", verb.purpose);
+  return out + "\n" + common_help() + "\nEvery setting is an option too, as in --layer-height 0.2; `weft settings` lists them.\n";
+}
+
+const Verb* find_verb(const std::string& name) {
+  const auto at = std::find_if(verbs.begin(), verbs.end(), [&](const Verb& v) { return v.name == name; });
+  return at == verbs.end() ? nullptr : &*at;
+}
+
+int run(Words words) {
+  if (words.empty()) throw Error{Error::Kind::usage, "no verb was given", {}, "see weft --help"};
+  if (words[0] == "--version" || words[0] == "-V") return fmt::print("weft {}\n", WEFT_VERSION), 0;
+  if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") return fmt::print("{}", overview()), 0;
+  if (const auto* verb = find_verb(words[0])) return verb->run({words.begin() + 1, words.end()});
+  throw Error{Error::Kind::usage, "is not a verb", fmt::format("'{}'", words[0]), "see weft --help"};
+}
+
+/// Messages before a verb's own options are known still obey --log-format and -q.
+Console early_console(const Words& words) {
+  ConsoleOptions options;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == "--log-format=json" || (words[i] == "--log-format" && i + 1 < words.size() && words[i + 1] == "json"))
+      options.format = LogFormat::json;
+    if (words[i] == "-q" || words[i] == "--quiet") options.verbosity = Verbosity::quiet;
+  }
+  options.progress = ProgressMode::never;
+  return Console(options);
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  const Words words(arguments + 1, arguments + std::max(count, 1));
+  try {
+    return run(words);
+  } catch (const Error& error) {
+    early_console(words).error(error);
+    return exit_status(error.kind());
+  } catch (const std::bad_alloc&) {
+    early_console(words).internal_error("out of memory");
+  } catch (const std::exception& error) {
+    early_console(words).internal_error(error.what());
+  }
+  return 1;
+}

@@ -1,0 +1,173 @@
+#include "command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+#include <sstream>
+
+#include "pipeline/write_file.h"
+#include "settings/catalogue.h"
+#include "settings/value.h"
+
+namespace po = boost::program_options;
+
+namespace weft::app {
+namespace {
+
+po::options_description common_options() {
+  po::options_description out("Options of every verb");
+  out.add_options()
+    ("profile,p", po::value<std::vector<std::string>>()->value_name("FILE"), "an ini profile; repeatable, a later one overrides an earlier one")
+    ("load", po::value<std::vector<std::string>>()->value_name("FILE"), "the same")
+    ("set,s", po::value<std::vector<std::string>>()->value_name("KEY=VALUE"), "one setting; repeatable; overrides every profile. `--key VALUE` does the same")
+    ("output,o", po::value<std::string>()->value_name("PATH"), "where the result goes; - is standard output")
+    ("report", po::value<std::string>()->value_name("FILE"), "machine-readable JSON report; - is standard output")
+    ("threads,j", po::value<unsigned>()->value_name("N"), "worker threads (default: all cores); the output does not depend on it")
+    ("quiet,q", po::bool_switch(), "errors only")
+    ("verbose,v", po::bool_switch(), "debug detail")
+    ("log-format", po::value<std::string>()->value_name("text|json")->default_value("text"), "form of the messages on standard error")
+    ("progress", po::value<std::string>()->value_name("auto|always|never")->default_value("auto"), "auto: a bar on a terminal, nothing in a pipe")
+    ("help,h", po::bool_switch(), "this text");
+  return out;
+}
+
+std::string dashed(std::string_view key) {
+  std::string out(key);
+  std::replace(out.begin(), out.end(), '_', '-');
+  return out;
+}
+
+/// Every setting as an option of its own; hidden from the help, which points to `weft settings`.
+po::options_description setting_options() {
+  po::options_description out;
+  std::set<std::string> names;
+  for (const auto& entry : catalogue()) {
+    auto* value = po::value<std::vector<std::string>>();
+    if (entry.type == "flag") value->implicit_value({"true"}, "true");
+    if (names.insert(dashed(entry.key)).second) out.add_options()(dashed(entry.key).c_str(), value);
+  }
+  return out;
+}
+
+/// Program_options takes "-90" for an option: a number behind a long option is joined to it. Underscores become dashes.
+std::vector<std::string> normalised(const std::vector<std::string>& words) {
+  std::vector<std::string> out;
+  for (const auto& word : words) {
+    const bool number = word.size() > 1 && word[0] == '-' && (std::isdigit(static_cast<unsigned char>(word[1])) != 0 || word[1] == '.');
+    if (number && !out.empty() && out.back().rfind("--", 0) == 0 && out.back().find('=') == std::string::npos) {
+      out.back() += "=" + word;
+    } else if (word.rfind("--", 0) == 0) {
+      const auto equals = std::min(word.find('='), word.size());
+      out.push_back(dashed(word.substr(0, equals)) + word.substr(equals));
+    } else {
+      out.push_back(word);
+    }
+  }
+  return out;
+}
+
+template <class E>
+E choice(const std::string& option, const std::string& text, std::initializer_list<std::pair<const char*, E>> choices) {
+  std::string known;
+  for (const auto& [name, value] : choices) {
+    if (text == name) return value;
+    known += std::string(known.empty() ? "" : ", ") + name;
+  }
+  throw Error{Error::Kind::usage, fmt::format("'{}' is not one of {}", text, known), option};
+}
+
+std::pair<std::string, std::string> assignment(const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw Error{Error::Kind::usage, fmt::format("'{}' is not KEY=VALUE", text), "--set", "as in --set layer_height=0.2"};
+  return {std::string(value::trimmed(text.substr(0, equals))), text.substr(equals + 1)};
+}
+
+[[noreturn]] void rethrow_as_usage(const po::error& problem) {
+  if (const auto* unknown = dynamic_cast<const po::unknown_option*>(&problem)) {
+    const auto name = unknown->get_option_name();
+    const auto near = nearest_setting(name.substr(std::min(name.find_first_not_of('-'), name.size())));
+    throw Error{Error::Kind::usage, "unknown option", name, near.empty() ? "see --help" : fmt::format("did you mean --{}?", dashed(near))};
+  }
+  throw Error{Error::Kind::usage, problem.what(), {}, "see --help"};
+}
+
+}  // namespace
+
+Command parse_command(const std::vector<std::string>& words, const po::options_description& verb_options) {
+  po::options_description all, hidden;
+  hidden.add_options()("input", po::value<std::vector<std::string>>());
+  const auto settings = setting_options();
+  all.add(common_options()).add(verb_options).add(hidden).add(settings);
+  po::positional_options_description positional;
+  positional.add("input", -1);
+
+  Command command;
+  try {
+    const auto parsed = po::command_line_parser(normalised(words))
+                            .options(all).positional(positional)
+                            .style(po::command_line_style::unix_style & ~po::command_line_style::allow_guessing).run();
+    po::store(parsed, command.options);
+    po::notify(command.options);
+    for (const auto& option : parsed.options) {
+      if (option.string_key == "set") command.settings.push_back(assignment(option.value.at(0)));
+      else if (settings.find_nothrow(option.string_key, false))
+        command.settings.emplace_back(option.string_key, option.value.empty() ? "true" : option.value[0]);
+      else if (option.string_key == "profile" || option.string_key == "load") command.profiles.emplace_back(option.value.at(0));
+      else if (option.string_key == "input") command.inputs.push_back(option.value.at(0));
+    }
+  } catch (const po::error& problem) {
+    rethrow_as_usage(problem);
+  }
+  const auto& o = command.options;
+  if (o.count("output")) command.output = o["output"].as<std::string>();
+  if (o.count("report")) command.report = o["report"].as<std::string>();
+  if (o.count("threads")) {
+    command.threads = o["threads"].as<unsigned>();
+    if (command.threads == 0 || command.threads > 1024) throw Error{Error::Kind::usage, "must be 1 … 1024", "--threads"};
+  }
+  command.help = o["help"].as<bool>();
+  command.console.verbosity = o["quiet"].as<bool>() ? Verbosity::quiet : o["verbose"].as<bool>() ? Verbosity::detail : Verbosity::normal;
+  command.console.format = choice<LogFormat>("--log-format", o["log-format"].as<std::string>(), {{"text", LogFormat::text}, {"json", LogFormat::json}});
+  command.console.progress = choice<ProgressMode>(
+      "--progress", o["progress"].as<std::string>(),
+      {{"auto", ProgressMode::automatic}, {"always", ProgressMode::always}, {"never", ProgressMode::never}});
+  return command;
+}
+
+std::string common_help() {
+  std::ostringstream out;
+  out << common_options();
+  return out.str();
+}
+
+Profile resolve(const Command& command) {
+  Profile profile;
+  for (const auto& file : command.profiles) apply_file(profile, file);
+  for (const auto& [key, text] : command.settings) apply_value(profile, key, text, "--set " + key);
+  check_consistency(profile);
+  return profile;
+}
+
+Point parse_point(const std::string& text, const std::string& option) {
+  Ring point;
+  std::string spelled = text;
+  std::replace(spelled.begin(), spelled.end(), ',', 'x');
+  try {
+    value::parse(spelled, Unit::none, point);
+  } catch (const std::invalid_argument&) {
+    point.clear();
+  }
+  if (point.size() != 1) throw Error{Error::Kind::usage, fmt::format("'{}' is not X,Y in mm", text), option, "as in " + option + " 110,110"};
+  return point.front();
+}
+
+void write_output(const std::string& destination, std::string_view text) {
+  if (destination != "-") return write_file(destination, text);
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+    throw Error{Error::Kind::file, "cannot be written", "standard output", "was the pipe closed?"};
+}
+
+}  // namespace weft::app

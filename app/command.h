@@ -1,0 +1,43 @@
+#pragma once
+#include <boost/program_options.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "console.h"
+#include "settings/profile.h"
+
+namespace weft::app {
+
+/// What the user typed, parsed: the options of the verb and those that every verb understands.
+struct Command {
+  std::vector<std::string> inputs;                            ///< positional arguments, in order
+  std::vector<std::filesystem::path> profiles;                ///< -p, --load
+  std::vector<std::pair<std::string, std::string>> settings;  ///< -s KEY=VALUE and --key value, in the order typed
+  std::optional<std::string> output, report;
+  unsigned threads = 0;  ///< 0: all cores
+  ConsoleOptions console;
+  bool help = false;
+  boost::program_options::variables_map options;  ///< of the verb
+};
+
+/// Parses the words behind the verb.
+/// @param verb_options what this verb understands beside the common options
+/// @throws Error{usage} naming the option, with the nearest known one
+Command parse_command(const std::vector<std::string>& words, const boost::program_options::options_description& verb_options);
+
+/// The help text of the options that every verb understands.
+std::string common_help();
+
+/// Profiles and settings of the command, laid over the defaults in the order of the contract: files, then options.
+Profile resolve(const Command& command);
+
+/// Two numbers separated by a comma, mm. @throws Error{usage}
+Point parse_point(const std::string& text, const std::string& option);
+
+/// Writes text where the user wants it: a path (through a neighbour that is renamed when complete), or "-".
+/// @throws Error{file}
+void write_output(const std::string& destination, std::string_view text);
+
+}  // namespace weft::app

@@ -1,0 +1,68 @@
+#include "console.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace weft::app {
+
+Console::Console(ConsoleOptions options) : options_(options) {
+  const bool terminal = ::isatty(STDERR_FILENO) == 1;
+  shows_progress_ = options.verbosity != Verbosity::quiet &&
+                    (options.progress == ProgressMode::always || (options.progress == ProgressMode::automatic && terminal));
+}
+
+Console::~Console() { wipe_progress(); }
+
+void Console::log(std::string_view level, std::string_view message, std::string_view code) {
+  wipe_progress();
+  if (options_.format == LogFormat::json) {
+    nlohmann::ordered_json line{{"level", level}};
+    if (!code.empty()) line["code"] = code;
+    line["message"] = message;
+    fmt::print(stderr, "{}\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  } else if (level == "info" || level == "debug") {
+    fmt::print(stderr, "weft: {}\n", message);
+  } else {
+    fmt::print(stderr, "weft: {}: {}\n", level, message);
+  }
+}
+
+void Console::error(const Error& error) { log("error", error.what()); }
+void Console::internal_error(std::string_view what) { log("error", fmt::format("internal error: {}; this is a bug, please report it", what)); }
+void Console::warning(const Notice& notice) {
+  if (options_.verbosity != Verbosity::quiet) log("warning", notice.message, notice.code);
+}
+void Console::info(std::string_view message) {
+  if (options_.verbosity != Verbosity::quiet) log("info", message);
+}
+void Console::detail(std::string_view message) {
+  if (options_.verbosity == Verbosity::detail) log("debug", message);
+}
+
+void Console::progress(std::string_view stage, double share) {
+  if (!shows_progress_ || share <= shown_share_) return;
+  const auto now = std::chrono::steady_clock::now();
+  if (share < 1.0 && now - last_shown_ < std::chrono::milliseconds(100)) return;
+  last_shown_ = now;
+  shown_share_ = share;
+  if (options_.format == LogFormat::json) {
+    fmt::print(stderr, "{}\n", nlohmann::ordered_json{{"level", "progress"}, {"stage", stage}, {"share", share}}.dump());
+    return;
+  }
+  constexpr int cells = 30;
+  const int full = static_cast<int>(share * cells);
+  fmt::print(stderr, "\r[{:#>{}}{:.>{}}] {:3.0f} % {:<12}", "", full, "", cells - full, share * 100, stage);
+  std::fflush(stderr);
+  progress_on_screen_ = true;
+}
+
+void Console::wipe_progress() {
+  if (!progress_on_screen_) return;
+  fmt::print(stderr, "\r{:60}\r", "");
+  progress_on_screen_ = false;
+}
+
+}  // namespace weft::app

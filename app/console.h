@@ -1,0 +1,50 @@
+#pragma once
+#include <chrono>
+#include <string>
+#include <string_view>
+
+#include "core/error.h"
+#include "core/notice.h"
+
+namespace weft::app {
+
+/// How much the program says on standard error.
+enum class Verbosity { quiet, normal, detail };
+enum class LogFormat { text, json };
+enum class ProgressMode { automatic, always, never };
+
+struct ConsoleOptions {
+  Verbosity verbosity = Verbosity::normal;
+  LogFormat format = LogFormat::text;
+  ProgressMode progress = ProgressMode::automatic;
+};
+
+/// The only code that writes to standard error. Standard output belongs to G-code, reports and what was asked for.
+class Console {
+ public:
+  explicit Console(ConsoleOptions options);
+  ~Console();
+  Console(const Console&) = delete;
+  Console& operator=(const Console&) = delete;
+
+  void error(const Error& error);
+  void internal_error(std::string_view what);
+  void warning(const Notice& notice);
+  void info(std::string_view message);
+  void detail(std::string_view message);
+
+  /// Shows `share` (0 … 1, never falling) of the work as done; at most ten times a second.
+  void progress(std::string_view stage, double share);
+
+ private:
+  void log(std::string_view level, std::string_view message, std::string_view code = {});
+  void wipe_progress();
+
+  ConsoleOptions options_;
+  bool shows_progress_ = false;
+  bool progress_on_screen_ = false;
+  double shown_share_ = -1;
+  std::chrono::steady_clock::time_point last_shown_{};
+};
+
+}  // namespace weft::app

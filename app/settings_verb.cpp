@@ -1,0 +1,86 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "command.h"
+#include "settings/catalogue.h"
+#include "verbs.h"
+
+namespace po = boost::program_options;
+
+namespace weft::app {
+namespace {
+
+std::string range_of(const CatalogueEntry& e) {
+  if (!e.choices.empty()) return fmt::format("{}", fmt::join(e.choices, " | "));
+  if (e.least.empty()) return e.type == "flag" ? "true | false" : std::string(e.type);
+  return fmt::format("{} … {}{}{}{}", e.least, e.most, e.unit.empty() ? "" : " ", e.unit, e.automatic ? ", or auto" : "");
+}
+
+std::string as_json(const std::vector<const CatalogueEntry*>& entries) {
+  auto out = nlohmann::ordered_json::array();
+  for (const auto* e : entries) {
+    nlohmann::ordered_json row{{"key", e->key}, {"section", e->section}, {"type", e->type}, {"unit", e->unit}, {"default", e->default_text}};
+    if (!e->least.empty()) row["min"] = e->least, row["max"] = e->most;
+    if (!e->choices.empty()) row["choices"] = e->choices;
+    row["auto"] = e->automatic;
+    row["meaning"] = e->meaning;
+    if (!e->prusa.empty()) row["prusaslicer"] = e->prusa;
+    out.push_back(std::move(row));
+  }
+  return out.dump(2) + "\n";
+}
+
+std::string as_markdown(const std::vector<const CatalogueEntry*>& entries) {
+  std::string out, section;
+  for (const auto* e : entries) {
+    if (e->section != section) {
+      section = e->section;
+      out += fmt::format("{}## {}\n\n| key | default | range | meaning |\n|---|---|---|---|\n", out.empty() ? "" : "\n", section);
+    }
+    std::string range = range_of(*e);
+    for (auto at = range.find('|'); at != std::string::npos; at = range.find('|', at + 2)) range.replace(at, 1, "\\|");
+    out += fmt::format("| `{}` | {} | {} | {} |\n", e->key, e->default_text, range, e->meaning);
+  }
+  return out;
+}
+
+std::string as_plain(const std::vector<const CatalogueEntry*>& entries) {
+  std::string out, section;
+  for (const auto* e : entries) {
+    if (e->section != section) out += fmt::format("{}[{}]\n", out.empty() ? "" : "\n", section = e->section);
+    out += fmt::format("{} = {}{}{}\n    {} ({})\n", e->key, e->default_text, e->unit.empty() || e->unit == "%" || e->default_text == "auto" ? "" : " ",
+                       e->unit == "%" || e->default_text == "auto" ? "" : e->unit, e->meaning, range_of(*e));
+  }
+  return out;
+}
+
+}  // namespace
+
+int settings(const Words& words) {
+  po::options_description options("Options of weft settings");
+  options.add_options()("format", po::value<std::string>()->value_name("text|json|markdown")->default_value("text"), "form of the list");
+  const auto command = parse_command(words, options);
+  if (command.help) {
+    std::ostringstream out;
+    out << "weft settings [KEY...]: every setting, or those named\n\n" << options << "\n" << common_help();
+    return fmt::print("{}", out.str()), 0;
+  }
+  std::vector<const CatalogueEntry*> entries;
+  if (command.inputs.empty())
+    for (const auto& e : catalogue()) entries.push_back(&e);
+  for (const auto& key : command.inputs) {
+    const auto* e = find_setting(key);
+    const auto near = nearest_setting(key);
+    if (!e) throw Error{Error::Kind::settings, fmt::format("unknown setting '{}'", key), {}, near.empty() ? "" : fmt::format("did you mean '{}'?", near)};
+    entries.push_back(e);
+  }
+  const auto format = command.options["format"].as<std::string>();
+  if (format != "text" && format != "json" && format != "markdown")
+    throw Error{Error::Kind::usage, fmt::format("'{}' is not one of text, json, markdown", format), "--format"};
+  write_output(command.output.value_or("-"), format == "json" ? as_json(entries) : format == "markdown" ? as_markdown(entries) : as_plain(entries));
+  return 0;
+}
+
+}  // namespace weft::app

@@ -1,0 +1,26 @@
+#pragma once
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace weft::app {
+
+using Words = std::vector<std::string>;
+
+// A verb takes the words behind its name and returns the exit status; it throws Error for what the user can mend.
+int settings(const Words& words);
+int profile(const Words& words);
+
+struct Verb {
+  std::string_view name;
+  int (*run)(const Words&);
+  std::string_view usage, purpose;
+};
+inline constexpr std::array verbs{
+    
+    Verb{"profile", profile, "check|show FILE...", "validate, print resolved"},
+    Verb{"settings", settings, "[--format text|json|markdown] [KEY...]", "every setting: type, unit, default, range, meaning"},
+};
+
+}  // namespace weft::app
