@@ -3,6 +3,8 @@
 #include "settings/layers.h"
 #include "settings/machine.h"
 #include "settings/material.h"
+#include "settings/retraction.h"
+#include "settings/travel.h"
 #include "settings/walls.h"
 
 namespace weft {
@@ -13,6 +15,8 @@ struct Settings {
   MaterialSettings material;
   LayerSettings layers;
   WallSettings walls;
+  TravelSettings travel;
+  RetractionSettings retraction;
   AuditSettings audit;
 };
 
@@ -32,6 +36,8 @@ inline constexpr std::tuple sections{
     Section{"material", &Settings::material, material_schema},
     Section{"layers", &Settings::layers, layer_schema},
     Section{"walls", &Settings::walls, wall_schema},
+    Section{"travel", &Settings::travel, travel_schema},
+    Section{"retraction", &Settings::retraction, retraction_schema},
     Section{"audit", &Settings::audit, audit_schema},
 };
 static_assert(field_count<Settings>() == std::tuple_size_v<decltype(sections)>, "a group has no section");

@@ -1,0 +1,43 @@
+#pragma once
+#include "settings/schema.h"
+
+namespace weft {
+using namespace weft::literals;
+
+/// When filament is drawn back, and how.
+struct RetractionSettings {
+  bool retraction_enable = true;
+  Um retraction_amount = 1_mm;
+  double retraction_retract_speed = 40;
+  std::optional<double> retraction_prime_speed;
+  Um retraction_extra_prime_amount = 0_mm;
+  bool firmware_retraction = false;
+  Um retraction_min_travel = 1.5_mm;
+  bool retract_only_when_crossing = true;
+  bool retract_at_layer_change = false;
+};
+
+inline constexpr std::tuple retraction_schema{
+    setting("retraction_enable", &RetractionSettings::retraction_enable, "Filament is drawn back before travels that may string."),
+    setting("retraction_amount", &RetractionSettings::retraction_amount, Unit::mm, 0_mm, 50_mm, "Length of filament drawn back.",
+            "retract_length"),
+    setting("retraction_retract_speed", &RetractionSettings::retraction_retract_speed, Unit::mm_s, 0.1, 500,
+            "Speed at which filament is drawn back.", "retract_speed"),
+    setting("retraction_prime_speed", &RetractionSettings::retraction_prime_speed, Unit::mm_s, 0.1, 500,
+            "Speed at which it is pushed forward again; auto is retraction_retract_speed.", "deretract_speed"),
+    setting("retraction_extra_prime_amount", &RetractionSettings::retraction_extra_prime_amount, Unit::mm, -10_mm, 10_mm,
+            "Length of filament pushed forward beyond what was drawn back: what oozed on the way.", "retract_restart_extra"),
+    setting("firmware_retraction", &RetractionSettings::firmware_retraction,
+            "Retractions are written as G10 and G11; the firmware knows length and speed.", "use_firmware_retraction"),
+    setting("retraction_min_travel", &RetractionSettings::retraction_min_travel, Unit::mm, 0_mm, 1000_mm,
+            "Travels shorter than this are not retracted unless they cross a wall.", "retract_before_travel"),
+    setting("retract_only_when_crossing", &RetractionSettings::retract_only_when_crossing,
+            "Travels that stay inside the comb boundary are not retracted, however long; off: every travel of retraction_min_travel "
+            "or more is retracted.",
+            "only_retract_when_crossing_perimeters"),
+    setting("retract_at_layer_change", &RetractionSettings::retract_at_layer_change, "Filament is drawn back before the next layer.",
+            "retract_layer_change"),
+};
+static_assert(complete<RetractionSettings>(retraction_schema));
+
+}  // namespace weft

@@ -1,0 +1,68 @@
+#pragma once
+#include <array>
+
+#include "settings/schema.h"
+
+namespace weft {
+using namespace weft::literals;
+
+/// How the paths of a layer are put in order.
+enum class PathOrder { nearest, optimized };
+constexpr auto choices_of(PathOrder) {
+  return std::array{Choice<PathOrder>{PathOrder::nearest, "nearest"}, Choice<PathOrder>{PathOrder::optimized, "optimized"}};
+}
+
+/// Where a closed wall begins and ends.
+enum class SeamType { sharpest_corner, aligned, shortest, back, random, user };
+constexpr auto choices_of(SeamType) {
+  return std::array{Choice<SeamType>{SeamType::sharpest_corner, "sharpest_corner"}, Choice<SeamType>{SeamType::aligned, "aligned"},
+                    Choice<SeamType>{SeamType::shortest, "shortest"}, Choice<SeamType>{SeamType::back, "back"},
+                    Choice<SeamType>{SeamType::random, "random"}, Choice<SeamType>{SeamType::user, "user"}};
+}
+
+/// Which corners attract a seam.
+enum class SeamCorner { none, inner, outer, any, weighted };
+constexpr auto choices_of(SeamCorner) {
+  return std::array{Choice<SeamCorner>{SeamCorner::none, "none"}, Choice<SeamCorner>{SeamCorner::inner, "inner"},
+                    Choice<SeamCorner>{SeamCorner::outer, "outer"}, Choice<SeamCorner>{SeamCorner::any, "any"},
+                    Choice<SeamCorner>{SeamCorner::weighted, "weighted"}};
+}
+
+/// Where travels stay.
+enum class Combing { off, all, no_outer_surfaces, noskin, infill };
+constexpr auto choices_of(Combing) {
+  return std::array{Choice<Combing>{Combing::off, "off"}, Choice<Combing>{Combing::all, "all"},
+                    Choice<Combing>{Combing::no_outer_surfaces, "no_outer_surfaces"}, Choice<Combing>{Combing::noskin, "noskin"},
+                    Choice<Combing>{Combing::infill, "infill"}};
+}
+
+/// Order of paths, seams, and the way between them.
+struct TravelSettings {
+  PathOrder path_order = PathOrder::optimized;
+  SeamType z_seam_type = SeamType::sharpest_corner;
+  SeamCorner z_seam_corner = SeamCorner::weighted;
+  Um z_seam_x = 0_mm;
+  Um z_seam_y = 0_mm;
+  Combing retraction_combing = Combing::all;
+  Um retraction_combing_offset = 0_mm;
+  std::optional<Um> retraction_combing_max_distance;
+};
+
+inline constexpr std::tuple travel_schema{
+    setting("path_order", &TravelSettings::path_order,
+            "Order of the paths of a layer: nearest takes the nearest next one, optimized improves that order by local search."),
+    setting("z_seam_type", &TravelSettings::z_seam_type, "Where outer walls begin and end."),
+    setting("z_seam_corner", &TravelSettings::z_seam_corner, "Which corners attract a seam; weighted prefers inner ones to outer ones."),
+    setting("z_seam_x", &TravelSettings::z_seam_x, Unit::mm, -10000_mm, 10000_mm, "X on the bed that seams are drawn to when z_seam_type is user."),
+    setting("z_seam_y", &TravelSettings::z_seam_y, Unit::mm, -10000_mm, 10000_mm, "Y on the bed that seams are drawn to when z_seam_type is user."),
+    setting("retraction_combing", &TravelSettings::retraction_combing,
+            "Travels stay inside the part: anywhere (all), off what will be seen (no_outer_surfaces), off top and bottom skin (noskin), "
+            "or over infill only."),
+    setting("retraction_combing_offset", &TravelSettings::retraction_combing_offset, Unit::mm, -10_mm, 10_mm,
+            "Moves the boundary of combing, outwards when positive, against the centreline of the outer wall. Only with retraction_combing = all."),
+    setting("retraction_combing_max_distance", &TravelSettings::retraction_combing_max_distance, Unit::mm, 0_mm, 10000_mm,
+            "Combed travels longer than this are retracted; auto: never for their length."),
+};
+static_assert(complete<TravelSettings>(travel_schema));
+
+}  // namespace weft
