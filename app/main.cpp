@@ -6,6 +6,7 @@
 #include <new>
 
 #include "command.h"
+#include "core/version.h"
 #include "verbs.h"
 
 namespace {
@@ -25,7 +26,7 @@ const Verb* find_verb(const std::string& name) {
 
 int run(Words words) {
   if (words.empty()) throw Error{Error::Kind::usage, "no verb was given", {}, "see weft --help"};
-  if (words[0] == "--version" || words[0] == "-V") return fmt::print("weft {}\n", WEFT_VERSION), 0;
+  if (words[0] == "--version" || words[0] == "-V") return fmt::print("weft {}\n", version), 0;
   if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") return fmt::print("{}", overview()), 0;
   if (const auto* verb = find_verb(words[0])) return verb->run({words.begin() + 1, words.end()});
   throw Error{Error::Kind::usage, "is not a verb", fmt::format("'{}'", words[0]), "see weft --help"};
