@@ -1,0 +1,223 @@
+#include "mesh/fixtures.h"
+
+#include <algorithm>
+#include <random>
+
+#include <catch2/catch.hpp>
+
+using namespace weft;
+using namespace weft::mesh;
+using namespace fixtures;
+
+namespace {
+
+const Facets cube = box({0, 0, 0}, {20, 20, 20});
+
+struct Result {
+  double volume_mm3;
+  Repairs repairs;
+};
+
+Result repaired(const Facets& facets) {
+  const Loaded loaded = read(binary_stl(facets));
+  REQUIRE(loaded.objects.size() == 1);
+  return {volume_mm3(loaded.objects[0].mesh), loaded.objects[0].repairs};
+}
+
+/// Corners 0, 1, 2 of a facet that is no triangle on the lattice.
+const Facet needle{{{0, 0, 0}, {20, 0, 0}, {20, 0, 0.0001f}}};
+
+/// Each outward shell once, each inward one once: no side has the same direction as another of its edge.
+bool consistent(const Mesh& mesh) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> sides;
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i) sides.emplace_back(t[i], t[(i + 1) % 3]);
+  std::sort(sides.begin(), sides.end());
+  return std::adjacent_find(sides.begin(), sides.end()) == sides.end();
+}
+
+}  // namespace
+
+TEST_CASE("mesh: a sound mesh is not touched", "[mesh][repair]") {
+  const Facets two = cube + box({30, 0, 0}, {40, 10, 10});
+  const auto [volume, repairs] = repaired(two);
+  CHECK(volume == Approx(9000));
+  CHECK(repairs == Repairs{.shells = 2});
+  CHECK(repairs.watertight());
+  CHECK(notices_of(repairs, "part").empty());
+}
+
+TEST_CASE("mesh: triangles thinner than the lattice are dropped and leave no open edge", "[mesh][repair]") {
+  Facets facets = cube;
+  facets.push_back(needle);
+  const auto [volume, repairs] = repaired(facets);
+  CHECK(volume == Approx(8000));
+  CHECK(repairs == Repairs{.degenerate = 1, .shells = 1});
+}
+
+TEST_CASE("mesh: three corners in a line are kept, for their neighbours meet there", "[mesh][repair]") {
+  // A cube whose first facet is split at the middle of an edge, with a needle between the halves and the neighbour.
+  Facets facets = cube;
+  const auto [a, b, c] = facets[0];
+  const Corner middle{(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2};
+  facets[0] = {a, middle, c};
+  facets.push_back({middle, b, c});
+  facets.push_back({a, b, middle});
+  const auto [volume, repairs] = repaired(facets);
+  CHECK(volume == Approx(8000));
+  CHECK(repairs == Repairs{.shells = 1});
+}
+
+TEST_CASE("mesh: repeated triangles are dropped, from whichever corner they begin", "[mesh][repair]") {
+  Facets facets = cube;
+  facets.push_back({cube[3][1], cube[3][2], cube[3][0]});
+  CHECK(repaired(facets).repairs == Repairs{.duplicates = 1, .shells = 1});
+  CHECK(repaired(cube + cube).repairs == Repairs{.duplicates = 12, .shells = 1});
+}
+
+TEST_CASE("mesh: a triangle repeated the wrong way round is dropped, and the surface stays closed", "[mesh][repair]") {
+  const std::size_t at = GENERATE(0u, 5u, 12u);
+  Facets facets = cube;
+  facets.insert(facets.begin() + static_cast<std::ptrdiff_t>(at), reversed(cube[3]));
+  const auto [volume, repairs] = repaired(facets);
+  CHECK(volume == Approx(8000));
+  CHECK(repairs.duplicates == 1);
+  CHECK(repairs.watertight());
+}
+
+TEST_CASE("mesh: a file with every triangle from both sides is one solid", "[mesh][repair]") {
+  for (const Facets& facets : {cube + reversed(cube), reversed(cube) + cube}) {
+    const auto [volume, repairs] = repaired(facets);
+    CHECK(volume == Approx(8000));
+    CHECK(repairs.duplicates == 12);
+    CHECK(repairs.watertight());
+  }
+}
+
+TEST_CASE("mesh: a fin without thickness is dropped", "[mesh][repair]") {
+  const Facets fin{{{{20, 0, 0}, {20, 20, 0}, {30, 0, 0}}}, {{{20, 20, 0}, {30, 20, 0}, {30, 0, 0}}}};
+  const auto [volume, repairs] = repaired(cube + fin + reversed(fin));
+  CHECK(volume == Approx(8000));
+  CHECK(repairs == Repairs{.duplicates = 2, .sheets = 2, .shells = 1});
+}
+
+TEST_CASE("mesh: two boxes that touch face to face become one", "[mesh][repair]") {
+  const auto [volume, repairs] = repaired(cube + box({20, 0, 0}, {30, 20, 20}));
+  CHECK(volume == Approx(12'000));
+  // The box's faces are split along the same diagonal as the cube's, so they are pairs back to back.
+  CHECK(repairs == Repairs{.duplicates = 2, .sheets = 2, .shells = 1});
+}
+
+TEST_CASE("mesh: flipped triangles are turned round, whichever they are", "[mesh][repair][law]") {
+  std::mt19937 random(3);
+  const Facets sound = cube + box({30, 0, 0}, {40, 10, 10});
+  for (int run = 0; run < 50; ++run) {
+    Facets facets = sound;
+    std::size_t flips = 0;
+    for (Facet& facet : facets)
+      if (random() % 3 == 0) facet = reversed(facet), ++flips;
+    std::shuffle(facets.begin(), facets.end(), random);
+    const Loaded loaded = read(binary_stl(facets));
+    const auto& [name, mesh, repairs] = loaded.objects[0];
+    CHECK(volume_mm3(mesh) == Approx(9000));
+    CHECK(repairs.flipped + 12 * repairs.inverted_shells <= std::max(flips, std::size_t{12}));
+    CHECK(repairs.watertight());
+    CHECK(consistent(mesh));
+  }
+}
+
+TEST_CASE("mesh: a mesh that is inside out is turned round, its void stays one", "[mesh][repair]") {
+  const Facets hollow = cube + reversed(box({5, 5, 5}, {15, 15, 15}));
+  CHECK(repaired(hollow).volume_mm3 == Approx(7000));
+  CHECK(repaired(hollow).repairs == Repairs{.shells = 2});
+  CHECK(repaired(reversed(hollow)).volume_mm3 == Approx(7000));
+  CHECK(repaired(reversed(hollow)).repairs == Repairs{.inverted_shells = 2, .shells = 2});
+}
+
+TEST_CASE("mesh: a few flipped triangles do not make a void solid", "[mesh][repair]") {
+  Facets inner = reversed(box({5, 5, 5}, {15, 15, 15}));
+  inner[4] = reversed(inner[4]);
+  const auto [volume, repairs] = repaired(cube + inner);
+  CHECK(volume == Approx(7000));
+  CHECK(repairs == Repairs{.flipped = 1, .shells = 2});
+}
+
+TEST_CASE("mesh: a solid inside a solid stays solid", "[mesh][repair]") {
+  CHECK(repaired(cube + box({5, 5, 5}, {15, 15, 15})).volume_mm3 == Approx(9000));  // nonzero winding: it is in once
+}
+
+TEST_CASE("mesh: a part that is inside out beside one that is not is turned round", "[mesh][repair]") {
+  const Facets small = box({30, 0, 0}, {40, 10, 10});
+  for (const Facets& facets : {cube + reversed(small), reversed(cube) + small, reversed(small) + cube}) {
+    const auto [volume, repairs] = repaired(facets);
+    CHECK(volume == Approx(9000));
+    CHECK(repairs == Repairs{.inverted_shells = 1, .shells = 2});
+  }
+}
+
+TEST_CASE("mesh: holes and crowded edges are counted and left", "[mesh][repair]") {
+  Facets facets = cube;
+  facets.pop_back();
+  const auto open = repaired(facets).repairs;
+  CHECK(open == Repairs{.shells = 1, .open_edges = 3});
+  CHECK_FALSE(open.watertight());
+  CHECK(notices_of(open, "part.stl")[0].message.starts_with("part.stl: 3 edges are open"));
+
+  const auto crowded = repaired(cube + box({20, 20, 0}, {40, 40, 20}));
+  CHECK(crowded.repairs == Repairs{.shells = 2, .non_manifold_edges = 1});
+  CHECK(crowded.volume_mm3 == Approx(16'000));
+  // A crowded edge does not hide that a shell is closed, and inside out.
+  CHECK(repaired(cube + reversed(box({20, 20, 0}, {40, 40, 20}))).repairs ==
+        Repairs{.inverted_shells = 1, .shells = 2, .non_manifold_edges = 1});
+}
+
+TEST_CASE("mesh: a Möbius strip is left as it is", "[mesh][repair]") {
+  constexpr int steps = 12;
+  Facets facets;
+  const auto at = [](int i, float side) {
+    const double turn = 2 * M_PI * i / steps, tilt = turn / 2;
+    const double r = 10 + side * std::cos(tilt);
+    return Corner{static_cast<float>(r * std::cos(turn)), static_cast<float>(r * std::sin(turn)),
+                  static_cast<float>(side * std::sin(tilt))};
+  };
+  for (int i = 0; i < steps; ++i) {
+    facets.push_back({at(i, -2), at(i + 1, -2), at(i + 1, 2)});
+    facets.push_back({at(i, -2), at(i + 1, 2), at(i, 2)});
+  }
+  const auto repairs = repaired(facets).repairs;
+  CHECK(repairs.one_sided_shells == 1);
+  CHECK(repairs.flipped == 0);
+}
+
+TEST_CASE("mesh: repairing twice is repairing once", "[mesh][repair][law]") {
+  std::mt19937 random(4);
+  std::uniform_int_distribution<int> corner(0, 4);
+  for (int run = 0; run < 300; ++run) {  // soups of triangles on a tiny grid: every kind of fault at once
+    Mesh mesh;
+    for (int i = 0; i < 125; ++i) mesh.vertices.push_back({i % 5, i / 5 % 5, i / 25});
+    for (int i = 0; i < 60; ++i) {
+      const auto vertex = [&] { return static_cast<std::uint32_t>(corner(random) + 5 * corner(random) * (run % 2)); };
+      mesh.triangles.push_back({vertex(), vertex(), vertex()});
+    }
+    const Repaired once = repair(mesh), twice = repair(once.mesh);
+    CHECK(twice.repairs.degenerate == 0);
+    CHECK(twice.repairs.duplicates == 0);
+    CHECK(twice.repairs.open_edges == once.repairs.open_edges);
+    CHECK(twice.repairs.shells == once.repairs.shells);
+    CHECK(twice.repairs.one_sided_shells == once.repairs.one_sided_shells);
+    CHECK(twice.mesh.triangles.size() == once.mesh.triangles.size());
+  }
+}
+
+TEST_CASE("mesh: a vertex of very many edges does not slow the repair down", "[mesh][repair]") {
+  Mesh mesh;  // two fans about one axis: quadratic if the edges of a vertex were compared pair by pair
+  constexpr std::uint32_t rim = 300'000;
+  mesh.vertices = {{0, 0, 1'000'000}, {0, 0, -1'000'000}};
+  for (std::uint32_t i = 0; i < rim; ++i) mesh.vertices.push_back({static_cast<Um>(i), static_cast<Um>(i % 7), 0});
+  for (std::uint32_t i = 0; i < rim; ++i) {
+    const std::uint32_t a = 2 + i, b = 2 + (i + 1) % rim;
+    mesh.triangles.push_back({0, a, b});
+    mesh.triangles.push_back({1, b, a});
+  }
+  CHECK(repair(std::move(mesh)).repairs.watertight());
+}
