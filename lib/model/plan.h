@@ -15,6 +15,7 @@ struct Extrude {
   Um height = 0;                        ///< of the layer at this place
   double speed_mm_s = 0;                ///< set by motion; 0 before
   std::vector<float> segment_speed_mm_s;  ///< set by motion where speed varies along the path: one a segment; else empty
+  double acceleration_mm_s2 = 0;          ///< set by motion; 0: whatever the firmware has
 };
 
 /// Moves without extruding, through the points in order; starts where the last step ended.
@@ -22,11 +23,15 @@ struct Travel {
   std::vector<Point3> path;
   double speed_mm_s = 0;      ///< set by motion
   bool crosses_wall = false;  ///< leaves the part it was in; such a travel is retracted
+  double z_speed_mm_s = 0;        ///< set by motion: what the vertical share of speed_mm_s may be
+  double acceleration_mm_s2 = 0;  ///< set by motion; 0: whatever the firmware has
 };
 
 /// Draws filament back; `wipe` retraces that path while doing so.
 struct Retract {
   Polyline wipe;
+  double wipe_speed_mm_s = 0;  ///< set by motion
+  double before_wipe = 1;      ///< set by motion: share drawn back before the wipe begins, so that the extruder keeps up
   friend bool operator==(const Retract&, const Retract&) = default;
 };
 /// Pushes it forward again.
@@ -59,5 +64,11 @@ struct PrintPlan {
   std::vector<ObjectLabel> objects;
   Notices notices;
 };
+
+/// Speed of a travel from a to b: its own, lowered so that the vertical share stays within z_speed_mm_s.
+double speed_between(const Travel& travel, Point3 a, Point3 b);
+
+/// Where the nozzle is after the layer, when it was at `before` when the layer began.
+Point3 end_of(const LayerPlan& layer, Point3 before);
 
 }  // namespace weft

@@ -1,9 +1,12 @@
 #pragma once
 #include "settings/audit.h"
+#include "settings/cooling.h"
+#include "settings/gcode.h"
 #include "settings/layers.h"
 #include "settings/machine.h"
 #include "settings/material.h"
 #include "settings/retraction.h"
+#include "settings/speeds.h"
 #include "settings/travel.h"
 #include "settings/walls.h"
 
@@ -17,6 +20,9 @@ struct Settings {
   WallSettings walls;
   TravelSettings travel;
   RetractionSettings retraction;
+  SpeedSettings speeds;
+  CoolingSettings cooling;
+  GcodeSettings gcode;
   AuditSettings audit;
 };
 
@@ -38,6 +44,9 @@ inline constexpr std::tuple sections{
     Section{"walls", &Settings::walls, wall_schema},
     Section{"travel", &Settings::travel, travel_schema},
     Section{"retraction", &Settings::retraction, retraction_schema},
+    Section{"speeds", &Settings::speeds, speed_schema},
+    Section{"cooling", &Settings::cooling, cooling_schema},
+    Section{"gcode", &Settings::gcode, gcode_schema},
     Section{"audit", &Settings::audit, audit_schema},
 };
 static_assert(field_count<Settings>() == std::tuple_size_v<decltype(sections)>, "a group has no section");

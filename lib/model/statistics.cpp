@@ -1,0 +1,31 @@
+#include "model/statistics.h"
+
+#include <algorithm>
+
+namespace weft {
+
+void Statistics::append(const Statistics& later) {
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    features[i].mm += later.features[i].mm;
+    features[i].mm3 += later.features[i].mm3;
+    features[i].s += later.features[i].s;
+  }
+  walls.beads += later.walls.beads;
+  walls.variable_width_mm += later.walls.variable_width_mm;
+  walls.flow_compensated_mm += later.walls.flow_compensated_mm;
+  walls.min_flow_ratio = std::min(walls.min_flow_ratio, later.walls.min_flow_ratio);
+  walls.min_width = std::min(walls.min_width, later.walls.min_width);
+  travel.mm += later.travel.mm;
+  travel.s += later.travel.s;
+  travel.moves += later.travel.moves;
+  travel.retractions += later.travel.retractions;
+  travel.wall_crossings += later.travel.wall_crossings;
+  travel.retraction_s += later.travel.retraction_s;
+  filament_mm += later.filament_mm;
+  filament_mm3 += later.filament_mm3;
+  filament_g += later.filament_g;
+  layer_s.insert(layer_s.end(), later.layer_s.begin(), later.layer_s.end());
+  print_time_s += later.print_time_s;
+}
+
+}  // namespace weft

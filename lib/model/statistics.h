@@ -1,0 +1,41 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "model/bead.h"
+
+namespace weft {
+
+/// What a print, or a part of it, takes. Sums add up in layer order, so that they do not depend on threads.
+struct Statistics {
+  struct Feature {
+    double mm = 0, mm3 = 0, s = 0;  ///< length and volume of the beads (before material_flow), time
+  };
+  std::array<Feature, role_names.size()> features{};  ///< by Role
+
+  struct Walls {
+    std::int64_t beads = 0;
+    double variable_width_mm = 0;      ///< length along which a wall's width changes
+    double flow_compensated_mm = 0;    ///< length printed with a flow ratio below 1
+    double min_flow_ratio = 1;
+    Um min_width = max_coord;          ///< least line width of a wall; max_coord when there is none
+  } walls;
+
+  struct Travels {
+    double mm = 0, s = 0;
+    std::int64_t moves = 0;            ///< Travel steps
+    std::int64_t retractions = 0;
+    std::int64_t wall_crossings = 0;
+    double retraction_s = 0;           ///< retracting, priming and wiping
+  } travel;
+
+  double filament_mm = 0, filament_mm3 = 0, filament_g = 0;  ///< with material_flow and extra prime
+  std::vector<double> layer_s;                               ///< one a layer
+  double print_time_s = 0;                                   ///< sum of layer_s: without heating and custom G-code
+
+  /// Adds the layers that come after these.
+  void append(const Statistics& later);
+};
+
+}  // namespace weft

@@ -1,0 +1,45 @@
+#pragma once
+#include <optional>
+
+#include "model/plan.h"
+#include "model/statistics.h"
+#include "settings/settings.h"
+
+namespace weft::motion {
+
+/// The settings that motion reads.
+struct Rules {
+  MachineSettings machine;
+  MaterialSettings material;
+  LayerSettings layers;
+  WallSettings walls;
+  RetractionSettings retraction;
+  SpeedSettings speeds;
+  CoolingSettings cooling;
+};
+Rules rules_of(const Settings& settings);
+
+/// A layer with speeds, accelerations and fan, and what it takes.
+struct PlannedLayer {
+  LayerPlan plan;
+  Statistics statistics;  ///< of this layer alone: layer_s has one value
+};
+
+/// Gives every step of a layer its speed and acceleration, slows the layer down to cool_min_layer_time, sets the fan.
+/// Beads are cut where their width changes, so that each segment may be printed at one width; mm³/s stay below
+/// material_max_volumetric_speed at every junction.
+/// @param index of the layer, from 0
+/// @param start where the nozzle is when the layer begins (model/plan.h, end_of); nothing: unknown
+/// Pre:  speeds of `layer` are not set.  Post: all speeds > 0.
+/// Cost: O(junctions); a few passes more where the layer is slowed down. Layers do not depend on each other: the estimate of
+///       time lets each begin and end at rest, which costs a fraction of a second a layer.
+PlannedLayer plan_layer(const Rules& rules, LayerPlan layer, std::size_t index, std::optional<Point3> start);
+
+/// All layers, one after the other.
+struct Planned {
+  PrintPlan plan;
+  Statistics statistics;
+};
+Planned plan(const Rules& rules, PrintPlan print);
+
+}  // namespace weft::motion

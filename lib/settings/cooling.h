@@ -1,0 +1,45 @@
+#pragma once
+#include "settings/schema.h"
+
+namespace weft {
+
+/// The part-cooling fan, and time for a layer to set.
+struct CoolingSettings {
+  bool cool_fan_enabled = true;
+  bool cool_fan_always_on = true;
+  double cool_fan_speed_min = 60;
+  double cool_fan_speed_max = 100;
+  double cool_fan_speed_0 = 0;
+  int cool_fan_off_layers = 1;
+  int cool_fan_full_layer = 4;
+  double bridge_fan_speed = 100;
+  double cool_min_layer_time_fan_speed_max = 30;
+  double cool_min_layer_time = 5;
+  double cool_min_speed = 10;
+};
+
+inline constexpr std::tuple cooling_schema{
+    setting("cool_fan_enabled", &CoolingSettings::cool_fan_enabled, "The part-cooling fan is used at all."),
+    setting("cool_fan_always_on", &CoolingSettings::cool_fan_always_on,
+            "The fan runs at cool_fan_speed_min also in layers that take long; off: it stands still there.", "fan_always_on"),
+    setting("cool_fan_speed_min", &CoolingSettings::cool_fan_speed_min, Unit::percent, 0, 100,
+            "Fan in layers that take cool_min_layer_time_fan_speed_max or longer.", "min_fan_speed"),
+    setting("cool_fan_speed_max", &CoolingSettings::cool_fan_speed_max, Unit::percent, 0, 100,
+            "Fan in layers that take no longer than cool_min_layer_time; in between it is interpolated.", "max_fan_speed"),
+    setting("cool_fan_speed_0", &CoolingSettings::cool_fan_speed_0, Unit::percent, 0, 100, "Fan in the first cool_fan_off_layers layers."),
+    setting("cool_fan_off_layers", &CoolingSettings::cool_fan_off_layers, Unit::layers, 0, 1000000,
+            "First layers with the fan at cool_fan_speed_0, so that they stick.", "disable_fan_first_layers"),
+    setting("cool_fan_full_layer", &CoolingSettings::cool_fan_full_layer, Unit::layers, 0, 1000000,
+            "Number of the layer, counted from 1, up to which the fan is raised step by step.", "full_fan_speed_layer"),
+    setting("bridge_fan_speed", &CoolingSettings::bridge_fan_speed, Unit::percent, 0, 100,
+            "Fan over bridges and overhangs, where it is more than the layer's.", "bridge_fan_speed"),
+    setting("cool_min_layer_time_fan_speed_max", &CoolingSettings::cool_min_layer_time_fan_speed_max, Unit::seconds, 0, 3600,
+            "Layers faster than this get more than cool_fan_speed_min.", "fan_below_layer_time"),
+    setting("cool_min_layer_time", &CoolingSettings::cool_min_layer_time, Unit::seconds, 0, 3600,
+            "A layer takes at least so long: its printing is slowed down.", "slowdown_below_layer_time"),
+    setting("cool_min_speed", &CoolingSettings::cool_min_speed, Unit::mm_s, 0.1, 5000, "Slowing down for cool_min_layer_time ends here.",
+            "min_print_speed"),
+};
+static_assert(complete<CoolingSettings>(cooling_schema));
+
+}  // namespace weft

@@ -1,0 +1,45 @@
+#pragma once
+#include <array>
+
+#include "settings/schema.h"
+
+namespace weft {
+
+/// How the objects of a print are named, so that one of them can be cancelled.
+enum class ObjectLabels { none, firmware, comments };
+constexpr auto choices_of(ObjectLabels) {
+  return std::array{Choice<ObjectLabels>{ObjectLabels::none, "none"}, Choice<ObjectLabels>{ObjectLabels::firmware, "firmware"},
+                    Choice<ObjectLabels>{ObjectLabels::comments, "comments"}};
+}
+
+/// What the file holds besides moves.
+struct GcodeSettings {
+  bool relative_extrusion = true;
+  std::string machine_start_gcode = "G28";
+  std::string machine_end_gcode = "M104 S0\nM140 S0\nM84";
+  std::string before_layer_gcode;
+  std::string layer_gcode;
+  ObjectLabels gcode_label_objects = ObjectLabels::firmware;
+  bool gcode_progress = true;
+  bool gcode_flow_comments = false;
+};
+
+inline constexpr std::tuple gcode_schema{
+    setting("relative_extrusion", &GcodeSettings::relative_extrusion, "E is relative (M83); off: absolute (M82), from zero in each layer.",
+            "use_relative_e_distances"),
+    setting("machine_start_gcode", &GcodeSettings::machine_start_gcode,
+            "G-code before the print, with placeholders such as {material_print_temperature_layer_0}. Temperatures that it neither sets nor "
+            "mentions are set around it.",
+            "start_gcode"),
+    setting("machine_end_gcode", &GcodeSettings::machine_end_gcode, "G-code after the print.", "end_gcode"),
+    setting("before_layer_gcode", &GcodeSettings::before_layer_gcode, "G-code before the move to each layer: {layer_num}, {layer_z}.",
+            "before_layer_gcode"),
+    setting("layer_gcode", &GcodeSettings::layer_gcode, "G-code after the move to each layer: {layer_num}, {layer_z}.", "layer_gcode"),
+    setting("gcode_label_objects", &GcodeSettings::gcode_label_objects,
+            "Objects are named in the file: firmware (EXCLUDE_OBJECT for Klipper, M486 for others), comments, or none.", "gcode_label_objects"),
+    setting("gcode_progress", &GcodeSettings::gcode_progress, "Progress and remaining time are written as M73."),
+    setting("gcode_flow_comments", &GcodeSettings::gcode_flow_comments, "Moves of beads with flow compensation carry their ratio as a comment."),
+};
+static_assert(complete<GcodeSettings>(gcode_schema));
+
+}  // namespace weft
