@@ -1,0 +1,86 @@
+#include "preview/thumbnail.h"
+
+#include "corpus.h"
+#include "mesh/read.h"
+
+#include <chrono>
+#include <cstring>
+#include <fstream>
+
+#include <png.h>
+
+using namespace weft;
+using namespace weft::preview;
+
+namespace {
+
+Mesh box(Um size) {
+  Mesh mesh;
+  for (int i = 0; i < 8; ++i) mesh.vertices.push_back({i & 1 ? size : 0, i & 2 ? size : 0, i & 4 ? size : 0});
+  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return mesh;
+}
+
+/// The picture in PNG bytes, read back by libpng's other half.
+Image decoded(const std::vector<std::uint8_t>& bytes) {
+  png_image png;
+  std::memset(&png, 0, sizeof png);
+  png.version = PNG_IMAGE_VERSION;
+  REQUIRE(png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) != 0);
+  png.format = PNG_FORMAT_RGBA;
+  Image image({static_cast<int>(png.width), static_cast<int>(png.height)});
+  REQUIRE(png_image_finish_read(&png, nullptr, image.rgba.data(), 0, nullptr) != 0);
+  return image;
+}
+
+}  // namespace
+
+TEST_CASE("thumbnail: a box is opaque in the middle, clear in the corners, and has three tones", "[preview]") {
+  const PixelSize size = GENERATE(PixelSize{32, 32}, PixelSize{220, 124}, PixelSize{300, 300}, PixelSize{1, 1});
+  Image image = decoded(thumbnail(box(20'000), size));
+  REQUIRE(image.size == size);
+  CHECK(image.pixel(size.width / 2, size.height / 2)[3] == 255);
+  if (size.width == 1) return;
+  CHECK(image.pixel(0, 0)[3] == 0);
+  CHECK(image.pixel(size.width - 1, size.height - 1)[3] == 0);
+  auto red = [&](double across, double along) {
+    return static_cast<int>(
+        image.pixel(static_cast<int>(across * size.width), static_cast<int>(along * size.height))[0]);
+  };
+  const int top = red(0.5, 0.3), front = red(0.42, 0.65), right = red(size.width > size.height ? 0.6 : 0.75, 0.6);
+  CHECK(top > front);
+  CHECK(front > right);
+}
+
+TEST_CASE("thumbnail: where the mesh stands does not matter", "[preview][law]") {
+  Mesh mesh = box(20'000);
+  const auto here = thumbnail(mesh, {64, 64});
+  for (Point3& p : mesh.vertices) p = {p.x + 131'072, p.y - 65'536, p.z};
+  CHECK(thumbnail(mesh, {64, 64}) == here);
+}
+
+TEST_CASE("thumbnail: an empty mesh and one without thickness give a picture", "[preview]") {
+  CHECK(decoded(thumbnail({}, {16, 16})).size == PixelSize{16, 16});
+  Mesh flat_mesh{{{0, 0, 0}, {10, 0, 0}, {20, 0, 0}}, {{0, 1, 2}}};
+  CHECK(decoded(thumbnail(flat_mesh, {16, 16})).size == PixelSize{16, 16});
+}
+
+TEST_CASE("thumbnail: a real model", "[preview]") {
+  const auto path = corpus("models/benchy.stl");
+  if (!path) return;
+  const auto loaded = mesh::read_file(path->string());
+  const auto start = std::chrono::steady_clock::now();
+  const auto bytes = thumbnail(loaded.objects[0].mesh, {300, 300});
+  const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
+  UNSCOPED_INFO(loaded.objects[0].mesh.triangles.size()
+                << " triangles, " << bytes.size() << " bytes, " << spent.count() << " ms");
+  if (const char* out = std::getenv("WEFT_TEST_PICTURES"))
+    std::ofstream(std::filesystem::path(out) / "thumbnail.png", std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  Image image = decoded(bytes);
+  std::size_t covered = 0;
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) covered += image.rgba[i] == 255;
+  CHECK(covered > 300 * 300 / 5);
+  CHECK(covered < 300 * 300 * 4 / 5);
+}
