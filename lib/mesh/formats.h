@@ -22,17 +22,34 @@ struct Body {
   Mesh mesh;
 };
 
+struct Contents {
+  std::vector<Body> bodies;
+  std::string unit = "millimeter";
+  Notices notices;  ///< what of the file was left out
+};
+
+/// More than this is refused: sides and vertices are counted in 32 bits, and a file may ask for endless copies.
+inline constexpr std::size_t max_triangles = 100'000'000;
+
 /// Whether the size is to the byte that of the number of triangles in the header. The word `solid` in the header and
 /// the values of the bytes say nothing; and as a count, four bytes of text would ask for gigabytes.
 bool is_binary_stl(std::string_view bytes);
 /// What is wrong with the size of something that may be a binary STL; nothing when it is sound, or more likely
 /// something else: a damaged file is still within a factor of 1000 of the size that its count asks for.
 std::optional<std::string> damage_of_binary_stl(std::string_view bytes);
-std::vector<Body> read_binary_stl(const Source& source);
+Contents read_binary_stl(const Source& source);
 
 /// Whether text begins with `solid`, in any case.
 bool is_ascii_stl(std::string_view text);
-std::vector<Body> read_ascii_stl(const Source& source);
+Contents read_ascii_stl(const Source& source);
+
+/// Whether the lines of the text begin with the keywords of OBJ, as far as the first vertex.
+bool is_obj(std::string_view text);
+Contents read_obj(const Source& source);
+
+/// Whether it is a zip archive.
+bool is_3mf(std::string_view bytes);
+Contents read_3mf(const Source& source);
 
 /// "is not a number", "is infinite" or "lies beyond ±16 m": why a coordinate is not placeable.
 std::string fault_of(double mm);

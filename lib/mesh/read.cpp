@@ -40,12 +40,14 @@ Error unknown(const Source& source) {
 
 struct Reader {
   Format format;
-  std::vector<Body> (*read)(const Source&);
+  Contents (*read)(const Source&);
 };
 
 Reader reader_for(const Source& source) {
   if (is_binary_stl(source.bytes)) return {Format::stl_binary, read_binary_stl};
   if (is_text(source.bytes) && is_ascii_stl(source.bytes)) return {Format::stl_ascii, read_ascii_stl};
+  if (is_text(source.bytes) && is_obj(source.bytes)) return {Format::obj, read_obj};
+  if (is_3mf(source.bytes)) return {Format::three_mf, read_3mf};
   throw unknown(source);
 }
 
@@ -72,15 +74,21 @@ std::string fault_of(double mm) {
 }
 
 Loaded read(std::string_view bytes, const std::string& path_as_typed, const ReadOptions& options) {
-  Loaded loaded{.path = path_as_typed, .sha256 = {}, .objects = {}};
+  Loaded loaded{.path = path_as_typed, .sha256 = {}, .objects = {}, .notices = {}};
   const Source source{without_byte_order_mark(bytes), path_as_typed, options.scale};
   const Reader reader = reader_for(source);
   loaded.format = reader.format;
-  for (Body& body : reader.read(source)) {
+  Contents contents = reader.read(source);
+  loaded.unit = std::move(contents.unit);
+  loaded.notices = std::move(contents.notices);
+  for (Body& body : contents.bodies) {
     loaded.triangles_in_file += body.mesh.triangles.size();
     Repaired repaired = repair(std::move(body.mesh));
     if (!repaired.mesh.triangles.empty())
       loaded.objects.push_back({std::move(body.name), std::move(repaired.mesh), repaired.repairs});
+    else
+      loaded.notices.push_back({"mesh_object_empty", fmt::format("{}: an object '{}' without a triangle was left out",
+                                                                 path_as_typed, body.name)});
   }
   if (loaded.objects.empty())
     throw Error(Error::Kind::model,

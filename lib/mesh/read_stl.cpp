@@ -53,8 +53,11 @@ std::optional<std::string> damage_of_binary_stl(std::string_view bytes) {
                      count, promised, size, room);
 }
 
-std::vector<Body> read_binary_stl(const Source& source) {
+Contents read_binary_stl(const Source& source) {
   const std::size_t count = count_of(source.bytes);
+  if (count > max_triangles)
+    throw Error(Error::Kind::model, fmt::format("{} triangles, more than {}", count, max_triangles), source.path,
+                "reduce the mesh");
   Weld weld(count / 2 + 16);  // Euler: a closed surface has half as many vertices as triangles
   std::vector<Triangle> triangles;
   triangles.reserve(count);
@@ -76,9 +79,9 @@ std::vector<Body> read_binary_stl(const Source& source) {
     const auto c = weld.index({um[6], um[7], um[8]});
     triangles.push_back({a, b, c});
   }
-  std::vector<Body> bodies;
-  bodies.push_back({"", {weld.take_vertices(), std::move(triangles)}});
-  return bodies;
+  Contents contents;
+  contents.bodies.push_back({"", {weld.take_vertices(), std::move(triangles)}});
+  return contents;
 }
 
 }  // namespace weft::mesh

@@ -89,7 +89,7 @@ class AsciiStl {
   }
 
   [[noreturn]] void refuse(std::string what, std::string hint = "export the model again") const {
-    throw Error(Error::Kind::model, std::move(what), fmt::format("{}:{}", source_.path, words_.line()),
+    throw Error(Error::Kind::model, std::move(what), fmt::format("{}:{}", source_.path, words_.line_of(words_.place())),
                 std::move(hint));
   }
 
@@ -105,8 +105,10 @@ bool is_ascii_stl(std::string_view text) {
   return same_word(Words(text).next(), "solid");
 }
 
-std::vector<Body> read_ascii_stl(const Source& source) {
-  return {AsciiStl(source).read()};
+Contents read_ascii_stl(const Source& source) {
+  Contents contents;
+  contents.bodies.push_back(AsciiStl(source).read());
+  return contents;
 }
 
 }  // namespace weft::mesh

@@ -44,9 +44,9 @@ std::string_view Words::rest_of_line() {
   return text_.substr(from, to - from);
 }
 
-std::size_t Words::line() const {
+std::size_t Words::line_of(std::size_t place) const {
   std::size_t line = 1;
-  for (std::size_t i = 0; i < word_; ++i)
+  for (std::size_t i = 0; i < place; ++i)
     line += text_[i] == '\n' || (text_[i] == '\r' && (i + 1 >= text_.size() || text_[i + 1] != '\n'));
   return line;
 }

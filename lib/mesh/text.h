@@ -23,8 +23,11 @@ class Words {
 
   bool at_end() const { return at_ >= text_.size(); }
 
-  /// Line of the last word, from 1. Cost: counts from the start of the text, so for messages only.
-  std::size_t line() const;
+  /// Where the last word begins.
+  std::size_t place() const { return word_; }
+
+  /// The line of a place, from 1. Cost: counts from the start of the text, so for messages only.
+  std::size_t line_of(std::size_t place) const;
 
  private:
   std::string_view take_word();

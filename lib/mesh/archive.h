@@ -1,0 +1,30 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace weft::mesh {
+
+/// The parts of a zip archive in memory, unpacked as they are read and never whole.
+class Archive {
+ public:
+  /// Throws: Error::Kind::model when it is no archive or a damaged one. Pre: `bytes` and `path` outlive this.
+  Archive(std::string_view bytes, const std::string& path);
+  ~Archive();
+
+  bool has(const std::string& part) const;
+
+  /// Gives the part, of which the case of the name does not matter, to `take` piece by piece.
+  /// Throws: Error::Kind::model when it is missing, damaged, encrypted, or larger than a model could be.
+  void read(const std::string& part, const std::function<void(std::string_view piece)>& take);
+
+ private:
+  struct Zip;
+  std::unique_ptr<Zip> zip_;
+  const std::string& path_;
+  std::uint64_t packed_ = 0, unpacked_ = 0;  ///< of the parts read so far
+};
+
+}  // namespace weft::mesh

@@ -1,0 +1,45 @@
+#pragma once
+#include "core/notice.h"
+#include "mesh/archive.h"
+#include "mesh/mesh.h"
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+/// The model parts of a 3MF as they are written: resources and build, nothing multiplied out yet.
+/// Source: 3MF Core Specification 1.3; Production Extension 1.1 (objects in parts of their own).
+namespace weft::mesh {
+
+/// A reference to an object: the part it is in and its id.
+using ObjectKey = std::pair<std::string, std::uint32_t>;
+
+struct Reference {
+  ObjectKey object;
+  Eigen::Affine3d transform = Eigen::Affine3d::Identity();
+  std::string where;  ///< part and line, for messages
+};
+
+struct Resource {
+  std::string name, type;
+  std::vector<Eigen::Vector3d> vertices;  ///< in the file's unit
+  std::vector<Triangle> triangles;        ///< indices are checked
+  std::vector<Reference> components;
+};
+
+struct ThreeMf {
+  std::string unit = "millimeter";
+  double mm_per_unit = 1;
+  std::map<ObjectKey, Resource> objects;
+  std::vector<Reference> items;
+  Notices notices;
+};
+
+/// Reads the root model and the parts its components name. Throws: Error::Kind::model.
+ThreeMf parse_3mf(Archive& archive, const std::string& path);
+
+}  // namespace weft::mesh

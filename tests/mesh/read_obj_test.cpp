@@ -1,0 +1,103 @@
+#include "mesh/face.h"
+#include "mesh/fixtures.h"
+
+#include <numeric>
+#include <random>
+
+#include <catch2/catch.hpp>
+
+using namespace weft;
+using namespace weft::mesh;
+using namespace fixtures;
+using Catch::Contains;
+
+namespace {
+
+const std::string corners = "v 0 0 0\nv 20 0 0\nv 20 20 0\nv 0 20 0\nv 0 0 20\nv 20 0 20\nv 20 20 20\nv 0 20 20\n";
+const std::string cube = "# a cube\nmtllib x.mtl\no the cube\n" + corners +
+                         "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+
+std::string replaced(std::string text, std::string_view old, std::string_view put) {
+  for (std::size_t at = 0; (at = text.find(old, at)) != text.npos; at += put.size()) text.replace(at, old.size(), put);
+  return text;
+}
+
+double area2(const std::vector<Point3>& face, const Triangle& t) {
+  return static_cast<double>(orient(flat(face[t[0]]), flat(face[t[1]]), flat(face[t[2]])));
+}
+
+}  // namespace
+
+TEST_CASE("mesh: an OBJ of quadrangles is read, whatever ends its lines", "[mesh][obj]") {
+  const std::string eol = GENERATE("\n", "\r\n", "\r");
+  const Loaded loaded = read(replaced(cube, "\n", eol));
+  CHECK(loaded.format == Format::obj);
+  REQUIRE(loaded.objects.size() == 1);
+  CHECK(loaded.objects[0].name == "the cube");
+  CHECK(volume_mm3(loaded.objects[0].mesh) == Approx(8000));
+  CHECK(loaded.objects[0].repairs == Repairs{.shells = 1});
+}
+
+TEST_CASE("mesh: OBJ indices may be negative, carry texture and normal, and go over two lines", "[mesh][obj]") {
+  const Mesh expected = read(cube).objects[0].mesh;
+  CHECK(read(replaced(cube, "f 4 3 2 1", "f -5 -6 -7 -8")).objects[0].mesh == expected);
+  CHECK(read(replaced(cube, "f 4 3 2 1", "f 4/1 3/1 2/1 1/1")).objects[0].mesh == expected);
+  CHECK(read(replaced(cube, "f 4 3 2 1", "f 4//1 3//2 2//3 1//4")).objects[0].mesh == expected);
+  CHECK(read(replaced(cube, "f 4 3 2 1", "f 4/1/1 3/1/1 \\\n 2/1/1 1/1/1 # bottom")).objects[0].mesh == expected);
+  CHECK(read(replaced(cube, "v 20 20 20", "v 20 20 20 1 0.5 0.5 0.5")).objects[0].mesh == expected);
+}
+
+TEST_CASE("mesh: an OBJ may list its faces before its vertices", "[mesh][obj]") {
+  const std::string faces = cube.substr(cube.find("f 4"));
+  CHECK(volume_mm3(read("o x\n" + faces + corners).objects[0].mesh) == Approx(8000));
+}
+
+TEST_CASE("mesh: a damaged OBJ is refused with its line", "[mesh][obj]") {
+  CHECK_THAT(refusal(replaced(cube, "v 20 20 20", "v 20 20")), Contains("part:10: vertex 7: z is missing"));
+  CHECK_THAT(refusal(replaced(cube, "v 20 20 20", "v 20 nan 20")), Contains("part:10: vertex 7: y is not a number"));
+  CHECK_THAT(refusal(replaced(cube, "v 20 20 20", "v 20 inf 20")), Contains("vertex 7: y is infinite"));
+  CHECK_THAT(refusal(replaced(cube, "v 20 20 20", "v 20 2e5 20")), Contains("beyond ±16 m"));
+  CHECK_THAT(refusal(replaced(cube, "v 20 20 20", "v 20 2,5 20")), Contains("y is '2,5', not a number"));
+  CHECK_THAT(refusal(replaced(cube, "f 5 6 7 8", "f 5 6 7 9")), Contains("part:13: face 2: vertex 9 of 8"));
+  CHECK_THAT(refusal(replaced(cube, "f 5 6 7 8", "f 5 6 7 0")), Contains("face 2: '0' is not the number of a vertex"));
+  CHECK_THAT(refusal(replaced(cube, "f 5 6 7 8", "f 5 6 7 -9")), Contains("face 2: vertex -9 of 8"));
+  CHECK_THAT(refusal(replaced(cube, "f 5 6 7 8", "f 5 6 7 99999999999999999999")), Contains("face 2"));
+  CHECK_THAT(refusal(replaced(cube, "f 5 6 7 8", "f 5 6")), Contains("face 2 has 2 corners"));
+  CHECK_THAT(refusal(corners), Contains("OBJ without a triangle"));
+}
+
+TEST_CASE("mesh: a face is cut into triangles of its own orientation that cover it once", "[mesh][law]") {
+  std::mt19937 random(5);
+  for (int run = 0; run < 300; ++run) {  // star-shaped polygons, most of them not convex, in one of three planes
+    const std::size_t n = 3 + random() % 40;
+    std::vector<Point3> face;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double angle = 2 * M_PI * static_cast<double>(i) / static_cast<double>(n);
+      const double r = 10'000 + static_cast<double>(random() % 90'000);
+      face.push_back({rounded(r * std::cos(angle)), rounded(r * std::sin(angle)), 7});
+    }
+    const auto triangles = triangulated(face);
+    REQUIRE(triangles.size() == n - 2);
+    double sum = 0, sum_of_sizes = 0;
+    for (const Triangle& t : triangles) sum += area2(face, t), sum_of_sizes += std::abs(area2(face, t));
+    Ring ring;
+    for (const Point3& p : face) ring.push_back(flat(p));
+    CHECK(sum == Approx(static_cast<double>(double_area(ring))));
+    CHECK(sum_of_sizes == sum);
+
+    std::vector<Point3> upright, backward(face.rbegin(), face.rend());
+    for (const Point3& p : face) upright.push_back({p.z, p.x, p.y});
+    CHECK(triangulated(upright) == triangles);
+    CHECK(triangulated(backward).size() == n - 2);
+  }
+}
+
+TEST_CASE("mesh: a face that crosses itself still gives its triangles", "[mesh][law]") {
+  std::mt19937 random(6);
+  for (int run = 0; run < 200; ++run) {
+    std::vector<Point3> face(4 + random() % 60);
+    for (Point3& p : face)
+      p = {static_cast<Um>(random() % 9), static_cast<Um>(random() % 9), static_cast<Um>(random() % 3)};
+    CHECK(triangulated(face).size() == face.size() - 2);
+  }
+}
