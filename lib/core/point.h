@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <compare>
 #include <cstdint>
@@ -31,6 +32,21 @@ constexpr std::int64_t orient(Point a, Point b, Point c) {
   const std::int64_t ux = std::int64_t{b.x} - a.x, uy = std::int64_t{b.y} - a.y;
   const std::int64_t vx = std::int64_t{c.x} - a.x, vy = std::int64_t{c.y} - a.y;
   return ux * vy - uy * vx;
+}
+
+/// Whether ab and cd cross properly: in one point that is an end of neither. Exact.
+constexpr bool segments_cross(Point a, Point b, Point c, Point d) {
+  const auto sign = [](std::int64_t v) { return (v > 0) - (v < 0); };
+  return sign(orient(a, b, c)) * sign(orient(a, b, d)) < 0 && sign(orient(c, d, a)) * sign(orient(c, d, b)) < 0;
+}
+
+/// Whether ab and cd have a point in common, ends included. Exact.
+constexpr bool segments_touch(Point a, Point b, Point c, Point d) {
+  if (std::max(a.x, b.x) < std::min(c.x, d.x) || std::max(c.x, d.x) < std::min(a.x, b.x) ||
+      std::max(a.y, b.y) < std::min(c.y, d.y) || std::max(c.y, d.y) < std::min(a.y, b.y))
+    return false;
+  const auto sign = [](std::int64_t v) { return (v > 0) - (v < 0); };
+  return sign(orient(a, b, c)) * sign(orient(a, b, d)) <= 0 && sign(orient(c, d, a)) * sign(orient(c, d, b)) <= 0;
 }
 
 /// Dot product of two difference vectors, µm². Exact.

@@ -1,0 +1,275 @@
+#include "geometry/spatial_index.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft::geometry {
+
+Foot foot_of(Point p, const Segment& segment) {
+  const double ux = static_cast<double>(segment.b.x) - segment.a.x, uy = static_cast<double>(segment.b.y) - segment.a.y;
+  const double vx = static_cast<double>(p.x) - segment.a.x, vy = static_cast<double>(p.y) - segment.a.y;
+  const double length2 = ux * ux + uy * uy;
+  const double along = length2 > 0 ? std::clamp((ux * vx + uy * vy) / length2, 0.0, 1.0) : 0.0;
+  const double x = vx - along * ux, y = vy - along * uy;
+  return {along, std::sqrt(x * x + y * y)};
+}
+
+SegmentIndex::SegmentIndex(std::vector<Segment> segments) : segments_(std::move(segments)) {
+  build();
+}
+
+SegmentIndex::SegmentIndex(std::span<const Ring> rings) {
+  std::size_t count = 0;
+  for (const auto& ring : rings) count += ring.size();
+  segments_.reserve(count), origins_.reserve(count), next_.reserve(count);
+  for (std::size_t r = 0; r < rings.size(); ++r) {
+    const auto& ring = rings[r];
+    const auto first = static_cast<std::uint32_t>(segments_.size());
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const bool last = i + 1 == ring.size();
+      segments_.push_back({ring[i], ring[last ? 0 : i + 1]});
+      origins_.push_back({static_cast<std::uint32_t>(r), 0, static_cast<std::uint32_t>(i)});
+      next_.push_back(last ? first : static_cast<std::uint32_t>(segments_.size()));
+    }
+  }
+  build();
+}
+
+SegmentIndex::SegmentIndex(const Regions& regions) {
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    for (std::size_t k = 0; k <= regions[r].holes.size(); ++k) {
+      const Ring& ring = k == 0 ? regions[r].outer : regions[r].holes[k - 1];
+      const auto first = static_cast<std::uint32_t>(segments_.size());
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        const bool last = i + 1 == ring.size();
+        segments_.push_back({ring[i], ring[last ? 0 : i + 1]});
+        origins_.push_back(
+            {static_cast<std::uint32_t>(r), static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(i)});
+        next_.push_back(last ? first : static_cast<std::uint32_t>(segments_.size()));
+      }
+    }
+  }
+  build();
+}
+
+/// The columns that the part of s within a row of cells may touch, a micron more rather than less.
+SegmentIndex::Cells SegmentIndex::columns_in_row(const Segment& s, int row) const {
+  const auto [low, high] = std::minmax(s.a.x, s.b.x);
+  if (s.a.y == s.b.y) return {column(low), column(high)};
+  const double slope = (static_cast<double>(s.b.x) - s.a.x) / (static_cast<double>(s.b.y) - s.a.y);
+  const auto [bottom, top] = std::minmax(s.a.y, s.b.y);
+  const Um from = std::max(bottom, box_.min.y + (row << shift_));
+  const Um to = std::min<Um>(top, box_.min.y + ((row + 1) << shift_));
+  const double x0 = s.a.x + slope * (static_cast<double>(from) - s.a.y),
+               x1 = s.a.x + slope * (static_cast<double>(to) - s.a.y);
+  const Um left = std::max(low, static_cast<Um>(std::floor(std::min(x0, x1))) - 1);
+  const Um right = std::min(high, static_cast<Um>(std::ceil(std::max(x0, x1))) + 1);
+  return {column(left), column(right)};
+}
+
+template <class F>
+void SegmentIndex::for_each_cell(const Segment& s, F&& f) const {
+  const int first = row(std::min(s.a.y, s.b.y)), last = row(std::max(s.a.y, s.b.y));
+  if (first == last) {
+    const int base = first * columns_, from = column(std::min(s.a.x, s.b.x)), to = column(std::max(s.a.x, s.b.x));
+    for (int c = from; c <= to; ++c) f(static_cast<std::size_t>(base + c));
+    return;
+  }
+  for (int r = first; r <= last; ++r) {
+    const Cells range = columns_in_row(s, r);
+    for (int c = range.first; c <= range.last; ++c) f(static_cast<std::size_t>(r * columns_ + c));
+  }
+}
+
+void SegmentIndex::build() {
+  for (const auto& s : segments_) box_.add(s.a), box_.add(s.b);
+  if (box_.empty()) return;
+  const auto cells_at = [&](int shift) {
+    const auto size = box_.size();
+    return ((std::int64_t{size.x} >> shift) + 1) * ((std::int64_t{size.y} >> shift) + 1);
+  };
+  const auto wanted = static_cast<std::int64_t>(segments_.size()) + 1;
+  while (cells_at(shift_) > wanted) ++shift_;
+  columns_ = column(box_.max.x) + 1;
+  rows_ = row(box_.max.y) + 1;
+  starts_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
+  for (const auto& s : segments_) for_each_cell(s, [&](std::size_t cell) { ++starts_[cell]; });
+  std::uint32_t sum = 0;
+  for (auto& start : starts_) start = sum += start;  // ends, which filling from behind turns into starts
+  entries_.resize(sum);
+  for (std::size_t i = segments_.size(); i-- > 0;)
+    for_each_cell(segments_[i], [&](std::size_t cell) { entries_[--starts_[cell]] = static_cast<std::uint32_t>(i); });
+}
+
+std::optional<SegmentIndex::Nearest> SegmentIndex::nearest(Point p, double limit_um) const {
+  if (segments_.empty()) return std::nullopt;
+  const Point inside{std::clamp(p.x, box_.min.x, box_.max.x), std::clamp(p.y, box_.min.y, box_.max.y)};
+  const int pc = column(inside.x), pr = row(inside.y);
+  const double size = std::ldexp(1.0, shift_);
+  // From here to the nearest border of the own cell: rings of cells around it are that much further away.
+  const double cx = static_cast<double>(inside.x) - box_.min.x - pc * size,
+               cy = static_cast<double>(inside.y) - box_.min.y - pr * size;
+  const double border = std::min(std::min(cx, size - cx), std::min(cy, size - cy));
+  std::optional<Nearest> best;
+  double reach = limit_um;
+  const auto look = [&](int c, int r) {
+    if (c < 0 || c >= columns_) return;
+    for (const std::uint32_t i : cell(static_cast<std::size_t>(r * columns_ + c))) {
+      const Foot foot = foot_of(p, segments_[i]);
+      if (foot.distance_um > reach || (best && foot.distance_um == reach && i >= best->segment)) continue;
+      reach = foot.distance_um;
+      best = Nearest{i, lerp(segments_[i].a, segments_[i].b, foot.along), foot.distance_um, foot.along};
+    }
+  };
+  const int farthest = std::max(std::max(pc, columns_ - 1 - pc), std::max(pr, rows_ - 1 - pr));
+  for (int k = 0; k <= farthest && (k == 0 || border + (k - 1) * size <= reach); ++k) {
+    for (int r = std::max(0, pr - k); r <= std::min(rows_ - 1, pr + k); ++r) {
+      if (r == pr - k || r == pr + k) {
+        for (int c = std::max(0, pc - k); c <= std::min(columns_ - 1, pc + k); ++c) look(c, r);
+      } else {
+        look(pc - k, r);
+        look(pc + k, r);
+      }
+    }
+  }
+  return best;
+}
+
+void SegmentIndex::near(const Box& box, std::vector<std::uint32_t>& found) const {
+  found.clear();
+  if (box.empty() || segments_.empty() || !box.overlaps(box_)) return;
+  const int c0 = column(std::max(box.min.x, box_.min.x)), c1 = column(std::min(box.max.x, box_.max.x));
+  const int r0 = row(std::max(box.min.y, box_.min.y)), r1 = row(std::min(box.max.y, box_.max.y));
+  for (int r = r0; r <= r1; ++r)
+    for (int c = c0; c <= c1; ++c) {
+      const auto here = cell(static_cast<std::size_t>(r * columns_ + c));
+      found.insert(found.end(), here.begin(), here.end());
+    }
+  if (c0 == c1 && r0 == r1) return;
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+}
+
+/// Calls f(i) for each segment near the line, often more than once, until it returns false.
+template <class F>
+void SegmentIndex::for_each_near_line(Point a, Point b, F&& f) const {
+  if (segments_.empty()) return;
+  const Um bottom = std::max(std::min(a.y, b.y), box_.min.y), top = std::min(std::max(a.y, b.y), box_.max.y);
+  if (bottom > top || std::max(a.x, b.x) < box_.min.x || std::min(a.x, b.x) > box_.max.x) return;
+  for (int r = row(bottom); r <= row(top); ++r) {
+    const Cells range = columns_in_row({a, b}, r);
+    for (int c = std::max(0, range.first); c <= std::min(columns_ - 1, range.last); ++c)
+      for (const std::uint32_t i : cell(static_cast<std::size_t>(r * columns_ + c)))
+        if (!f(i)) return;
+  }
+}
+
+void SegmentIndex::crossings(Point a, Point b, std::vector<Crossing>& found) const {
+  found.clear();
+  for_each_near_line(a, b, [&](std::uint32_t i) {
+    const auto& [c, d] = segments_[i];
+    if ((orient(a, b, c) > 0) == (orient(a, b, d) > 0)) return true;
+    const std::int64_t at_a = orient(c, d, a), at_b = orient(c, d, b);
+    if ((at_a > 0) == (at_b > 0)) return true;
+    found.push_back({i, static_cast<double>(at_a) / (static_cast<double>(at_a) - static_cast<double>(at_b)), at_b > 0});
+    return true;
+  });
+  std::sort(found.begin(), found.end(), [](const Crossing& l, const Crossing& r) {
+    return l.along != r.along ? l.along < r.along : l.segment < r.segment;
+  });
+  const auto same = [](const Crossing& l, const Crossing& r) { return l.segment == r.segment; };
+  found.erase(std::unique(found.begin(), found.end(), same), found.end());  // it was met in several cells
+}
+
+bool SegmentIndex::touches(Point p) const {
+  if (segments_.empty() || !box_.contains(p)) return false;
+  for (const std::uint32_t i : cell(static_cast<std::size_t>(row(p.y) * columns_ + column(p.x))))
+    if (segments_touch(segments_[i].a, segments_[i].b, p, p)) return true;
+  return false;
+}
+
+bool SegmentIndex::crosses(Point a, Point b) const {
+  bool found = false;
+  for_each_near_line(a, b, [&](std::uint32_t i) {
+    found = segments_cross(a, b, segments_[i].a, segments_[i].b);
+    return !found;
+  });
+  return found;
+}
+
+/// Calls f(i, step) for each segment on whose line p may lie (step 0) or that a ray from p to the left crosses (step
+/// ±1).
+template <class F>
+void SegmentIndex::for_each_left_of(Point p, F&& f) const {
+  if (segments_.empty() || !box_.contains(p)) return;
+  const int r = row(p.y), last = column(p.x);
+  for (int c = 0; c <= last; ++c) {
+    for (const std::uint32_t i : cell(static_cast<std::size_t>(r * columns_ + c))) {
+      const auto& [a, b] = segments_[i];
+      if (std::min(a.y, b.y) > p.y || std::max(a.y, b.y) < p.y || std::min(a.x, b.x) > p.x) continue;
+      const std::int64_t side = orient(a, b, p);
+      if (side == 0 && p.x <= std::max(a.x, b.x)) f(i, 0);
+      const bool up = b.y > p.y;
+      if ((a.y > p.y) == up || (side > 0) == up || side == 0) continue;
+      if (c == std::max(0, columns_in_row(segments_[i], r).first))
+        f(i, up ? -1 : 1);  // it is in several cells: count it once
+    }
+  }
+}
+
+std::optional<int> SegmentIndex::winding(Point p) const {
+  bool on = false;
+  int sum = 0;
+  for_each_left_of(p, [&](std::uint32_t, int step) {
+    on |= step == 0;
+    sum += step;
+  });
+  if (on) return std::nullopt;
+  return sum;
+}
+
+std::optional<std::size_t> SegmentIndex::region_at(Point p) const {
+  std::vector<std::pair<std::uint32_t, int>> steps;
+  std::optional<std::size_t> on;
+  for_each_left_of(p, [&](std::uint32_t i, int step) {
+    const std::uint32_t region = origins_[i].region;
+    if (step == 0)
+      on = on ? std::min<std::size_t>(*on, region) : region;
+    else
+      steps.emplace_back(region, step);
+  });
+  if (on) return on;
+  std::sort(steps.begin(), steps.end());
+  for (std::size_t i = 0, j = 0; i < steps.size(); i = j) {
+    int sum = 0;
+    for (j = i; j < steps.size() && steps[j].first == steps[i].first; ++j) sum += steps[j].second;
+    if (sum != 0) return steps[i].first;
+  }
+  return std::nullopt;
+}
+
+bool SegmentIndex::neighbours(std::uint32_t i, std::uint32_t j) const {
+  return next_[i] == j || next_[j] == i;
+}
+
+bool SegmentIndex::simple() const {
+  for (std::size_t k = 0; k + 1 < starts_.size(); ++k) {
+    const auto here = cell(k);
+    for (std::size_t x = 0; x < here.size(); ++x) {
+      const Segment s = segments_[here[x]];
+      if (s.a == s.b) return false;
+      for (std::size_t y = x + 1; y < here.size(); ++y) {
+        const Segment t = segments_[here[y]];
+        if (!segments_touch(s.a, s.b, t.a, t.b)) continue;
+        if (!neighbours(here[x], here[y])) return false;
+        // Neighbours may only share the end: a fold back would lie on the other.
+        const bool s_first = next_[here[x]] == here[y];
+        const Point before = s_first ? s.a : t.a, common = s_first ? s.b : t.b, after = s_first ? t.b : s.b;
+        if (orient(before, common, after) == 0 && dot(common - before, after - common) < 0) return false;
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace weft::geometry
