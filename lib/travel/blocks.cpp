@@ -1,0 +1,110 @@
+#include "travel/blocks.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft::travel {
+namespace {
+
+/// Beads are sampled this densely to see which touch, µm.
+constexpr double sample_um = 600;
+
+struct Sample {
+  Point at;
+  Um width;
+  std::uint32_t wall;
+};
+
+std::vector<Sample> samples_of(const Beads& beads, const std::vector<std::uint32_t>& walls) {
+  std::vector<Sample> samples;
+  for (std::uint32_t w = 0; w < walls.size(); ++w) {
+    const Bead& bead = beads[walls[w]];
+    const std::size_t n = bead.path.size(), segments = bead.closed ? n : n - 1;
+    double since = sample_um;
+    for (std::size_t i = 0; i < segments; ++i) {
+      const Point a = bead.path[i].at, b = bead.path[(i + 1) % n].at;
+      const double step = distance(a, b);
+      for (double s = sample_um - since; s < step; s += sample_um) {
+        samples.push_back({lerp(a, b, std::max(0.0, s) / step), bead.path[i].width, w});
+        since = -s;
+      }
+      since = since < 0 ? since + step : since + step;
+    }
+  }
+  return samples;
+}
+
+}  // namespace
+
+std::vector<Block> blocks_of(const LayerInput& input) {
+  std::vector<Block> blocks;
+  if (!input.adhesion.empty()) {
+    Block block;
+    for (std::uint32_t i = 0; i < input.adhesion.size(); ++i) block.fills.push_back(i);
+    blocks.push_back(std::move(block));
+  }
+  for (std::uint32_t o = 0; o < input.objects.size(); ++o) {
+    const Beads& beads = input.objects[o].beads;
+    std::vector<std::uint32_t> block_of_part;
+    constexpr std::uint32_t none = 0xFFFFFFFF;
+    for (std::uint32_t i = 0; i < beads.size(); ++i) {
+      if (beads[i].path.size() < 2) continue;
+      if (beads[i].part >= block_of_part.size()) block_of_part.resize(beads[i].part + 1, none);
+      auto& slot = block_of_part[beads[i].part];
+      if (slot == none) {
+        slot = static_cast<std::uint32_t>(blocks.size());
+        blocks.push_back({});
+        blocks.back().object = o;
+      }
+      auto& block = blocks[slot];
+      (is_wall(beads[i].role) ? block.walls : block.fills).push_back(i);
+    }
+  }
+  return blocks;
+}
+
+std::vector<Touch> touching_walls(const Beads& beads, const std::vector<std::uint32_t>& walls) {
+  std::vector<Touch> touches;
+  const auto samples = samples_of(beads, walls);
+  if (samples.empty()) return touches;
+  Box box;
+  Um widest = 1;
+  for (const auto& s : samples) box.add(s.at), widest = std::max(widest, s.width);
+  // Neighbouring centrelines are a width apart; half a sample's distance is lost along the bead.
+  const double near = 1.3 * widest, near2 = near * near + sample_um * sample_um / 4;
+  const double area = (box.size().x + 1.0) * (box.size().y + 1.0);
+  const auto cell = static_cast<std::int64_t>(std::max(
+                        {std::sqrt(near2), 1000.0, std::sqrt(area / static_cast<double>(4 * samples.size()))})) +
+                    1;
+  const auto columns = static_cast<int>(box.size().x / cell) + 1, rows = static_cast<int>(box.size().y / cell) + 1;
+  const auto column = [&](Point p) { return static_cast<int>((p.x - box.min.x) / cell); };
+  const auto row = [&](Point p) { return static_cast<int>((p.y - box.min.y) / cell); };
+  const auto index = [&](int c, int r) {
+    return static_cast<std::size_t>(r) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(c);
+  };
+  std::vector<std::uint32_t> first(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) + 1, 0),
+      items(samples.size());
+  for (const auto& s : samples) ++first[index(column(s.at), row(s.at)) + 1];
+  for (std::size_t c = 1; c < first.size(); ++c) first[c] += first[c - 1];
+  auto fill = first;
+  for (std::uint32_t i = 0; i < samples.size(); ++i)
+    items[fill[index(column(samples[i].at), row(samples[i].at))]++] = i;
+  std::vector<std::uint64_t> pairs;
+  for (const auto& s : samples)
+    for (int r = std::max(0, row(s.at) - 1); r <= std::min(rows - 1, row(s.at) + 1); ++r)
+      for (int c = std::max(0, column(s.at) - 1); c <= std::min(columns - 1, column(s.at) + 1); ++c)
+        for (std::uint32_t k = first[index(c, r)]; k < first[index(c, r) + 1]; ++k) {
+          const auto& other = samples[items[k]];
+          if (other.wall <= s.wall || beads[walls[other.wall]].inset == beads[walls[s.wall]].inset) continue;
+          const std::uint64_t pair = std::uint64_t{s.wall} << 32 | other.wall;
+          if (!pairs.empty() && pairs.back() == pair) continue;
+          if (static_cast<double>(distance2(s.at, other.at)) <= near2) pairs.push_back(pair);
+        }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  for (const auto pair : pairs)
+    touches.push_back({static_cast<std::uint32_t>(pair >> 32), static_cast<std::uint32_t>(pair)});
+  return touches;
+}
+
+}  // namespace weft::travel

@@ -1,0 +1,72 @@
+#include "travel/blocks.h"
+#include "travel/tour.h"
+
+#include <algorithm>
+
+namespace weft::travel {
+namespace {
+
+/// Seams of one layer, sorted by x, so that those near a wall are found without looking at all.
+std::span<const Point> near(const std::vector<Point>& sorted, const Bead& bead) {
+  constexpr Um reach = 6000;
+  Um least = max_coord, most = -max_coord;
+  for (const auto& j : bead.path) least = std::min(least, j.at.x), most = std::max(most, j.at.x);
+  const auto first = std::lower_bound(sorted.begin(), sorted.end(), Point{least - reach, -max_coord});
+  const auto last = std::upper_bound(first, sorted.end(), Point{most + reach, max_coord});
+  return {first, last};
+}
+
+std::vector<Start> choose_seams(const TravelSettings& settings, const Prepared& layer, std::vector<Point>& below) {
+  std::vector<Start> starts;
+  for (std::size_t s = 0; s < layer.seams.size(); ++s) {
+    const auto& seam = layer.seams[s];
+    const Bead& bead = beads_of(layer.input, layer.blocks[seam.block])[seam.bead];
+    const std::uint64_t seed = (std::uint64_t{layer.input.index} << 32) + s;
+    starts.push_back(choose_seam(settings, bead, seam.corners, near(below, bead), seed));
+  }
+  if (!starts.empty()) {  // a layer without outer walls does not end the seam lines
+    below.clear();
+    for (const auto& s : starts) below.push_back(s.at);
+    std::sort(below.begin(), below.end());
+  }
+  return starts;
+}
+
+/// A part stands where the seam of its first outer wall is, else where its first bead begins.
+std::vector<Point> places_of(const Prepared& layer, const std::vector<Start>& seams) {
+  std::vector<Point> places;
+  for (const auto& block : layer.blocks) {
+    const std::uint32_t first = block.walls.empty() ? block.fills.front() : block.walls.front();
+    places.push_back(beads_of(layer.input, block)[first].path.front().at);
+  }
+  for (std::size_t s = seams.size(); s-- > 0;) places[layer.seams[s].block] = seams[s].at;
+  return places;
+}
+
+}  // namespace
+
+std::vector<Linked> link(const TravelSettings& settings, std::span<const Prepared> layers) {
+  std::vector<Linked> linked(layers.size());
+  std::vector<Point> below;
+  std::optional<Point> at;
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    const Prepared& layer = layers[i];
+    Linked& out = linked[i];
+    out.seams = choose_seams(settings, layer, below);
+    out.places = places_of(layer, out.seams);
+    out.from = at;
+    const bool adhesion = !layer.blocks.empty() && layer.blocks[0].object == Block::adhesion;
+    if (adhesion) out.block_order.push_back(0), at = out.places[0];
+    const auto skip = static_cast<std::uint32_t>(out.block_order.size());
+    std::vector<Stop> stops;
+    for (std::size_t b = skip; b < layer.blocks.size(); ++b) stops.push_back({out.places[b], out.places[b]});
+    for (const auto& v : tour(settings.path_order, stops, {at, std::nullopt})) out.block_order.push_back(v.stop + skip);
+    if (out.block_order.empty()) continue;
+    out.begin = out.places[out.block_order.front()];
+    at = out.places[out.block_order.back()];
+  }
+  for (std::size_t i = layers.size(); i-- > 1;) linked[i - 1].next = linked[i].begin ? linked[i].begin : linked[i].next;
+  return linked;
+}
+
+}  // namespace weft::travel

@@ -1,0 +1,40 @@
+#pragma once
+#include "core/point.h"
+#include "settings/travel.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+/// The order of paths as a travelling-salesman problem: every stop is entered at one end and left at the other.
+namespace weft::travel {
+
+/// Something that is printed in one go.
+struct Stop {
+  Point a, b;
+  bool reversible = true;  ///< may also be entered at b and left at a
+};
+
+struct Visit {
+  std::uint32_t stop = 0;
+  bool reversed = false;  ///< entered at b
+  friend bool operator==(const Visit&, const Visit&) = default;
+};
+
+/// Where the nozzle comes from and where it goes on to; absent: costs nothing.
+struct TourEnds {
+  std::optional<Point> from, to;
+};
+
+/// A permutation of the stops of small total way between them. Deterministic; moving everything moves nothing in it.
+/// Post: for `optimized`, never longer than for `nearest`.
+/// Cost: O(n) local moves of bounded size: 20 000 stops take a fraction of a second.
+/// Source: Bentley 1992, "Fast algorithms for geometric traveling salesman problems" (2-opt and Or-opt with neighbour
+///         lists and don't-look bits).
+std::vector<Visit> tour(PathOrder order, std::span<const Stop> stops, const TourEnds& ends);
+
+/// Length of the way between the stops, and from and to the ends, fractional microns.
+double way(std::span<const Stop> stops, std::span<const Visit> visits, const TourEnds& ends);
+
+}  // namespace weft::travel

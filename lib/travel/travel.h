@@ -1,0 +1,101 @@
+#pragma once
+#include "model/plan.h"
+#include "settings/retraction.h"
+#include "settings/travel.h"
+#include "travel/comb.h"
+#include "travel/seam.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+/// From the beads of a layer to the steps that print them: order, seams, and the ways between.
+///
+///   prepare  each layer on its own       seam candidates, comb boundary
+///   link     once, over all layers       seams that line up, the order of the parts
+///   order    each layer on its own       the order of the beads
+///   route    each layer on its own       combed ways, retractions
+///
+/// Every function is pure; only `link` is sequential, and it is cheap.
+namespace weft::travel {
+
+/// One copy of one object on one layer, in plate coordinates.
+struct ObjectLayer {
+  std::uint32_t object = 0;  ///< index into PrintPlan::objects
+  Beads beads;               ///< walls first, of each part in the order they are to be printed; then fills
+  Regions outline;           ///< of the slice; index = Bead::part
+  Regions skin;              ///< top and bottom surfaces, for combing that keeps off them; may be empty
+};
+
+/// Everything that is printed at one height.
+struct LayerInput {
+  std::size_t index = 0;
+  Um z = 0, height = 0;
+  Beads adhesion;  ///< skirt and brim: printed first
+  std::vector<ObjectLayer> objects;
+};
+
+/// The beads of one part of one object, or the adhesion: printed before the next block begins.
+struct Block {
+  static constexpr std::uint32_t adhesion = 0xFFFFFFFF;
+  static constexpr std::uint32_t no_seam = 0xFFFFFFFF;
+  std::uint32_t object = adhesion;          ///< index into LayerInput::objects, not of the plate
+  std::vector<std::uint32_t> walls, fills;  ///< indices into the beads of that object
+  std::vector<std::uint32_t> seams;         ///< beside walls: index into Prepared::seams, or no_seam
+};
+
+struct Prepared {
+  LayerInput input;
+  std::vector<Block> blocks;
+  std::vector<SeamChoices> seams;  ///< one an outer wall that is closed
+  Comb comb;                       ///< where travels may go unretracted
+  Comb outline;                    ///< what a travel may not leave unretracted
+};
+
+/// What the layers have agreed on.
+struct Linked {
+  std::vector<Start> seams;                ///< beside Prepared::seams
+  std::vector<std::uint32_t> block_order;  ///< the adhesion is always first
+  std::vector<Point> places;               ///< of each block: about where its walls begin
+  std::optional<Point> begin;              ///< about where the layer begins; absent when nothing is printed
+  std::optional<Point> next;               ///< about where the layer above begins
+  std::optional<Point> from;               ///< about where the layer below ends
+};
+
+/// A bead on its turn.
+struct Turn {
+  std::uint32_t block = 0;  ///< index into Prepared::blocks
+  std::uint32_t bead = 0;   ///< index into the beads of its object
+  Start start;              ///< of closed beads
+  bool reversed = false;    ///< of open beads
+};
+
+struct Ordered {
+  std::vector<Turn> turns;
+  std::optional<Point> begin, end;  ///< where the first bead begins and the last one ends; absent without turns
+};
+
+/// Seam candidates and the boundaries of combing. Cost: about 1 µs a vertex.
+Prepared prepare(const TravelSettings& settings, LayerInput input);
+
+/// Chooses seams from layer to layer, and the order of the parts of each. Sequential; cost: linear in the vertices of
+/// outer walls.
+std::vector<Linked> link(const TravelSettings& settings, std::span<const Prepared> layers);
+
+/// The order of all beads of a layer.
+/// Post: every bead has exactly one turn; beads of a part follow each other, its walls in their order where they touch,
+///       then its fills; beads of equal non-zero sequence keep their order.
+Ordered order(const TravelSettings& settings, const Prepared& layer, const Linked& linked);
+
+/// The steps of the layer.
+/// Post: a travel that leaves the part is retracted; otherwise it stays inside the comb boundary, or is retracted.
+/// @param from where the layer below ended; absent on the first layer
+LayerPlan route(const TravelSettings& settings, const RetractionSettings& retraction, const Prepared& layer,
+                const Ordered& ordered, std::optional<Point> from);
+
+/// All of it, one layer after the other: for tests and for who has no threads.
+std::vector<LayerPlan> plan(const TravelSettings& settings, const RetractionSettings& retraction,
+                            std::vector<LayerInput> layers);
+
+}  // namespace weft::travel

@@ -1,0 +1,94 @@
+#include "travel/seam.h"
+
+#include "layers.h"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+using namespace weft;
+using namespace weft::travel;
+
+namespace {
+
+std::vector<Point> seams_of(const TravelSettings& settings, const std::vector<LayerInput>& inputs) {
+  std::vector<Point> seams;
+  for (const auto& p : plan(settings, {}, inputs))
+    for (const auto& step : p.steps)
+      if (const auto* e = std::get_if<Extrude>(&step); e && e->role == Role::outer_wall)
+        seams.push_back(e->path.front().at);
+  return seams;
+}
+
+/// A vase whose radius changes and whose vertices turn from layer to layer.
+std::vector<LayerInput> vase() {
+  std::vector<LayerInput> layers;
+  for (std::size_t i = 0; i < 40; ++i) {
+    Ring ring;
+    for (int k = 0; k < 90; ++k) {
+      const double a = 2 * 3.14159265358979 * (k + 0.37 * static_cast<double>(i)) / 90;
+      const double r = 15000 + 2000 * std::sin(static_cast<double>(i) / 8);
+      ring.push_back({rounded(r * std::cos(a)), rounded(r * std::sin(a))});
+    }
+    layers.push_back(sample::layer({{ring, {}}}, i));
+  }
+  return layers;
+}
+
+}  // namespace
+
+TEST_CASE("travel: seams of a square lie in a corner, and in the same one on every layer", "[travel]") {
+  const auto type = GENERATE(SeamType::sharpest_corner, SeamType::aligned);
+  TravelSettings settings;
+  settings.z_seam_type = type;
+  std::vector<LayerInput> layers;
+  for (std::size_t i = 0; i < 10; ++i)
+    layers.push_back(sample::layer({{sample::rectangle({0, 0}, {20000, 10000}), {}}}, i));
+  const auto seams = seams_of(settings, layers);
+  REQUIRE(seams.size() == 10);
+  for (const Point s : seams) {
+    CHECK(s == seams[0]);
+    CHECK((s.x == 200 || s.x == 19800));
+    CHECK((s.y == 200 || s.y == 9800));
+  }
+}
+
+TEST_CASE("travel: aligned seams of a vase make a clean line", "[travel]") {
+  TravelSettings settings;
+  settings.z_seam_type = SeamType::aligned;
+  const auto seams = seams_of(settings, vase());
+  REQUIRE(seams.size() == 40);
+  for (std::size_t i = 1; i < seams.size(); ++i) {
+    const double a = std::atan2(seams[i].y, seams[i].x), b = std::atan2(seams[i - 1].y, seams[i - 1].x);
+    CHECK(std::abs(a - b) < 0.01);
+  }
+}
+
+TEST_CASE("travel: seams at the back, at a point, anywhere", "[travel]") {
+  TravelSettings settings;
+  settings.z_seam_type = SeamType::back;
+  for (const Point s : seams_of(settings, vase())) CHECK(std::abs(std::atan2(s.y, s.x) - 1.5708) < 0.08);
+  settings.z_seam_type = SeamType::user;
+  settings.z_seam_x = -50000, settings.z_seam_y = 0;
+  for (const Point s : seams_of(settings, vase())) CHECK((s.x < 0 && std::abs(s.y) < 700));
+  settings.z_seam_type = SeamType::random;
+  const auto seams = seams_of(settings, vase());
+  int right = 0, top = 0;
+  for (const Point s : seams) right += s.x > 0, top += s.y > 0;
+  CHECK((right > 8 && right < 32 && top > 8 && top < 32));
+  CHECK(seams == seams_of(settings, vase()));
+}
+
+TEST_CASE("travel: which corners attract a seam is chosen", "[travel]") {
+  // An L: five outer corners and one inner one at (10, 10) mm.
+  const Ring l{{0, 0}, {30000, 0}, {30000, 10000}, {10000, 10000}, {10000, 30000}, {0, 30000}};
+  const Bead bead = sample::closed_bead(l, Role::outer_wall, 0, 0);
+  const auto inner = corners_of(bead, SeamCorner::inner, 10);
+  REQUIRE(inner.size() == 1);
+  CHECK(inner[0].junction == 3);
+  CHECK(corners_of(bead, SeamCorner::outer, 10).size() == 5);
+  CHECK(corners_of(bead, SeamCorner::none, 10).empty());
+  CHECK(corners_of(bead, SeamCorner::weighted, 10)[0].junction == 3);
+  const Bead round = sample::closed_bead(sample::circle({0, 0}, 10000, 200), Role::outer_wall, 0, 0);
+  CHECK(corners_of(round, SeamCorner::any, 10).empty());
+}
