@@ -1,10 +1,12 @@
 #pragma once
-#include <string>
-#include <vector>
-
+#include "gcode/dialect.h"
 #include "model/plan.h"
 #include "model/statistics.h"
 #include "settings/settings.h"
+
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace weft::gcode {
 
@@ -16,19 +18,28 @@ struct Thumbnail {
 /// Everything that goes into a file.
 struct Job {
   const Settings& settings;
-  const PrintPlan& plan;             ///< with speeds (motion)
-  const Statistics& statistics;      ///< of the whole plan
-  std::string version;               ///< of weft, "0.1.0"
-  std::string input_name;            ///< file name of the first model without folder and extension; for placeholders
+  const PrintPlan& plan;         ///< with speeds (motion)
+  const Statistics& statistics;  ///< of the whole plan
+  std::string input_name;        ///< file name of the first model, without folder and extension; for placeholders
   std::vector<Thumbnail> thumbnails;
 };
 
-/// The file in pieces, which put together in order are the whole: head, each layer, tail.
-/// Layers are independent of each other and may be written in any order and on any thread.
+/// The machine as the commands up to some place have left it.
+struct MachineState {
+  std::optional<Point3> at;
+  double fan = -1;                                         ///< −1: not said yet
+  double print_acceleration = 0, travel_acceleration = 0;  ///< mm/s²; 0: not said yet
+  bool retracted = false;
+};
+
+/// The file in pieces, which put together in order are the whole: head, each layer, tail. Layers do not depend on each
+/// other and may be written in any order and on any thread. With absolute E each begins with G92 E0.
+/// E is rounded to 10⁻⁵ mm and the rounding error is carried along: the sum over a layer is right to half of that.
+/// Cost: 1 s for some hundred MB.
 class Writer {
  public:
-  /// Expands all custom G-code and what each layer needs to know of the one before. The job must outlive the writer.
-  /// @throws Error{settings} naming the setting, line and column: an unknown placeholder, one without a value
+  /// Expands all custom G-code and finds what is in force when each layer begins. The job must outlive the writer.
+  /// @throws Error{settings} naming setting, line and column: an unknown placeholder, or one without value
   explicit Writer(const Job& job);
 
   std::string head() const;
@@ -36,21 +47,16 @@ class Writer {
   std::string tail() const;
 
  private:
-  struct Entry {  // what is in force when a layer begins
-    Point3 at;
-    bool at_known = false;
-    double fan = -1;
-    double print_acceleration = 0, travel_acceleration = 0;
-    bool retracted = false;
-  };
+  void expand_custom_code();
+
   const Job& job_;
-  std::vector<Entry> entries_;
-  std::vector<std::string> before_layer_, after_layer_;  // expanded; empty where there is nothing to say
-  std::vector<double> elapsed_s_;                        // at the beginning of each layer
-  std::vector<std::string> names_;                       // of the objects, as the firmware takes them
+  Dialect dialect_;
+  std::vector<MachineState> entries_;                    // when each layer begins
+  std::vector<double> elapsed_s_;                        // then; one more for the end
+  std::vector<std::string> before_layer_, after_layer_;  // custom G-code, expanded; empty where there is none
+  std::vector<std::string> names_;                       // of the objects
   std::string start_, end_;
   bool start_sets_nozzle_ = false, start_sets_bed_ = false;
-  std::string extents_;
 };
 
 /// The whole file.

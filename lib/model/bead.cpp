@@ -17,13 +17,9 @@ double length_mm(const Bead& bead) {
 }
 
 double volume_mm3(const Bead& bead, Um height) {
-  double um2 = 0;
-  for_each_segment(bead, [&](const Junction& a, const Junction& b) {
-    // The integral of the product of two linear functions over a segment.
-    const double wa = a.width, wb = b.width, fa = static_cast<double>(a.flow), fb = static_cast<double>(b.flow);
-    um2 += distance(a.at, b.at) * (2 * wa * fa + wa * fb + wb * fa + 2 * wb * fb) / 6.0;
-  });
-  return um2 / 1e6 * to_mm(height);
+  double um_mm2 = 0;
+  for_each_segment(bead, [&](const Junction& a, const Junction& b) { um_mm2 += distance(a.at, b.at) * mean_area_mm2(a, b, to_mm(height)); });
+  return um_mm2 / 1000.0;
 }
 
 }  // namespace weft

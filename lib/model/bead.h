@@ -73,6 +73,13 @@ struct Bead {
 };
 using Beads = std::vector<Bead>;
 
+/// Mean cross-section between two junctions of a bead of that height, mm²: the integral of the product of two linear
+/// functions, so that cutting a segment changes no volume.
+inline double mean_area_mm2(const Junction& a, const Junction& b, double height_mm) {
+  const double wa = a.width, wb = b.width, fa = static_cast<double>(a.flow), fb = static_cast<double>(b.flow);
+  return (2 * wa * fa + wa * fb + wb * fa + 2 * wb * fb) / 6000.0 * height_mm;
+}
+
 /// Length of the centreline, mm; a closed bead's closing segment counts.
 double length_mm(const Bead& bead);
 

@@ -1,9 +1,146 @@
 #include "motion/motion.h"
 
+#include "model/flow.h"
+#include "motion/cooling.h"
+#include "motion/kinematics.h"
+#include "motion/speeds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
 namespace weft::motion {
+namespace {
+
+bool is_wall(Role role) {
+  return role == Role::outer_wall || role == Role::inner_wall || role == Role::overhang_wall;
+}
+
+void count_bead(const Extrude& bead, Statistics& s) {
+  auto& feature = s.features[static_cast<std::size_t>(bead.role)];
+  const bool wall = is_wall(bead.role);
+  const double height_mm = to_mm(bead.height);
+  double mm = 0, mm3 = 0;
+  if (wall) ++s.walls.beads;
+  for (std::size_t i = 1; i < bead.path.size(); ++i) {
+    const auto &a = bead.path[i - 1], &b = bead.path[i];
+    const double length = distance(a.at, b.at) / 1000.0;
+    mm += length;
+    mm3 += length * mean_area_mm2(a, b, height_mm);
+    if (!wall) continue;
+    if (a.width != b.width) s.walls.variable_width_mm += length;
+    if (a.flow < 1.F || b.flow < 1.F) s.walls.flow_compensated_mm += length;
+  }
+  if (wall)
+    for (const auto& j : bead.path) {
+      s.walls.min_flow_ratio = std::min(s.walls.min_flow_ratio, static_cast<double>(j.flow));
+      s.walls.min_width = std::min(s.walls.min_width, flow::line_width(j.width, bead.height));
+    }
+  feature.mm += mm;
+  feature.mm3 += mm3;
+}
+
+void count_travel(const Travel& travel, std::optional<Point3> from, Statistics& s) {
+  ++s.travel.moves;
+  if (travel.crosses_wall) ++s.travel.wall_crossings;
+  for (const Point3 to : travel.path) {
+    if (from) s.travel.mm += std::hypot(to.x - from->x, to.y - from->y, to.z - from->z) / 1000.0;
+    from = to;
+  }
+}
+
+void count_times(const LayerPlan& layer, const std::vector<Move>& moves, const std::vector<double>& seconds,
+                 Statistics& s) {
+  double total = 0;
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    const auto& step = layer.steps[moves[i].step];
+    if (const auto* bead = std::get_if<Extrude>(&step))
+      s.features[static_cast<std::size_t>(bead->role)].s += seconds[i];
+    else if (std::holds_alternative<Travel>(step))
+      s.travel.s += seconds[i];
+    else
+      s.travel.retraction_s += seconds[i];
+    total += seconds[i];
+  }
+  s.layer_s.push_back(total);
+  s.print_time_s = total;
+}
+
+Statistics count(const Rules& rules, const LayerPlan& layer, std::optional<Point3> at) {
+  Statistics s;
+  std::int64_t primes = 0;
+  for (const auto& step : layer.steps) {
+    if (const auto* bead = std::get_if<Extrude>(&step)) {
+      count_bead(*bead, s);
+      at = Point3{bead->path.back().at.x, bead->path.back().at.y, layer.z};
+    } else if (const auto* travel = std::get_if<Travel>(&step)) {
+      count_travel(*travel, at, s);
+      at = travel->path.back();
+    } else if (const auto* retract = std::get_if<Retract>(&step)) {
+      ++s.travel.retractions;
+      if (!retract->wipe.empty()) at = Point3{retract->wipe.back().x, retract->wipe.back().y, at ? at->z : layer.z};
+    } else if (std::holds_alternative<Prime>(step)) {
+      ++primes;
+    }
+  }
+  const double diameter_mm = to_mm(rules.material.filament_diameter);
+  const double area_mm2 = std::numbers::pi / 4 * diameter_mm * diameter_mm;
+  for (const auto& f : s.features) s.filament_mm3 += f.mm3 * rules.material.material_flow / 100.0;
+  s.filament_mm3 += static_cast<double>(primes) * to_mm(rules.retraction.retraction_extra_prime_amount) * area_mm2;
+  s.filament_mm = s.filament_mm3 / area_mm2;
+  s.filament_g = s.filament_mm3 * rules.material.material_density / 1000.0;
+  return s;
+}
+
+}  // namespace
 
 Rules rules_of(const Settings& s) {
   return {s.machine, s.material, s.layers, s.walls, s.retraction, s.speeds, s.cooling};
+}
+
+PlannedLayer plan_layer(const Rules& rules, LayerPlan layer, std::size_t index, std::optional<Point3> start) {
+  set_speeds(rules, layer, index == 0, start);
+  auto moves = moves_of(rules, layer, start);
+  std::vector<double> seconds;
+  seconds_of(rules.machine, moves, {}, seconds);
+  const double seconds_now = std::accumulate(seconds.begin(), seconds.end(), 0.0);
+  const auto slowdown = slowdown_for(rules, moves, seconds_now);
+  if (slowdown.factor < 1) {
+    slow_down(layer, slowdown);
+    seconds_of(rules.machine, moves, slowdown, seconds);
+  }
+  PlannedLayer out;
+  out.statistics = count(rules, layer, start);
+  count_times(layer, moves, seconds, out.statistics);
+  set_fan(rules.cooling, layer, index, out.statistics.print_time_s);
+  out.plan = std::move(layer);
+  return out;
+}
+
+std::vector<std::optional<Point3>> starts_of(const PrintPlan& print) {
+  std::vector<std::optional<Point3>> starts;
+  starts.reserve(print.layers.size());
+  std::optional<Point3> at;
+  for (const auto& layer : print.layers) {
+    starts.push_back(at);
+    constexpr Point3 nowhere{-max_coord - 1, -max_coord - 1, -max_coord - 1};
+    const auto end = end_of(layer, at.value_or(nowhere));
+    if (end != nowhere) at = end;
+  }
+  return starts;
+}
+
+Planned plan(const Rules& rules, PrintPlan print) {
+  Planned out;
+  const auto starts = starts_of(print);
+  for (std::size_t i = 0; i < print.layers.size(); ++i) {
+    auto planned = plan_layer(rules, std::move(print.layers[i]), i, starts[i]);
+    print.layers[i] = std::move(planned.plan);
+    out.statistics.append(planned.statistics);
+  }
+  out.plan = std::move(print);
+  return out;
 }
 
 }  // namespace weft::motion

@@ -1,9 +1,9 @@
 #pragma once
-#include <optional>
-
 #include "model/plan.h"
 #include "model/statistics.h"
 #include "settings/settings.h"
+
+#include <optional>
 
 namespace weft::motion {
 
@@ -31,9 +31,13 @@ struct PlannedLayer {
 /// @param index of the layer, from 0
 /// @param start where the nozzle is when the layer begins (model/plan.h, end_of); nothing: unknown
 /// Pre:  speeds of `layer` are not set.  Post: all speeds > 0.
-/// Cost: O(junctions); a few passes more where the layer is slowed down. Layers do not depend on each other: the estimate of
+/// Cost: O(junctions); a few passes more where the layer is slowed down. Layers do not depend on each other: the
+/// estimate of
 ///       time lets each begin and end at rest, which costs a fraction of a second a layer.
 PlannedLayer plan_layer(const Rules& rules, LayerPlan layer, std::size_t index, std::optional<Point3> start);
+
+/// Where the nozzle is when each layer begins; nothing where no layer before has moved.
+std::vector<std::optional<Point3>> starts_of(const PrintPlan& print);
 
 /// All layers, one after the other.
 struct Planned {

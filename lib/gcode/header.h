@@ -1,0 +1,27 @@
+#pragma once
+#include "gcode/writer.h"
+
+/// The comments that viewers and print servers read at the top and the bottom of a file.
+namespace weft::gcode {
+
+/// Everything before the first command. Print servers read the first MiB only: it fits unless thumbnails are huge.
+std::string top_comments(const Job& job);
+
+/// Everything after the last command: filament, time, and the settings as `; key = value`.
+std::string bottom_comments(const Job& job);
+
+/// 1d 2h 3m 4s, without the zeros in front, as PrusaSlicer writes durations.
+std::string duration(double seconds);
+
+/// Where the nozzle goes, over all moves.
+struct Extents {
+  Point3 least{max_coord, max_coord, max_coord}, most{-max_coord, -max_coord, -max_coord};
+  bool empty() const { return least.x > most.x; }
+  void add(Point3 p);
+};
+Extents extents_of(const PrintPlan& plan);
+
+/// What the beads of the first layer cover, their width included.
+Box first_layer_box(const PrintPlan& plan);
+
+}  // namespace weft::gcode

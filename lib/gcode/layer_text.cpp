@@ -1,0 +1,263 @@
+#include "gcode/layer_text.h"
+
+#include "model/flow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace weft::gcode {
+namespace {
+
+/// Widths in comments differ at least by this; viewers do not show less.
+constexpr Um width_step = 5;
+
+/// E in units of its last decimal.
+constexpr double units_per_mm = 1e5;
+
+std::int64_t nearest(double v) {
+  return static_cast<std::int64_t>(v < 0 ? v - 0.5 : v + 0.5);
+}
+
+std::size_t expected_bytes(const LayerPlan& plan) {
+  std::size_t n = 512;
+  for (const auto& step : plan.steps) {
+    n += 64;
+    if (const auto* bead = std::get_if<Extrude>(&step)) n += 24 * bead->path.size();
+  }
+  return n;
+}
+
+class LayerText {
+ public:
+  explicit LayerText(const LayerJob& job) : job_(job), state_(job.entry), out_(expected_bytes(job.plan)) {
+    const auto& material = job.settings.material;
+    const double diameter_mm = to_mm(material.filament_diameter);
+    e_per_mm3_ = material.material_flow / 100.0 / (std::numbers::pi / 4 * diameter_mm * diameter_mm) * units_per_mm;
+  }
+
+  std::string all() && {
+    head();
+    bool arrived = job_.after_layer.empty();
+    for (const auto& step : job_.plan.steps) {
+      if (!arrived && std::holds_alternative<Extrude>(step)) {
+        custom(job_.after_layer);
+        arrived = true;
+      }
+      std::visit([&](const auto& s) { print(s); }, step);
+    }
+    return std::move(out_).take();
+  }
+
+ private:
+  void head() {
+    out_ << ";LAYER_CHANGE\n;Z:";
+    out_.length(job_.plan.z) << "\n;HEIGHT:";
+    out_.length(height_ = job_.plan.height) << '\n';
+    if (job_.before_layer.find(";BEFORE_LAYER_CHANGE") == std::string_view::npos) {
+      out_ << ";BEFORE_LAYER_CHANGE\n;";  // where print servers look for the height of the object
+      out_.length(job_.plan.z) << '\n';
+    }
+    out_ << job_.preamble;
+    if (!job_.settings.gcode.relative_extrusion) out_ << "G92 E0\n";
+    custom(job_.before_layer);
+  }
+
+  void custom(std::string_view code) {
+    if (code.empty()) return;
+    out_ << ";TYPE:Custom\n" << code;
+    if (code.back() != '\n') out_ << '\n';
+    role_ = -1;
+    feed_ = 0;
+    state_.print_acceleration = state_.travel_acceleration = 0;
+  }
+
+  void accelerate(double mm_s2, bool travel) {
+    if (mm_s2 <= 0) return;
+    const bool own = travel && job_.dialect.separate_travel_acceleration();
+    double& now = own ? state_.travel_acceleration : state_.print_acceleration;
+    if (now == mm_s2) return;
+    now = mm_s2;
+    if (travel)
+      job_.dialect.travel_acceleration(out_, std::llround(mm_s2));
+    else
+      job_.dialect.print_acceleration(out_, std::llround(mm_s2));
+  }
+
+  /// X, Y and Z as far as they change.
+  bool axes(Point3 to) {
+    const auto& at = state_.at;
+    if (at == to) return false;
+    if (!at || at->x != to.x) (out_ << " X").length(to.x);
+    if (!at || at->y != to.y) (out_ << " Y").length(to.y);
+    if (!at || at->z != to.z) (out_ << " Z").length(to.z);
+    return true;
+  }
+
+  void feed(double speed_mm_s) {
+    const auto f = feed_of(speed_mm_s);
+    if (f == feed_) return;
+    feed_ = f;
+    out_ << " F" << f;
+  }
+
+  /// E for what is wanted in sum so far.
+  void filament(double units) {
+    e_wanted_ += units;
+    const std::int64_t step = nearest(e_wanted_) - e_written_;
+    if (step == 0) return;
+    e_written_ += step;
+    (out_ << " E").filament(job_.settings.gcode.relative_extrusion ? step : e_written_);
+  }
+
+  void travel_to(Point3 to, double speed_mm_s) {
+    if (state_.at == to) return;
+    out_ << "G0";
+    axes(to);
+    feed(speed_mm_s);
+    out_ << '\n';
+    state_.at = to;
+  }
+
+  void print(const Extrude& bead) {
+    if (bead.path.size() < 2) return;
+    const auto& first = bead.path.front().at;
+    travel_to({first.x, first.y, job_.plan.z}, job_.settings.speeds.speed_travel);
+    if (role_ != static_cast<int>(bead.role)) {
+      role_ = static_cast<int>(bead.role);
+      out_ << ";TYPE:" << name_of(bead.role).comment << '\n';
+    }
+    if (bead.height != height_) (out_ << ";HEIGHT:").length(height_ = bead.height) << '\n';
+    accelerate(bead.acceleration_mm_s2, false);
+    const double height_mm = to_mm(bead.height);
+    const bool varies = !bead.segment_speed_mm_s.empty(), flow_comments = job_.settings.gcode.gcode_flow_comments;
+    for (std::size_t i = 1; i < bead.path.size(); ++i) {
+      const auto &a = bead.path[i - 1], &b = bead.path[i];
+      if (a.at == b.at) continue;
+      width((a.width + b.width) / 2, bead.height);
+      out_ << "G1";
+      axes({b.at.x, b.at.y, job_.plan.z});
+      filament(distance(a.at, b.at) / 1000.0 * mean_area_mm2(a, b, height_mm) * e_per_mm3_);
+      feed(varies ? static_cast<double>(bead.segment_speed_mm_s[i - 1]) : bead.speed_mm_s);
+      if (flow_comments && (a.flow != 1.F || b.flow != 1.F)) {
+        out_ << " ; flow ";
+        out_.length(rounded(500.0 * static_cast<double>(a.flow + b.flow)));
+      }
+      out_ << '\n';
+      state_.at = Point3{b.at.x, b.at.y, job_.plan.z};
+    }
+  }
+
+  void width(Um band, Um height) {
+    if (std::abs(band - band_) < width_step) return;
+    band_ = band;
+    (out_ << ";WIDTH:").length(flow::line_width(band, height)) << '\n';
+  }
+
+  void print(const Travel& travel) {
+    if (travel.path.empty()) return;
+    accelerate(travel.acceleration_mm_s2, true);
+    for (const Point3 to : travel.path)
+      travel_to(to, state_.at ? speed_between(travel, *state_.at, to) : travel.speed_mm_s);
+  }
+
+  void extruder_only(double units, double speed_mm_s) {
+    if (nearest(e_wanted_ + units) == e_written_) return void(e_wanted_ += units);
+    out_ << "G1";
+    filament(units);
+    feed(speed_mm_s);
+    out_ << '\n';
+  }
+
+  void print(const Retract& retract) {
+    const auto& r = job_.settings.retraction;
+    const double amount = to_mm(r.retraction_amount) * units_per_mm;
+    const bool draws = !state_.retracted;
+    state_.retracted = true;
+    const double before = r.firmware_retraction ? 1 : retract.before_wipe;
+    if (draws && r.firmware_retraction)
+      out_ << "G10\n";
+    else if (draws)
+      extruder_only(-amount * before, r.retraction_retract_speed);
+    if (retract.wipe.empty() || !state_.at) return;
+    const double whole = distance(flat(*state_.at), retract.wipe.front()) + length_of(retract.wipe);
+    if (whole <= 0) return;
+    out_ << ";WIPE_START\n";
+    for (const Point p : retract.wipe) {
+      const Point3 to{p.x, p.y, state_.at->z};
+      if (to == *state_.at) continue;
+      out_ << "G1";
+      axes(to);
+      if (draws) filament(-amount * (1 - before) * distance(flat(*state_.at), p) / whole);
+      feed(retract.wipe_speed_mm_s);
+      out_ << '\n';
+      state_.at = to;
+    }
+    out_ << ";WIPE_END\n";
+  }
+
+  void print(const Prime&) {
+    if (!state_.retracted) return;
+    state_.retracted = false;
+    const auto& r = job_.settings.retraction;
+    const double speed = r.retraction_prime_speed.value_or(r.retraction_retract_speed);
+    if (r.firmware_retraction) out_ << "G11\n";
+    const double mm = to_mm(r.firmware_retraction ? 0 : r.retraction_amount) + to_mm(r.retraction_extra_prime_amount);
+    extruder_only(mm * units_per_mm, speed);
+  }
+
+  void print(const SetFan& fan) {
+    if (fan.share == state_.fan) return;
+    state_.fan = fan.share;
+    job_.dialect.fan(out_, fan.share);
+  }
+
+  void print(const ObjectStart& object) { job_.dialect.object_start(out_, object.object, job_.names); }
+  void print(const ObjectEnd& object) { job_.dialect.object_end(out_, object.object, job_.names); }
+
+  const LayerJob& job_;
+  MachineState state_;
+  Text out_;
+  double e_per_mm3_ = 0;
+  double e_wanted_ = 0;         // units since the layer began
+  std::int64_t e_written_ = 0;  // likewise
+  std::int64_t feed_ = 0;       // 0: not said in this layer
+  int role_ = -1;
+  Um height_ = 0, band_ = 0;
+};
+
+}  // namespace
+
+std::int64_t feed_of(double speed_mm_s) {
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(speed_mm_s * 60 + 1e-3));
+}
+
+std::string layer_text(const LayerJob& job) {
+  return LayerText(job).all();
+}
+
+void advance(MachineState& state, const Dialect& dialect, const LayerPlan& layer) {
+  double& travel_acceleration =
+      dialect.separate_travel_acceleration() ? state.travel_acceleration : state.print_acceleration;
+  for (const auto& step : layer.steps) {
+    if (const auto* bead = std::get_if<Extrude>(&step)) {
+      if (bead->path.size() < 2) continue;
+      state.at = Point3{bead->path.back().at.x, bead->path.back().at.y, layer.z};
+      if (bead->acceleration_mm_s2 > 0) state.print_acceleration = bead->acceleration_mm_s2;
+    } else if (const auto* travel = std::get_if<Travel>(&step)) {
+      if (travel->path.empty()) continue;
+      state.at = travel->path.back();
+      if (travel->acceleration_mm_s2 > 0) travel_acceleration = travel->acceleration_mm_s2;
+    } else if (const auto* retract = std::get_if<Retract>(&step)) {
+      state.retracted = true;
+      if (!retract->wipe.empty() && state.at)
+        state.at = Point3{retract->wipe.back().x, retract->wipe.back().y, state.at->z};
+    } else if (std::holds_alternative<Prime>(step)) {
+      state.retracted = false;
+    } else if (const auto* fan = std::get_if<SetFan>(&step)) {
+      state.fan = fan->share;
+    }
+  }
+}
+
+}  // namespace weft::gcode

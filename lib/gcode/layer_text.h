@@ -1,0 +1,28 @@
+#pragma once
+#include "gcode/writer.h"
+
+#include <string_view>
+
+namespace weft::gcode {
+
+/// What the text of one layer is made of.
+struct LayerJob {
+  const Settings& settings;
+  const Dialect& dialect;
+  const LayerPlan& plan;
+  const MachineState& entry;
+  const std::vector<std::string>& names;
+  std::string_view preamble;      ///< after ;LAYER_CHANGE, before the first move
+  std::string_view before_layer;  ///< custom G-code
+  std::string_view after_layer;
+};
+
+std::string layer_text(const LayerJob& job);
+
+/// The state of the machine after a layer that began in `state`.
+void advance(MachineState& state, const Dialect& dialect, const LayerPlan& layer);
+
+/// Speed as F says it: mm/min, rounded down so that no limit is exceeded.
+std::int64_t feed_of(double speed_mm_s);
+
+}  // namespace weft::gcode

@@ -1,0 +1,19 @@
+#pragma once
+#include "motion/kinematics.h"
+
+namespace weft::motion {
+
+/// How much printing must be slowed down so that the moves take cool_min_layer_time, to 0.01 s; as far as
+/// cool_min_speed lets it. No slow-down when they do already.
+Slowdown slowdown_for(const Rules& rules, const std::vector<Move>& moves, double seconds_now);
+
+/// Applies it to the beads of a layer.
+void slow_down(LayerPlan& layer, const Slowdown& slowdown);
+
+/// The fan of a layer that takes so long, 0 … 1.
+double fan_share(const CoolingSettings& cooling, std::size_t index, double seconds);
+
+/// Puts SetFan steps in: for the layer, and around bridges and overhangs.
+void set_fan(const CoolingSettings& cooling, LayerPlan& layer, std::size_t index, double seconds);
+
+}  // namespace weft::motion

@@ -1,0 +1,170 @@
+#include "motion/kinematics.h"
+
+#include "motion/speeds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace weft::motion {
+namespace {
+
+/// Marlin's default jerk of Z, mm/s: lifts all but stop.
+constexpr double z_jerk_mm_s = 0.4;
+
+/// Klipper's default: at least this share of a move is at cruising speed.
+constexpr double min_cruise_ratio = 0.5;
+
+double smaller_per_axis(const Move& m, double x, double y, double z) {
+  double least = 1e9;
+  if (m.ux != 0) least = std::min(least, x / std::abs(m.ux));
+  if (m.uy != 0) least = std::min(least, y / std::abs(m.uy));
+  if (m.uz != 0) least = std::min(least, z / std::abs(m.uz));
+  return least;
+}
+
+/// Time of a move of the extruder alone, from rest to rest.
+double extruder_s(double mm, double speed_mm_s, const MachineSettings& machine) {
+  const double v = std::min(speed_mm_s, machine.machine_max_speed_e), a = machine.machine_max_acceleration_e;
+  mm = std::abs(mm);
+  return mm * a >= v * v ? mm / v + v / a : 2 * std::sqrt(mm / a);
+}
+
+/// Square of the speed that a corner may be taken at, (mm/s)², by the machine's rule; before the moves' own speeds.
+double corner_speed2(const MachineSettings& machine, const Move& in, const Move& out) {
+  if (in.length_mm == 0 || out.length_mm == 0) return 0;
+  if (machine.firmware != Firmware::klipper && !machine.machine_junction_deviation) {
+    const double across =
+        std::max({std::abs(in.ux - out.ux) / machine.machine_max_jerk,
+                  std::abs(in.uy - out.uy) / machine.machine_max_jerk, std::abs(in.uz - out.uz) / z_jerk_mm_s});
+    return across > 0 ? 1 / (across * across) : 1e12;
+  }
+  const double cos_theta = -(in.ux * out.ux + in.uy * out.uy + in.uz * out.uz);  // of the angle between the two legs
+  if (cos_theta > 0.999999) return 0;
+  if (cos_theta < -0.999999) return 1e12;
+  const double a = std::min(in.acceleration_mm_s2, out.acceleration_mm_s2);
+  const double sin_half = std::sqrt(0.5 * (1 - cos_theta));
+  const double curve = sin_half / (1 - sin_half);
+  if (machine.firmware != Firmware::klipper) return a * *machine.machine_junction_deviation * curve;
+  const double corner = machine.machine_max_jerk;  // v² = corner²·(√2 − 1)/a · curve · a
+  const double tan_half = sin_half / std::sqrt(0.5 * (1 + cos_theta));
+  return std::min(corner * corner * (std::numbers::sqrt2 - 1) * curve,
+                  0.5 * std::min(in.length_mm, out.length_mm) * tan_half * a);
+}
+
+double trapezoid_s(double length, double cruise, double a, double entry2, double exit2, bool klipper) {
+  const double entry = std::sqrt(entry2), exit = std::sqrt(exit2);
+  double v2 = cruise * cruise;
+  if (klipper)
+    v2 = std::min(v2, std::max({0.5 * (entry2 + exit2) + (1 - min_cruise_ratio) * a * length, entry2, exit2}));
+  const double ramps = (2 * v2 - entry2 - exit2) / (2 * a);
+  if (ramps <= length) {
+    const double v = std::sqrt(v2);
+    return (2 * v - entry - exit) / a + (length - ramps) / v;
+  }
+  const double peak = std::sqrt(a * length + 0.5 * (entry2 + exit2));
+  return (2 * peak - entry - exit) / a;
+}
+
+/// Collects moves, tracking where the nozzle is.
+struct Collector {
+  const MachineSettings& machine;
+  std::vector<Move>& moves;
+  std::optional<Point3> at;
+
+  void go(Point3 to, double speed_mm_s, double acceleration_mm_s2, std::uint32_t step, bool prints) {
+    if (at && *at != to) {
+      const double x = (static_cast<double>(to.x) - at->x) / 1000.0, y = (static_cast<double>(to.y) - at->y) / 1000.0,
+                   z = (static_cast<double>(to.z) - at->z) / 1000.0;
+      Move m;
+      m.length_mm = std::sqrt(x * x + y * y + z * z);
+      m.ux = x / m.length_mm, m.uy = y / m.length_mm, m.uz = z / m.length_mm;
+      m.speed_mm_s = std::min(speed_mm_s, smaller_per_axis(m, machine.machine_max_speed_x, machine.machine_max_speed_y,
+                                                           machine.machine_max_speed_z));
+      m.acceleration_mm_s2 = std::min(
+          acceleration_mm_s2, smaller_per_axis(m, machine.machine_max_acceleration_x,
+                                               machine.machine_max_acceleration_y, machine.machine_max_acceleration_z));
+      m.step = step, m.prints = prints;
+      moves.push_back(m);
+    }
+    at = to;
+  }
+  void pause(double s, std::uint32_t step) {
+    if (s > 0) moves.push_back({.pause_s = s, .step = step});
+  }
+};
+
+}  // namespace
+
+double Slowdown::of(double speed_mm_s) const {
+  return std::max(speed_mm_s * factor, std::min(speed_mm_s, least_mm_s));
+}
+
+std::vector<Move> moves_of(const Rules& rules, const LayerPlan& layer, std::optional<Point3> start) {
+  std::size_t count = 0;
+  for (const auto& step : layer.steps) {
+    ++count;
+    if (const auto* bead = std::get_if<Extrude>(&step)) count += bead->path.size();
+    if (const auto* travel = std::get_if<Travel>(&step)) count += travel->path.size();
+  }
+  std::vector<Move> moves;
+  moves.reserve(count);
+  Collector out{rules.machine, moves, start};
+  const auto& r = rules.retraction;
+  const double unset = rules.speeds.acceleration_print, amount_mm = to_mm(r.retraction_amount);
+  bool retracted = false;
+  for (std::uint32_t i = 0; i < layer.steps.size(); ++i) {
+    const auto& step = layer.steps[i];
+    if (const auto* bead = std::get_if<Extrude>(&step)) {
+      const double a = bead->acceleration_mm_s2 > 0 ? bead->acceleration_mm_s2 : unset;
+      const bool varies = !bead->segment_speed_mm_s.empty();
+      for (std::size_t k = 0; k < bead->path.size(); ++k) {
+        const double v = varies && k > 0 ? static_cast<double>(bead->segment_speed_mm_s[k - 1]) : bead->speed_mm_s;
+        out.go({bead->path[k].at.x, bead->path[k].at.y, layer.z}, v, a, i, true);
+      }
+    } else if (const auto* travel = std::get_if<Travel>(&step)) {
+      for (const Point3 to : travel->path)
+        out.go(to, out.at ? speed_between(*travel, *out.at, to) : travel->speed_mm_s,
+               travel->acceleration_mm_s2 > 0 ? travel->acceleration_mm_s2 : unset, i, false);
+    } else if (const auto* retract = std::get_if<Retract>(&step)) {
+      if (!retracted)
+        out.pause(extruder_s(amount_mm * retract->before_wipe, r.retraction_retract_speed, rules.machine), i);
+      for (const Point p : retract->wipe)
+        out.go({p.x, p.y, out.at ? out.at->z : layer.z}, retract->wipe_speed_mm_s, travel_acceleration_mm_s2(rules), i,
+               false);
+      retracted = true;
+    } else if (std::holds_alternative<Prime>(step)) {
+      out.pause(extruder_s(amount_mm + to_mm(r.retraction_extra_prime_amount),
+                           r.retraction_prime_speed.value_or(r.retraction_retract_speed), rules.machine),
+                i);
+      retracted = false;
+    }
+  }
+  return moves;
+}
+
+void seconds_of(const MachineSettings& machine, const std::vector<Move>& moves, const Slowdown& slowdown,
+                std::vector<double>& seconds) {
+  const std::size_t n = moves.size();
+  seconds.assign(n, 0);
+  std::vector<double> speed(n), entry2(n + 1, 0.0);  // entry2[n]: at rest in the end
+  for (std::size_t i = 0; i < n; ++i)
+    speed[i] = moves[i].prints ? slowdown.of(moves[i].speed_mm_s) : moves[i].speed_mm_s;
+  for (std::size_t i = 1; i < n; ++i) {
+    const double v = std::min(speed[i - 1], speed[i]);
+    entry2[i] = std::min(v * v, corner_speed2(machine, moves[i - 1], moves[i]));
+  }
+  for (std::size_t i = n; i-- > 0;)
+    entry2[i] = std::min(entry2[i], entry2[i + 1] + 2 * moves[i].acceleration_mm_s2 * moves[i].length_mm);
+  for (std::size_t i = 0; i < n; ++i)
+    entry2[i + 1] = std::min(entry2[i + 1], entry2[i] + 2 * moves[i].acceleration_mm_s2 * moves[i].length_mm);
+  const bool klipper = machine.firmware == Firmware::klipper;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto& m = moves[i];
+    seconds[i] = m.length_mm == 0
+                     ? m.pause_s
+                     : trapezoid_s(m.length_mm, speed[i], m.acceleration_mm_s2, entry2[i], entry2[i + 1], klipper);
+  }
+}
+
+}  // namespace weft::motion

@@ -1,0 +1,39 @@
+#pragma once
+#include "motion/motion.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace weft::motion {
+
+/// One straight move as firmware's planner sees it, or a pause.
+struct Move {
+  double length_mm = 0;
+  double ux = 0, uy = 0, uz = 0;  ///< unit vector
+  double speed_mm_s = 0;
+  double acceleration_mm_s2 = 0;
+  double pause_s = 0;      ///< at rest: length is 0
+  std::uint32_t step = 0;  ///< of the layer
+  bool prints = false;     ///< may be slowed down to let a layer set
+};
+
+/// The moves of a layer with speeds, within what the axes can do.
+/// Pre: set_speeds has been applied.
+std::vector<Move> moves_of(const Rules& rules, const LayerPlan& layer, std::optional<Point3> start);
+
+/// Printing slowed down: speeds are multiplied by `factor`, but not below `least_mm_s` (slower ones stay).
+struct Slowdown {
+  double factor = 1;
+  double least_mm_s = 0;
+  double of(double speed_mm_s) const;
+};
+
+/// Seconds that each move takes, from rest to rest, with look-ahead over all of them: trapezoids whose speed in a
+/// corner is bounded by jerk per axis (Marlin, RepRapFirmware), by junction deviation where machine_junction_deviation
+/// is set, or by Klipper's square corner velocity (machine_max_jerk) and minimum cruise ratio. Source: Marlin
+/// planner.cpp; Klipper docs/Kinematics.md ("Look-ahead", "Junction speed"); S. Jeon 2011, junction deviation. Cost:
+/// O(moves).
+void seconds_of(const MachineSettings& machine, const std::vector<Move>& moves, const Slowdown& slowdown,
+                std::vector<double>& seconds);
+
+}  // namespace weft::motion

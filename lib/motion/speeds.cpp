@@ -1,0 +1,275 @@
+#include "motion/speeds.h"
+
+#include "core/tolerances.h"
+#include "model/flow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace weft::motion {
+namespace {
+
+/// Speeds of neighbouring segments closer together than this are made one, so that F is not repeated at every move.
+constexpr double same_speed = 1.05;
+
+double area_mm2(const Junction& j, double height_mm) {
+  return to_mm(j.width) * static_cast<double>(j.flow) * height_mm;
+}
+
+bool is_wall(Role role) {
+  return role == Role::outer_wall || role == Role::inner_wall || role == Role::overhang_wall;
+}
+
+/// The cross-section that a wall of nominal width has, mm².
+double nominal_area_mm2(const Rules& rules, Role role, Um height) {
+  const Um nozzle = rules.machine.nozzle_diameter;
+  const Um width = role == Role::outer_wall
+                       ? rules.walls.wall_line_width_0.value_or(flow::automatic_outer_width(nozzle))
+                       : rules.walls.wall_line_width_x.value_or(flow::automatic_width(nozzle, height));
+  return flow::area_mm2(to_mm(width), to_mm(height));
+}
+
+/// What small closed walls are slowed to.
+double with_small_perimeter(const Rules& rules, const Extrude& bead, double speed_mm_s) {
+  if (!rules.speeds.speed_small_perimeter || !is_wall(bead.role) || bead.path.front().at != bead.path.back().at)
+    return speed_mm_s;
+  double um = 0;
+  for (std::size_t i = 1; i < bead.path.size() && um <= rules.speeds.small_perimeter_length; ++i)
+    um += distance(bead.path[i - 1].at, bead.path[i].at);
+  if (um > rules.speeds.small_perimeter_length) return speed_mm_s;
+  return std::min(speed_mm_s, rules.speeds.speed_small_perimeter->of(speed_mm_s));
+}
+
+/// The largest speed at which a segment of that area and length may follow one of flow rate q (and half duration t)
+/// when the rate may grow by `slope` mm³/s²: area·v = q + slope·(t + length/2v).
+double reachable_speed(double area, double length_mm, double q, double half_s, double slope) {
+  const double b = q + slope * half_s, c = 0.5 * slope * length_mm;
+  return (b + std::sqrt(b * b + 4 * area * c)) / (2 * area);
+}
+
+struct Segment {
+  double length_mm, area_mm2, area_change_mm2, speed_mm_s;
+};
+
+/// Lowers speeds until the flow rate changes no faster than `slope`, mm³/s²: within each segment, then from each to the
+/// next in both directions (the faster of two gives way, so that nothing is ever raised).
+void limit_slope(std::vector<Segment>& segments, double slope) {
+  for (auto& s : segments)
+    if (s.area_change_mm2 > 0)
+      s.speed_mm_s = std::min(s.speed_mm_s, std::sqrt(slope * s.length_mm / s.area_change_mm2));
+  const auto follow = [&](const Segment& before, Segment& s) {
+    if (s.area_mm2 <= 0 || before.speed_mm_s <= 0) return;
+    const double half_s = 0.5 * before.length_mm / before.speed_mm_s;
+    s.speed_mm_s = std::min(
+        s.speed_mm_s, reachable_speed(s.area_mm2, s.length_mm, before.area_mm2 * before.speed_mm_s, half_s, slope));
+  };
+  for (std::size_t i = 1; i < segments.size(); ++i) follow(segments[i - 1], segments[i]);
+  for (std::size_t i = segments.size(); i-- > 1;) follow(segments[i], segments[i - 1]);
+}
+
+/// Joins neighbours of nearly the same speed at the lowest of them; one speed for the whole bead where that will do.
+void store(const std::vector<Segment>& segments, Extrude& bead) {
+  bead.segment_speed_mm_s.resize(segments.size());
+  bool one = true;
+  for (std::size_t i = 0; i < segments.size();) {
+    double least = segments[i].speed_mm_s, most = least;
+    std::size_t end = i + 1;
+    for (; end < segments.size(); ++end) {
+      const double v = segments[end].speed_mm_s;
+      if (std::max(most, v) > same_speed * std::min(least, v)) break;
+      least = std::min(least, v), most = std::max(most, v);
+    }
+    std::fill(bead.segment_speed_mm_s.begin() + static_cast<std::ptrdiff_t>(i),
+              bead.segment_speed_mm_s.begin() + static_cast<std::ptrdiff_t>(end), static_cast<float>(least));
+    one = one && end - i == segments.size();
+    bead.speed_mm_s = i == 0 ? least : std::min(bead.speed_mm_s, least);
+    i = end;
+  }
+  if (one) bead.segment_speed_mm_s.clear();
+}
+
+}  // namespace
+
+double feature_speed_mm_s(const Rules& rules, Role role, bool first_layer) {
+  const auto& s = rules.speeds;
+  double speed = 0;
+  switch (role) {
+    case Role::outer_wall:
+      speed = s.speed_wall_0;
+      break;
+    case Role::inner_wall:
+      speed = s.speed_wall_x;
+      break;
+    case Role::overhang_wall:
+      speed = s.speed_overhang.of(s.speed_wall_0);
+      break;
+    case Role::infill:
+    case Role::support:
+    case Role::wipe_tower:
+      speed = s.speed_infill;
+      break;
+    case Role::solid_infill:
+    case Role::support_interface:
+      speed = s.speed_topbottom;
+      break;
+    case Role::top_skin:
+      speed = s.speed_top_skin;
+      break;
+    case Role::bridge:
+      speed = s.speed_bridge;
+      break;
+    case Role::gap_fill:
+      speed = s.speed_gap_fill;
+      break;
+    case Role::skirt:
+    case Role::brim:
+      if (s.skirt_brim_speed) return *s.skirt_brim_speed;
+      speed = s.speed_wall_0;
+      break;
+  }
+  return first_layer ? std::min(speed, s.speed_layer_0.of(speed)) : speed;
+}
+
+double feature_acceleration_mm_s2(const Rules& rules, Role role, bool first_layer) {
+  const auto& s = rules.speeds;
+  const double print = s.acceleration_print;
+  double a = print;
+  switch (role) {
+    case Role::outer_wall:
+    case Role::overhang_wall:
+      a = s.acceleration_wall_0.value_or(print);
+      break;
+    case Role::inner_wall:
+    case Role::gap_fill:
+      a = s.acceleration_wall_x.value_or(print);
+      break;
+    case Role::infill:
+      a = s.acceleration_infill.value_or(print);
+      break;
+    case Role::solid_infill:
+      a = s.acceleration_topbottom.value_or(print);
+      break;
+    case Role::top_skin:
+      a = s.acceleration_top_skin.value_or(s.acceleration_topbottom.value_or(print));
+      break;
+    case Role::bridge:
+      a = s.acceleration_bridge.value_or(print);
+      break;
+    default:
+      break;
+  }
+  if (first_layer && s.acceleration_layer_0) a = *s.acceleration_layer_0;
+  return std::min({a, rules.machine.machine_max_acceleration_x, rules.machine.machine_max_acceleration_y});
+}
+
+double travel_acceleration_mm_s2(const Rules& rules) {
+  return std::min({rules.speeds.acceleration_travel.value_or(rules.speeds.acceleration_print),
+                   rules.machine.machine_max_acceleration_x, rules.machine.machine_max_acceleration_y});
+}
+
+void cut_where_width_changes(std::vector<Junction>& path) {
+  const auto pieces_of = [](const Junction& a, const Junction& b) {
+    const double change_um = std::abs(a.width * static_cast<double>(a.flow) - b.width * static_cast<double>(b.flow));
+    if (change_um <= tolerances::band_step) return 1;
+    return std::max(1, static_cast<int>(std::min(std::ceil(change_um / tolerances::band_step),
+                                                 distance(a.at, b.at) / tolerances::shortest_piece)));
+  };
+  std::size_t count = path.empty() ? 0 : 1;
+  for (std::size_t i = 1; i < path.size(); ++i) count += static_cast<std::size_t>(pieces_of(path[i - 1], path[i]));
+  if (count == path.size()) return;
+  std::vector<Junction> out;
+  out.reserve(count);
+  out.push_back(path.front());
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const auto &a = path[i - 1], &b = path[i];
+    const int pieces = pieces_of(a, b);
+    for (int k = 1; k < pieces; ++k) {
+      const double t = static_cast<double>(k) / pieces;
+      out.push_back({lerp(a.at, b.at, t), rounded(a.width + t * (b.width - a.width)),
+                     static_cast<float>(a.flow + t * static_cast<double>(b.flow - a.flow))});
+    }
+    out.push_back(b);
+  }
+  path = std::move(out);
+}
+
+void set_bead_speed(const Rules& rules, Extrude& bead, bool first_layer) {
+  const double speed = with_small_perimeter(rules, bead, feature_speed_mm_s(rules, bead.role, first_layer));
+  const double height_mm = to_mm(bead.height), share = rules.material.material_flow / 100.0;
+  const double most_mm3_s = rules.material.material_max_volumetric_speed;
+  const bool follows_width =
+      (is_wall(bead.role) || bead.role == Role::gap_fill) && rules.speeds.speed_equalize_flow_width_factor > 0;
+  const double factor = follows_width ? rules.speeds.speed_equalize_flow_width_factor / 100.0 : 0;
+  const double nominal = follows_width ? nominal_area_mm2(rules, bead.role, bead.height) : 0;
+  const auto wanted = [&](double area) {  // at one place, of that band's area (without material_flow)
+    if (area <= 0) return speed;
+    const double v =
+        factor > 0 ? std::min(speed * (1 + factor * (nominal / area - 1)), std::max(speed, rules.speeds.speed_travel))
+                   : speed;
+    return std::min(v, most_mm3_s / (area * share));
+  };
+
+  bead.segment_speed_mm_s.clear();
+  const auto& path = bead.path;
+  const bool even = std::all_of(path.begin(), path.end(),
+                                [&](const Junction& j) { return j.width == path[0].width && j.flow == path[0].flow; });
+  if (even) {
+    bead.speed_mm_s = wanted(area_mm2(path[0], height_mm));
+    return;
+  }
+  std::vector<Segment> segments(path.size() - 1);
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const double a = area_mm2(path[i], height_mm), b = area_mm2(path[i + 1], height_mm);
+    segments[i] = {distance(path[i].at, path[i + 1].at) / 1000.0, 0.5 * (a + b) * share, std::abs(a - b) * share,
+                   std::min(wanted(a), wanted(b))};
+  }
+  if (rules.speeds.max_extrusion_rate_slope) limit_slope(segments, *rules.speeds.max_extrusion_rate_slope);
+  store(segments, bead);
+}
+
+void set_speeds(const Rules& rules, LayerPlan& layer, bool first_layer, std::optional<Point3> start) {
+  const bool write_accelerations = rules.speeds.acceleration_enabled;
+  const double travel_speed =
+      first_layer ? rules.speeds.speed_travel_layer_0.value_or(rules.speeds.speed_travel) : rules.speeds.speed_travel;
+  const auto set_travel = [&](Travel& travel) {
+    travel.speed_mm_s = travel_speed;
+    travel.z_speed_mm_s = std::min(rules.speeds.speed_z_hop, rules.machine.machine_max_speed_z);
+    travel.acceleration_mm_s2 = write_accelerations ? travel_acceleration_mm_s2(rules) : 0;
+  };
+  std::vector<Step> steps;
+  steps.reserve(layer.steps.size() + 8);
+  auto at = start;
+  for (auto& step : layer.steps) {
+    if (auto* bead = std::get_if<Extrude>(&step)) {
+      if (bead->path.size() < 2) continue;
+      const Point3 first{bead->path.front().at.x, bead->path.front().at.y, layer.z};
+      if (at != first) {
+        Travel travel{.path = {first}};
+        set_travel(travel);
+        steps.emplace_back(std::move(travel));
+      }
+      cut_where_width_changes(bead->path);
+      set_bead_speed(rules, *bead, first_layer);
+      bead->acceleration_mm_s2 = write_accelerations ? feature_acceleration_mm_s2(rules, bead->role, first_layer) : 0;
+      at = Point3{bead->path.back().at.x, bead->path.back().at.y, layer.z};
+    } else if (auto* travel = std::get_if<Travel>(&step)) {
+      if (travel->path.empty()) continue;
+      set_travel(*travel);
+      at = travel->path.back();
+    } else if (auto* retract = std::get_if<Retract>(&step); retract && !retract->wipe.empty()) {
+      double um = at ? distance(flat(*at), retract->wipe.front()) : 0;
+      um += length_of(retract->wipe);
+      retract->wipe_speed_mm_s = travel_speed;
+      const double amount_mm = to_mm(rules.retraction.retraction_amount);
+      const double while_wiping_mm = rules.retraction.retraction_retract_speed * um / 1000.0 / travel_speed;
+      retract->before_wipe =
+          rules.retraction.firmware_retraction || amount_mm <= 0 ? 1 : std::max(0.0, 1 - while_wiping_mm / amount_mm);
+      at = Point3{retract->wipe.back().x, retract->wipe.back().y, at ? at->z : layer.z};
+    }
+    steps.push_back(std::move(step));
+  }
+  layer.steps = std::move(steps);
+}
+
+}  // namespace weft::motion
