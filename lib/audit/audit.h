@@ -1,0 +1,135 @@
+#pragma once
+#include "audit/reader.h"
+#include "audit/shape.h"
+#include "core/error.h"
+#include "core/notice.h"
+#include "core/point.h"
+#include "settings/audit.h"
+#include "settings/machine.h"
+#include "settings/material.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// The boundary audit: finished G-code is read back by a reader that shares nothing with the writer, and every motion
+/// in it is checked against the machine. `check` is the door that all G-code of weft leaves through; `examine` looks at
+/// a file of any slicer.
+namespace weft::audit {
+
+/// Names of Motion::Kind and Side in reports.
+std::string_view name_of(Motion::Kind kind);
+std::string_view name_of(Side side);
+
+/// A place where the file would take the machine where it must not go, or that cannot be read.
+struct Finding {
+  enum class Kind {
+    surface,  ///< an extrusion of the print, with half its bead, beyond the print surface
+    reach,    ///< a motion beyond what the nozzle can go to
+    no_go,    ///< a motion through one of bed_exclude_areas
+    damaged,  ///< the line is not what a slicer writes
+  };
+  Kind kind = Kind::reach;
+  Motion::Kind move = Motion::Kind::travel;
+  std::string feature;     ///< "skirt", "custom" …; "" when the file does not say
+  std::string object;      ///< "" when the file does not say
+  Side side = Side::none;  ///< of the volume; Side::no_go: see `area`
+  int area = 0;            ///< number of the no-go area, from 1
+  Point3 at;               ///< the worst place of the nozzle's way
+  Um outside = 0;          ///< how far, half the bead included
+  int layer = -1;          ///< from 0; −1: before the first
+  std::int64_t line = 0;   ///< from 1, in the bytes that were audited; in annotated G-code, of the annotated text
+  std::string text;        ///< the line, cut to 120 characters
+  std::string problem;     ///< of a damaged line
+};
+
+/// How many findings of one sort there are, and how far the worst of them is outside.
+struct Total {
+  Finding::Kind kind;
+  Side side;  ///< every side that a motion leaves counts
+  int area;
+  std::string feature;
+  std::int64_t count;
+  Um worst;
+};
+
+enum class Verdict { pass, annotated, rejected };
+std::string_view name_of(Verdict verdict);
+
+struct Report {
+  Verdict verdict = Verdict::pass;
+  std::int64_t checked_moves = 0;    ///< of which the whole extent was judged
+  std::int64_t unaudited_moves = 0;  ///< from or to a place that is not known, or curves of unknown extent
+  std::int64_t violation_count = 0;  ///< lines with a motion outside, and damaged lines
+  std::int64_t damaged_count = 0;    ///< of these, the damaged lines
+  Um worst_outside = 0;
+  std::vector<Finding> findings;  ///< by line; the first audit_max_findings, the worst of each sort always among them
+  std::vector<Total> totals;      ///< by kind, side and feature
+  std::vector<Opaque> opaque;     ///< commands after which the place of the nozzle is not known
+  std::int64_t opaque_count = 0;
+  std::int64_t lines = 0, bytes = 0;
+  Um tolerance = 0;
+  Notices notices;
+
+  /// Share of the moves that were judged in full, 0 … 1; 1 when there are none.
+  double coverage() const;
+  bool clean() const { return violation_count == 0; }
+};
+
+enum class Mode { reject, annotate };
+
+/// The audit refused the job.
+class Rejected : public Error {
+ public:
+  explicit Rejected(Report report, std::string where = {});
+  const Report& report() const { return report_; }
+
+ private:
+  Report report_;
+};
+
+/// G-code that went through the audit. Only `check` makes one, and the file writer takes nothing else.
+class Passed {
+ public:
+  std::string_view gcode() const { return gcode_; }
+  const Report& report() const { return report_; }
+
+ private:
+  friend Passed check(const MachineSettings&, const MaterialSettings&, const AuditSettings&, std::string, Mode);
+  Passed(std::string gcode, Report report) : gcode_(std::move(gcode)), report_(std::move(report)) {}
+  std::string gcode_;
+  Report report_;
+};
+
+/// Audits finished G-code and states the verdict in its header: the line that starts with `; weft_audit = ` is
+/// rewritten, or one is put behind the first line. With Mode::annotate a comment stands before every offending line;
+/// else the bytes are kept. Cost: one pass; memory for the text and, when annotating, for one copy of it.
+/// @throws Rejected when something was found and the mode is Mode::reject
+Passed check(const MachineSettings& machine, const MaterialSettings& material, const AuditSettings& audit,
+             std::string gcode, Mode mode);
+
+/// Audits a file of any slicer. Cost: one pass, constant memory.
+/// @throws Error{file} when it cannot be read or is no text
+Report examine(const MachineSettings& machine, const MaterialSettings& material, const AuditSettings& audit,
+               const std::filesystem::path& file);
+
+/// The same for text in memory.
+Report examine_text(const MachineSettings& machine, const MaterialSettings& material, const AuditSettings& audit,
+                    std::string_view gcode);
+
+/// "line 120: skirt, extrude at (201.200, 10.000, 0.200) is 1.200 mm outside +x of the print surface: G1 X201.2 …"
+std::string describe(const Finding& finding);
+
+/// "12 moves outside, worst 1.200 mm beyond +x of the print surface (skirt, extrude, line 120)"; of a clean report
+/// "18231 moves checked, 0 not audited".
+std::string summary(const Report& report);
+
+/// What the user can do about the worst finding; "" when there is none.
+std::string remedy(const Report& report);
+
+/// "pass, 18231 moves checked, 0 not audited", as it stands behind `; weft_audit = `.
+std::string header_value(const Report& report);
+
+}  // namespace weft::audit

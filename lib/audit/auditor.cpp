@@ -1,0 +1,195 @@
+#include "audit/auditor.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace weft::audit {
+namespace {
+
+Vec vec_of(Point p) {
+  return {to_mm(p.x), to_mm(p.y)};
+}
+
+Shape surface_of(const MachineSettings& machine) {
+  if (machine.bed_shape != BedShape::circle) return Shape::polygon(print_surface(machine));
+  const double radius_mm = to_mm(machine.machine_width) / 2;
+  return Shape::disc(machine.machine_center_is_zero ? Vec{} : Vec{radius_mm, radius_mm}, radius_mm);
+}
+
+std::optional<Vec> home_of(const MachineSettings& machine) {
+  if (!machine.home_position || machine.home_position->empty()) return std::nullopt;
+  return vec_of(machine.home_position->front());
+}
+
+double disc_area_mm2(Um diameter) {
+  return std::numbers::pi * to_mm(diameter) * to_mm(diameter) / 4;
+}
+
+}  // namespace
+
+Volumes::Volumes(const MachineSettings& machine, const AuditSettings& audit)
+    : surface(surface_of(machine)),
+      reach(machine.machine_reach.empty() ? surface : Shape::polygon(reach_area(machine))),
+      reach_z_min_mm(to_mm(machine.machine_reach_z_min)),
+      reach_z_max_mm(to_mm(reach_z_max(machine))),
+      no_go_below_mm(to_mm(exclude_height(machine))),
+      tolerance_mm(to_mm(audit.audit_tolerance)),
+      surface_inside(surface.inner_box()),
+      reach_inside(reach.inner_box()) {
+  for (const Ring& ring : machine.bed_exclude_areas) no_go.push_back(Shape::polygon(ring));
+  for (const Point p : machine.nozzle_offsets) nozzle_offsets.push_back(vec_of(p));
+}
+
+Auditor::Auditor(const MachineSettings& machine, const MaterialSettings& material, const AuditSettings& audit,
+                 bool keep_marks)
+    : volumes_(machine, audit),
+      filament_area_mm2_(disc_area_mm2(material.filament_diameter)),
+      reader_(home_of(machine)),
+      tally_(audit.audit_max_findings, volumes_.tolerance_mm, keep_marks),
+      unmarked_(audit.audit_max_findings, volumes_.tolerance_mm, keep_marks) {}
+
+void Auditor::feed(std::string_view bytes) {
+  lines_.feed(bytes, [&](const Lines::Line& l) { line(l); });
+}
+
+Report Auditor::finish() {
+  lines_.finish([&](const Lines::Line& l) { line(l); });
+  const bool unmarked = !reader_.context().began();
+  if (unmarked) tally_.merge(std::move(unmarked_));
+  Report report;
+  tally_.report(report);
+  report.verdict = report.clean() ? Verdict::pass : Verdict::rejected;
+  report.checked_moves = checked_;
+  report.unaudited_moves = unaudited_;
+  report.opaque.assign(reader_.opaque().begin(), reader_.opaque().end());
+  report.opaque_count = reader_.opaque_count();
+  report.lines = reader_.line_number();
+  report.bytes = lines_.bytes();
+  report.tolerance = static_cast<Um>(std::lround(volumes_.tolerance_mm * 1000));
+  if (checked_ + unaudited_ == 0)
+    report.notices.push_back({"audit_no_moves", "the file holds no move: nothing was audited"});
+  else if (unmarked)
+    report.notices.push_back(
+        {"audit_no_features",
+         "no comment tells the print from custom G-code: every extrusion was held against the print surface"});
+  return report;
+}
+
+void Auditor::line(const Lines::Line& l) {
+  const std::string_view text(l.begin, static_cast<std::size_t>(l.end - l.begin));
+  const auto place = [&] { return Place{reader_.context(), reader_.line_number(), l.offset, text}; };
+  const auto damaged = [&](std::string_view problem) {
+    Violation v;
+    v.kind = Finding::Kind::damaged;
+    v.excess.mm = 0;
+    v.problem = problem;
+    tally_.add(v, place());
+  };
+  if (l.cut) {
+    reader_.skip_line();
+    if (const auto front = text.find_first_not_of(" \t"); front == std::string_view::npos || text[front] != ';')
+      damaged("a line of over a megabyte");
+    return;
+  }
+  reader_.line(l.begin, l.end);
+  if (reader_.motions().empty() && reader_.problems().empty()) return;
+  violation_.excess.mm = surface_violation_.excess.mm = 0;
+  for (const Motion& m : reader_.motions()) judge(m);
+  if (violation_.excess.mm > 0)
+    tally_.add(violation_, place());
+  else if (!reader_.problems().empty())
+    damaged(reader_.problems().front().what);
+  else if (surface_violation_.excess.mm > 0)
+    unmarked_.add(surface_violation_, place());
+}
+
+void Auditor::judge(const Motion& m) {
+  const bool known = m.from_known && m.x_known && m.y_known;
+  ++(known && m.judgeable ? checked_ : unaudited_);
+  if (m.x_known && m.y_known) {
+    judge_reach(m);
+    const bool printing = m.extrudes && known && (!reader_.context().custom() || !reader_.context().began());
+    const double margin_mm = printing ? half_bead_mm(m) : 0;
+    if (printing) judge_surface(m, margin_mm);
+    if (!volumes_.no_go.empty()) judge_no_go(m, reader_.context().custom() ? 0 : margin_mm);
+  } else {
+    judge_half_known(m);
+  }
+  if (m.z_known) judge_height(m);
+}
+
+void Auditor::offer(Violation& worst, Finding::Kind kind, const Motion& m, const Excess& excess, int area) {
+  if (excess.mm <= volumes_.tolerance_mm || excess.mm <= worst.excess.mm) return;
+  worst = {.kind = kind, .move = m.kind, .excess = excess, .z_mm = m.z_to, .area = area};
+}
+
+void Auditor::judge_reach(const Motion& m) {
+  const Bounds& inside = volumes_.reach_inside;
+  if (!m.path.arc && inside.holds(m.path.from, 0) && inside.holds(m.path.to, 0)) return;
+  Path path = m.path;
+  if (m.from_home && !path.arc)
+    path.from = path.to;  // homing switches may stand outside; the way from there is the machine's
+  offer(violation_, Finding::Kind::reach, m, volumes_.reach.leaving(path, 0));
+}
+
+void Auditor::judge_surface(const Motion& m, double margin_mm) {
+  const Bounds& inside = volumes_.surface_inside;
+  Path path = m.path;
+  if (!volumes_.nozzle_offsets.empty()) {
+    const Vec offset = volumes_.nozzle_offset(m.tool);
+    path.from = path.from + offset, path.to = path.to + offset, path.centre = path.centre + offset;
+  }
+  if (!path.arc && inside.holds(path.from, margin_mm) && inside.holds(path.to, margin_mm)) return;
+  // Until a comment tells where the print begins, what may yet turn out to be start G-code is set aside.
+  offer(reader_.context().began() ? violation_ : surface_violation_, Finding::Kind::surface, m,
+        volumes_.surface.leaving(path, margin_mm));
+}
+
+void Auditor::judge_no_go(const Motion& m, double margin_mm) {
+  // Where Z is not known the nozzle is taken to be low, as it is after homing.
+  if (m.z_known && std::min(m.z_from, m.z_to) >= volumes_.no_go_below_mm) return;
+  for (std::size_t i = 0; i < volumes_.no_go.size(); ++i)
+    offer(violation_, Finding::Kind::no_go, m, volumes_.no_go[i].entering(m.path, margin_mm), static_cast<int>(i) + 1);
+}
+
+void Auditor::judge_height(const Motion& m) {
+  const double above = m.z_to - volumes_.reach_z_max_mm, below = volumes_.reach_z_min_mm - m.z_to;
+  Excess e;
+  e.mm = std::max(above, below);
+  e.side = above > below ? Side::plus_z : Side::minus_z;
+  e.at = m.path.to;
+  offer(violation_, Finding::Kind::reach, m, e);
+}
+
+/// Only X or only Y is known: the motion is outside wherever the other is when the one lies beyond the reach
+/// altogether.
+void Auditor::judge_half_known(const Motion& m) {
+  const Bounds& reach = volumes_.reach.bounds();
+  const auto beyond = [&](double mm, Side side) {
+    Excess e;
+    e.mm = mm, e.side = side, e.at = m.path.to;
+    e.by_side[static_cast<std::size_t>(side)] = mm;
+    offer(violation_, Finding::Kind::reach, m, e);
+  };
+  if (m.x_known) beyond(reach.min.x - m.path.to.x, Side::minus_x), beyond(m.path.to.x - reach.max.x, Side::plus_x);
+  if (m.y_known) beyond(reach.min.y - m.path.to.y, Side::minus_y), beyond(m.path.to.y - reach.max.y, Side::plus_y);
+}
+
+/// Half the width of the bead that the motion lays: as its slicer states it, else what its volume spreads to at least.
+double Auditor::half_bead_mm(const Motion& m) {
+  const Context& context = reader_.context();
+  constexpr double thickest_layer_mm = 3;
+  if (m.z_known && m.z_to != layer_z_mm_) {
+    if (const double step = m.z_to - layer_z_mm_; step > 0 && step < thickest_layer_mm) layer_height_mm_ = step;
+    layer_z_mm_ = m.z_to;
+  }
+  if (context.width_mm() > 0) return context.width_mm() / 2;
+  const double height_mm = context.height_mm() > 0 ? context.height_mm() : layer_height_mm_;
+  if (height_mm <= 0) return 0;
+  // E is written to 5 decimals and lengths to 3: on very short moves rounding alone would fake a wide bead.
+  constexpr double e_rounding_mm = 1e-5, length_rounding_mm = 2e-3, widest_mm = 10;
+  const double volume_mm3 = m.volumetric ? m.e_mm : (m.e_mm - e_rounding_mm) * filament_area_mm2_;
+  return std::clamp(volume_mm3 / ((length_mm(m.path) + length_rounding_mm) * height_mm), 0.0, widest_mm) / 2;
+}
+
+}  // namespace weft::audit

@@ -1,0 +1,51 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace weft::audit {
+
+/// What the comments of a slicer say about the moves that follow. Understands PrusaSlicer, SuperSlicer, Slic3r,
+/// OrcaSlicer, Bambu Studio, Cura, ideaMaker, Simplify3D and weft.
+class Context {
+ public:
+  Context();
+
+  /// A comment that stands alone on its line, without its semicolon.
+  void read(std::string_view comment);
+
+  /// A sign outside of the comments that the start G-code is over.
+  void begin() { began_ = true; }
+
+  /// weft's name of a slicer's feature ("outer_wall"), or the slicer's own where weft has none; "" before the first.
+  std::string_view feature() const { return names_[feature_]; }
+  std::uint8_t feature_index() const { return feature_; }
+  std::string_view feature_name(std::uint8_t index) const { return names_[index]; }
+
+  /// Start, end and other G-code that a person wrote: said by a comment, or outside of the first and last layer.
+  bool custom() const { return !began_ || ended_ || feature_ == custom_index; }
+  /// Has any comment told where the print begins? Files without a slicer's comments never do.
+  bool began() const { return began_; }
+
+  int layer() const { return layer_; }             ///< from 0; −1 before the first
+  double width_mm() const { return width_mm_; }    ///< 0 when not said
+  double height_mm() const { return height_mm_; }  ///< 0 when not said
+  std::string_view object() const { return object_; }
+  void set_object(std::string_view name) { object_.assign(name.substr(0, most_name)); }
+
+ private:
+  static constexpr std::uint8_t custom_index = 1;
+  static constexpr std::size_t most_name = 60, most_names = 64;
+  void set_feature(std::string_view slicers_name);
+  void next_layer(int number);
+
+  std::vector<std::string> names_;
+  std::uint8_t feature_ = 0;
+  bool began_ = false, ended_ = false;
+  int layer_ = -1, layer_count_ = 0;
+  double width_mm_ = 0, height_mm_ = 0;
+  std::string object_;
+};
+
+}  // namespace weft::audit

@@ -1,0 +1,220 @@
+// What the audit's reader makes of commands, dialects and damaged files.
+#include "audit/audit_fixture.h"
+#include "audit/scan.h"
+
+#include <fmt/format.h>
+
+namespace weft::audit {
+
+TEST_CASE("audit: after a macro moves are not audited until X and Y are known again", "[audit]") {
+  const Bench bench;
+  const auto report = bench.moves("PRINT_START BED=60\nG1 Z5\nG1 X10\nG1 Y10\nG1 X20\n");
+  CHECK(report.clean());
+  CHECK(report.checked_moves == 2);  // the one of the preamble, and the last
+  CHECK(report.unaudited_moves == 3);
+  REQUIRE(report.opaque.size() == 1);
+  CHECK(report.opaque[0].name == "PRINT_START");
+  CHECK(report.opaque[0].first_line == 7);
+  CHECK(report.coverage() == Approx(0.4));
+}
+
+TEST_CASE("audit: where only one coordinate is known, what lies beyond the reach altogether is found", "[audit]") {
+  const Bench bench;
+  const auto report = bench.moves("G29\nG1 Y-3\n");
+  REQUIRE(report.violation_count == 1);
+  CHECK(report.findings[0].side == Side::minus_y);
+  CHECK(report.unaudited_moves == 1);
+}
+
+TEST_CASE("audit: without a home position the first move after homing is not audited, but where it ends is",
+          "[audit]") {
+  Bench bench;
+  bench.machine.home_position.reset();
+  CHECK(bench("G28\nG1 X100 Y100\nG1 X120 Y100\n").unaudited_moves == 1);
+  CHECK(bench("G28\nG1 X300 Y100\n").violation_count == 1);
+}
+
+TEST_CASE("audit: G10 and G11 retract, tool offsets and temperatures leave the position known; workspaces do not",
+          "[audit]") {
+  const Bench bench;
+  CHECK(bench.moves("G10\nG1 X50\nG11\nG10 S1\nG10 P0 S200 R150\nG10 P1 X10 Y5\nG1 X60\n").unaudited_moves == 0);
+  CHECK(bench.moves("G10 L2 P1 X10\nG1 X50 Y50\n").unaudited_moves == 1);
+  CHECK(bench.moves("G55\nG28\nG1 X50 Y50\n").unaudited_moves == 1);
+  CHECK(bench.moves("M206 X5\nG1 X50 Y50\nG1 X300 Y50\n").unaudited_moves == 2);
+}
+
+TEST_CASE("audit: arcs in upright planes are counted as not audited, their ends are judged", "[audit]") {
+  const Bench bench;
+  const auto report = bench.moves("G18\nG2 X110 Z5 I5 K0\nG17\nG1 X120\n");
+  CHECK(report.unaudited_moves == 1);
+  CHECK(report.clean());
+  CHECK(bench.moves("G18\nG2 X210 Z5 I5 K0\n").violation_count == 1);
+}
+
+TEST_CASE("audit: Klipper's offsets and saved states are followed", "[audit]") {
+  const Bench bench;
+  CHECK(bench.moves("SET_GCODE_OFFSET X=10\nG1 X190\n").clean());
+  CHECK(bench.moves("SET_GCODE_OFFSET X=10\nG1 X191\n").violation_count == 1);
+  CHECK(bench.moves("SET_GCODE_OFFSET X_ADJUST=10\nSET_GCODE_OFFSET X=0\nG1 X199\n").clean());
+  CHECK(bench.moves("SAVE_GCODE_STATE NAME=a\nG91\nG1 X5\nRESTORE_GCODE_STATE NAME=a\nG1 X150\n").clean());
+  CHECK(bench.moves("RESTORE_GCODE_STATE NAME=never\nG1 X150\n").unaudited_moves == 1);
+  CHECK(bench
+            .moves("SET_VELOCITY_LIMIT ACCEL=3000\nSET_PRESSURE_ADVANCE ADVANCE=0.05\nEXCLUDE_OBJECT_DEFINE NAME=a "
+                   "CENTER=50,50 "
+                   "POLYGON=[[40,40],[50,60]]\nG1 X10\n")
+            .opaque_count == 0);
+}
+
+TEST_CASE("audit: features, layers and objects are read in the dialects of PrusaSlicer, Orca, Bambu and Cura",
+          "[audit]") {
+  const Bench bench;
+  const auto finding = [&](std::string_view lines) {
+    const auto report = bench(fmt::format("G28\nM83\nG1 X10 Y10 Z0.2\n{}G1 X201 Y10 E1\n", lines));
+    REQUIRE(report.findings.size() == 1);
+    return report.findings[0];
+  };
+  const auto prusa = finding(";LAYER_CHANGE\n; printing object Cube.stl id:0 copy 0\n;TYPE:Skirt/Brim\n");
+  CHECK(prusa.feature == "skirt");
+  CHECK(prusa.object == "Cube.stl");
+  CHECK(prusa.layer == 0);
+  const auto orca = finding(";LAYER_CHANGE\n;LAYER_CHANGE\nEXCLUDE_OBJECT_START NAME=part_0\n;TYPE:Outer wall\n");
+  CHECK(orca.feature == "outer_wall");
+  CHECK(orca.object == "part_0");
+  CHECK(orca.layer == 1);
+  const auto bambu = finding(
+      "; CHANGE_LAYER\n; Z_HEIGHT: 0.2\n; LAYER_HEIGHT: 0.2\n; start printing object, unique label id: 15\n; FEATURE: "
+      "Sparse infill\n; LINE_WIDTH: 0.5\n");
+  CHECK(bambu.feature == "infill");
+  CHECK(bambu.object == "15");
+  CHECK(bambu.outside == 1250);
+  const auto cura = finding(";LAYER_COUNT:3\n;LAYER:2\n;MESH:part.stl\n;TYPE:WALL-INNER\n");
+  CHECK(cura.feature == "inner_wall");
+  CHECK(cura.object == "part.stl");
+  CHECK(cura.layer == 2);
+  const auto marlin = finding(";LAYER_CHANGE\nM486 S2\nM486 A\"bracket\"\n;TYPE:Something new\n");
+  CHECK(marlin.feature == "something new");
+  CHECK(marlin.object == "bracket");
+}
+
+TEST_CASE("audit: G-code before the first and after the last layer is custom", "[audit]") {
+  const Bench bench;
+  const std::string cura =
+      ";FLAVOR:Marlin\n;LAYER_COUNT:1\nG28\nM83\nG1 X-3 Y10 Z0.2\nG1 X10 E3\n;LAYER:0\n;TYPE:SKIRT\nG1 X20 "
+      "E1\n;TIME_ELAPSED:9\nG91\nG1 Z10\nG90\nG1 X0 Y205\n;End of Gcode\n";
+  const auto report = bench(cura);
+  REQUIRE(report.findings.size() == 3);
+  for (const auto& f : report.findings) CHECK(f.feature == "custom");
+}
+
+TEST_CASE("audit: a file without a slicer's comments is held against the print surface throughout", "[audit]") {
+  Bench bench;
+  bench.machine.machine_reach = {{-10_mm, -10_mm}, {210_mm, 210_mm}};
+  const std::string plain = "G28\nM83\nG1 X10 Y10 Z0.2\nG1 X205 Y10 E8\n";
+  CHECK(bench(plain).violation_count == 1);
+  CHECK(bench(plain + ";TYPE:Perimeter\nG1 X10 Y10\n").clean());  // it was start G-code
+  CHECK(bench(plain).notices.size() == 1);
+}
+
+TEST_CASE("audit: damaged lines are found with their number and their reason", "[audit]") {
+  const Bench bench;
+  using namespace std::string_literals;
+  struct Case {
+    std::string line, reason;
+  };
+  const Case cases[] = {
+      {"G1 X1.2.3 Y4", "malformed number"},
+      {"G1 X--5", "malformed number"},
+      {"G1 X Y5", "malformed number"},
+      {"G1 X1,5", "malformed word"},
+      {"G1 X5-3", "malformed number"},
+      {"G1 Xnan", "malformed number"},
+      {"G1 X10 X20", "twice"},
+      {"G1 X{x_max}", "malformed number"},
+      {"G1 X1\0Y2"s, "NUL"},
+      {"\0\0\0"s, "NUL"},
+      {"; a comment with \0"s, "NUL"},
+      {"M104 S{temperature}", "placeholder"},
+      {"{if x}", "placeholder"},
+      {"G1 X10 Y10*1", "checksum"},
+      {"N5 M104 S200*1", "checksum"},
+      {"G2 X10 Y10", "centre or radius"},
+      {"G2 X150 Y100 R5", "does not span"},
+      {"G2 X50 Y101 I10 J0", "another radius"},
+      {"G2 R5", "an end"},
+      {"?\x7f\xff", "not a command"},
+      {"G1 X10 Y\xc3\xa9", "malformed"},
+      {"G1 X10" + std::string(5000, ' ') + "Y10", "longer than any firmware"},
+      {"G1 " + std::string(1U << 21, 'x'), "megabyte"},
+      {"G99999999999", "malformed number"},
+  };
+  for (const auto& c : cases) {
+    const auto report = bench.moves("G1 X20\n" + c.line + "\nG1 X30 Y30\n");
+    CAPTURE(c.line.substr(0, 80));
+    REQUIRE(report.damaged_count == 1);
+    CHECK(report.violation_count == 1);
+    CHECK(report.findings[0].line == 8);
+    CHECK_THAT(report.findings[0].problem, Catch::Contains(c.reason));
+    CHECK(report.lines == 9);
+  }
+}
+
+TEST_CASE("audit: sound lines in unusual dress are read", "[audit]") {
+  const Bench bench;
+  const char* const dressed[] = {
+      "N12 G1 X120 Y10*40",
+      "g1x120y10",
+      "  G1\tX120  Y10 ; a comment",
+      "G1 X 120 Y 10",
+      "G1 X+120. Y10.0",
+      "G01 X120 Y10",
+      "G1 (aside) X120 (X300) Y10",
+      "X120 Y10",
+      "G90 G1 X120 Y10",
+      "G1 X00000000000000000000120 Y10.000000000000000000000",
+      "G1 X120 Y10\r",
+      "G1 X120\rG1 Y10",
+      "G1 F3000 S0 X120 Y10",
+  };
+  for (const auto* line : dressed) {
+    CAPTURE(line);
+    const auto inside = bench.moves(fmt::format("{}\nG91\nG1 X80 Y-10\n", line));
+    CHECK(inside.clean());
+    CHECK(inside.unaudited_moves == 0);
+    CHECK(bench.moves(fmt::format("{}\nG91\nG1 X80.1\n", line)).violation_count == 1);
+    CHECK(bench.moves(fmt::format("{}\nG91\nG1 Y-10.1\n", line)).violation_count == 1);
+  }
+}
+
+TEST_CASE("audit: the last line counts although no line feed ends it, and so do lines behind a byte-order mark",
+          "[audit]") {
+  const Bench bench;
+  CHECK(bench.moves("G1 X201").violation_count == 1);
+  CHECK(bench("\xEF\xBB\xBFG28\r\nG1 X201\r\n").findings.at(0).line == 2);
+  CHECK(bench("").notices.size() == 1);
+  CHECK(bench(std::string(3U << 20, ' ')).violation_count == 1);
+  CHECK(bench(";" + std::string(3U << 20, ' ')).clean());
+}
+
+TEST_CASE("audit: numbers are read to the last digit", "[audit]") {
+  for (const auto& [text, expected] :
+       std::vector<std::pair<std::string, double>>{{"0", 0},
+                                                   {"-0.001", -0.001},
+                                                   {"+12.5", 12.5},
+                                                   {".5", 0.5},
+                                                   {"5.", 5},
+                                                   {"123456.789012", 123456.789012},
+                                                   {"0.1", 0.1},
+                                                   {"199.99999999999999999999", 200},
+                                                   {"000000000000000000000000123.25", 123.25}}) {
+    double v = 0;
+    const std::string line = text + "\n";
+    const char* const end = scan::number(line.data(), v);
+    CAPTURE(text);
+    REQUIRE(end == line.data() + text.size());
+    CHECK(v == expected);
+  }
+  double v = 0;
+  for (const auto* bad : {"\n", "-\n", ".\n", "+.\n", "x\n"}) CHECK(scan::number(bad, v) == nullptr);
+}
+
+}  // namespace weft::audit
