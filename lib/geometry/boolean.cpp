@@ -1,6 +1,8 @@
 #include "geometry/boolean.h"
 
 #include "geometry/clipper_door.h"
+#include "geometry/nesting.h"
+#include "geometry/simplify.h"
 
 namespace weft::geometry {
 namespace {
@@ -35,6 +37,14 @@ Regions run(Operation operation, const Regions& a, const Regions& b) {
 }  // namespace
 
 Regions regions_from_rings(std::span<const Ring> rings, WindingRule rule) {
+  std::vector<Ring> clean;
+  clean.reserve(rings.size());
+  for (const auto& ring : rings) {
+    clean.push_back(ring);
+    drop_collinear(clean.back());
+    if (clean.back().empty()) clean.pop_back();
+  }
+  if (auto regions = nested(clean, rule)) return *std::move(regions);
   Box box;
   for (const auto& ring : rings) box.add(box_of(ring));
   if (box.empty()) return {};

@@ -228,23 +228,32 @@ std::optional<int> SegmentIndex::winding(Point p) const {
   return sum;
 }
 
+void SegmentIndex::windings(Point p, std::vector<RingWinding>& found) const {
+  found.clear();
+  for_each_left_of(p, [&](std::uint32_t i, int step) {
+    if (step != 0) found.push_back({origins_[i].region, step});
+  });
+  std::sort(found.begin(), found.end(), [](const RingWinding& l, const RingWinding& r) { return l.ring < r.ring; });
+  std::size_t kept = 0;
+  for (const RingWinding& w : found) {
+    if (kept > 0 && found[kept - 1].ring == w.ring)
+      found[kept - 1].winding += w.winding;
+    else
+      found[kept++] = w;
+  }
+  found.resize(kept);
+}
+
 std::optional<std::size_t> SegmentIndex::region_at(Point p) const {
-  std::vector<std::pair<std::uint32_t, int>> steps;
   std::optional<std::size_t> on;
   for_each_left_of(p, [&](std::uint32_t i, int step) {
-    const std::uint32_t region = origins_[i].region;
-    if (step == 0)
-      on = on ? std::min<std::size_t>(*on, region) : region;
-    else
-      steps.emplace_back(region, step);
+    if (step == 0) on = on ? std::min<std::size_t>(*on, origins_[i].region) : origins_[i].region;
   });
   if (on) return on;
-  std::sort(steps.begin(), steps.end());
-  for (std::size_t i = 0, j = 0; i < steps.size(); i = j) {
-    int sum = 0;
-    for (j = i; j < steps.size() && steps[j].first == steps[i].first; ++j) sum += steps[j].second;
-    if (sum != 0) return steps[i].first;
-  }
+  std::vector<RingWinding> found;
+  windings(p, found);
+  for (const auto& [region, winding] : found)
+    if (winding != 0) return region;
   return std::nullopt;
 }
 

@@ -69,6 +69,14 @@ class SegmentIndex {
   /// How often the segments, taken as closed rings, wind around p; nothing when p is on one of them. Exact.
   std::optional<int> winding(Point p) const;
 
+  /// The same for each ring whose segments a ray from p to the left meets, by number. A ring that p is on counts only
+  /// where it goes on further left. Pre: made from rings. Exact.
+  struct RingWinding {
+    std::uint32_t ring = 0;
+    int winding = 0;
+  };
+  void windings(Point p, std::vector<RingWinding>& found) const;
+
   /// The region that p is inside of or on the edge of, the lowest of several. Pre: made from regions.
   std::optional<std::size_t> region_at(Point p) const;
 

@@ -70,3 +70,33 @@ TEST_CASE("geometry: moving the input of a Boolean by whole microns moves the ou
     CHECK(subtract(moved(a, by), moved(b, by)) == moved(subtract(a, b), by));
   }
 }
+
+TEST_CASE("geometry: rings that keep apart are nested as a sweep would, without moving a point", "[law]") {
+  shapes::Dice dice(41);
+  for (const WindingRule rule : {WindingRule::nonzero, WindingRule::positive, WindingRule::even_odd}) {
+    for (int round = 0; round < 40; ++round) {
+      // A tree of squares, each somewhere in one of four quarters of its parent, wound by chance.
+      std::vector<Ring> rings;
+      std::vector<std::pair<Point, Um>> squares{{{dice.between(-9000, 9000), 0}, 100000}};
+      for (std::size_t i = 0; i < squares.size() && squares.size() < 60; ++i) {
+        const auto [corner, size] = squares[i];
+        rings.push_back(rectangle(corner, corner + Point{size, size}).outer);
+        if (dice.share() < 0.4) rings.back() = shapes::reversed(rings.back());
+        for (const Point q : {Point{0, 0}, Point{1, 0}, Point{0, 1}, Point{1, 1}})
+          if (dice.share() < 0.6 && size > 2000)
+            squares.push_back({corner + Point{q.x * size / 2 + 100, q.y * size / 2 + 100}, size / 2 - 300});
+      }
+      const Regions fast = regions_from_rings(rings, rule);
+      rings.push_back(rings.front());  // a contact: by the sweep
+      rings.push_back(shapes::reversed(rings.front()));
+      const Regions swept = regions_from_rings(rings, rule);
+      CHECK(area_mm2(fast) == Approx(area_mm2(swept)).margin(1e-9));
+      CHECK(fast.size() == swept.size());
+      CHECK(area_mm2(exclusive_or(fast, swept)) == 0);
+      for (const auto& region : fast) {
+        CHECK(double_area(region.outer) > 0);
+        for (const auto& hole : region.holes) CHECK(double_area(hole) < 0);
+      }
+    }
+  }
+}

@@ -1,0 +1,73 @@
+#include "geometry/boolean.h"
+#include "geometry/simplify.h"
+#include "slice/slice.h"
+#include "slice/stitch.h"
+
+#include <algorithm>
+
+namespace weft::slice {
+namespace {
+
+/// How many planes lie below a height, by a table with a step finer than the planes are apart.
+class PlanesBelow {
+ public:
+  explicit PlanesBelow(const std::vector<Plane>& planes) : planes_(planes) {
+    if (planes.empty()) return;
+    Um closest = max_coord;
+    for (std::size_t i = 1; i < planes.size(); ++i) closest = std::min(closest, planes[i].below - planes[i - 1].below);
+    while ((2 << shift_) <= closest && shift_ < 20) ++shift_;
+    const Um top = planes.back().below;
+    for (std::uint32_t i = 0; (static_cast<Um>(table_.size()) << shift_) <= top;) {
+      while (planes[i].below < static_cast<Um>(table_.size()) << shift_) ++i;
+      table_.push_back(i);
+    }
+  }
+
+  std::uint32_t operator()(Um z) const {
+    if (z <= 0) return 0;
+    const auto step = static_cast<std::size_t>(z >> shift_);
+    if (step >= table_.size()) return static_cast<std::uint32_t>(planes_.size());
+    std::uint32_t i = table_[step];
+    while (i < planes_.size() && planes_[i].below < z) ++i;
+    return i;
+  }
+
+ private:
+  const std::vector<Plane>& planes_;
+  int shift_ = 0;
+  std::vector<std::uint32_t> table_;
+};
+}  // namespace
+
+Cutter::Cutter(const Mesh& mesh, std::vector<Plane> planes) : mesh_(&mesh), planes_(std::move(planes)) {
+  const PlanesBelow planes_below(planes_);
+  std::vector<std::uint32_t> at(mesh.vertices.size());
+  for (std::size_t v = 0; v < at.size(); ++v) at[v] = planes_below(mesh.vertices[v].z);
+  const auto range_of = [&](const Triangle& t) {  // the planes between its lowest and its highest corner
+    return std::minmax({at[t[0]], at[t[1]], at[t[2]]});
+  };
+  starts_.assign(planes_.size() + 1, 0);
+  for (const auto& triangle : mesh.triangles) {
+    const auto [first, end] = range_of(triangle);
+    for (std::uint32_t p = first; p < end; ++p) ++starts_[p];
+  }
+  std::uint32_t sum = 0;
+  for (auto& start : starts_) start = sum += start;  // ends, which filling from behind turns into starts
+  triangles_.resize(sum);
+  for (std::size_t t = mesh.triangles.size(); t-- > 0;) {
+    const auto [first, end] = range_of(mesh.triangles[t]);
+    for (std::uint32_t p = first; p < end; ++p) triangles_[--starts_[p]] = static_cast<std::uint32_t>(t);
+  }
+}
+
+Cut Cutter::cut(std::size_t i, Um resolution) const {
+  const Plane& plane = planes_[i];
+  Cut out{{plane.z, plane.height, {}}, {}, {}};
+  Chains chains = stitch(*mesh_, triangles_of(i), plane.below);
+  if (!chains.open.empty()) close(chains, out.closed, out.bridged);
+  for (auto& ring : chains.rings) ring = geometry::simplified(ring, resolution);
+  out.layer.regions = geometry::regions_from_rings(chains.rings);
+  return out;
+}
+
+}  // namespace weft::slice

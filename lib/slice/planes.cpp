@@ -1,0 +1,16 @@
+#include "slice/slice.h"
+
+namespace weft::slice {
+
+std::vector<Plane> planes(const LayerSettings& settings, Um model_height) {
+  std::vector<Plane> out;
+  Um bottom = 0;
+  for (Um height = settings.initial_layer_height.value_or(settings.layer_height);; height = settings.layer_height) {
+    const Um below = bottom + height / 2;
+    if (below >= model_height) return out;
+    bottom += height;
+    out.push_back({bottom, height, below});
+  }
+}
+
+}  // namespace weft::slice

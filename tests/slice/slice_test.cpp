@@ -1,0 +1,281 @@
+#include "slice/slice.h"
+
+#include "corpus.h"
+#include "geometry/spatial_index.h"
+#include "mesh/read.h"
+#include "solids.h"
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <catch2/catch.hpp>
+
+using namespace weft;
+using namespace weft::slice;
+
+namespace {
+std::vector<Cut> cut_all(const Mesh& mesh, const LayerSettings& settings = {}) {
+  const Cutter cutter(mesh, planes(settings, box_of(mesh).max.z));
+  std::vector<Cut> cuts;
+  for (std::size_t i = 0; i < cutter.size(); ++i) cuts.push_back(cutter.cut(i, settings.resolution));
+  return cuts;
+}
+
+double volume_mm3(const std::vector<Cut>& cuts) {
+  double sum = 0;
+  for (const auto& cut : cuts) sum += area_mm2(cut.layer.regions) * to_mm(cut.layer.height);
+  return sum;
+}
+
+/// A ball with facets of all directions, radius and centre in µm.
+Mesh ball(Point3 centre, Um radius, int segments) {
+  Mesh mesh;
+  const auto vertex = [&](int ring, int k) {
+    const double theta = std::numbers::pi * ring / segments, phi = std::numbers::pi * k / segments;
+    mesh.vertices.push_back({centre.x + rounded(radius * std::sin(theta) * std::cos(phi)),
+                             centre.y + rounded(radius * std::sin(theta) * std::sin(phi)),
+                             centre.z + rounded(radius * std::cos(theta))});
+  };
+  vertex(0, 0);
+  for (int r = 1; r < segments; ++r)
+    for (int k = 0; k < 2 * segments; ++k) vertex(r, k);
+  vertex(segments, 0);
+  const auto id = [&](int r, int k) {
+    return static_cast<std::uint32_t>(1 + (r - 1) * 2 * segments + k % (2 * segments));
+  };
+  const auto south = static_cast<std::uint32_t>(mesh.vertices.size() - 1);
+  for (int k = 0; k < 2 * segments; ++k) {
+    mesh.triangles.push_back({0, id(1, k), id(1, k + 1)});
+    for (int r = 1; r + 1 < segments; ++r) {
+      mesh.triangles.push_back({id(r, k), id(r + 1, k), id(r + 1, k + 1)});
+      mesh.triangles.push_back({id(r, k), id(r + 1, k + 1), id(r, k + 1)});
+    }
+    mesh.triangles.push_back({id(segments - 1, k), south, id(segments - 1, k + 1)});
+  }
+  return mesh;
+}
+
+void check_proper(const std::vector<Cut>& cuts) {
+  for (const auto& cut : cuts)
+    for (const auto& region : cut.layer.regions) {
+      CHECK(region.outer.size() >= 3);
+      CHECK(double_area(region.outer) > 0);
+      for (const auto& hole : region.holes) CHECK(double_area(hole) < 0);
+    }
+}
+}  // namespace
+
+TEST_CASE("slice: layers stand on each other, cut in their middle, the first of its own height") {
+  LayerSettings settings;
+  settings.layer_height = 0.2_mm;
+  settings.initial_layer_height = 0.3_mm;
+  const auto layers = planes(settings, 1.1_mm);
+  REQUIRE(layers.size() == 5);
+  CHECK(layers[0] == Plane{300, 300, 150});
+  CHECK(layers[1] == Plane{500, 200, 400});
+  CHECK(layers[4] == Plane{1100, 200, 1000});
+}
+
+TEST_CASE("slice: what remains at the top is a layer when it is more than half of one") {
+  CHECK(planes({}, 1000).size() == 5);
+  CHECK(planes({}, 1100).size() == 5);
+  CHECK(planes({}, 1101).size() == 6);
+  CHECK(planes({}, 48000).size() == 240);
+  CHECK(planes({}, 0).empty());
+}
+
+TEST_CASE("slice: a cube is a stack of squares") {
+  const auto cuts = cut_all(solids::box({0, 0, 0}, {20000, 20000, 20000}));
+  REQUIRE(cuts.size() == 100);
+  for (const auto& cut : cuts) {
+    REQUIRE(cut.layer.regions.size() == 1);
+    CHECK(cut.layer.regions[0].outer.size() == 4);
+    CHECK(cut.layer.regions[0].holes.empty());
+    CHECK(area_mm2(cut.layer.regions) == 400);
+    CHECK(cut.layer.height == 200);
+  }
+  CHECK(cuts.back().layer.z == 20000);
+  CHECK(notices_of(cuts, "cube").empty());
+}
+
+TEST_CASE("slice: a void is a hole, and a solid in the void an island") {
+  Mesh mesh = solids::box({0, 0, 0}, {20000, 20000, 4000});
+  solids::add_box(mesh, {4000, 4000, 1000}, {16000, 16000, 3000}, true);
+  solids::add_box(mesh, {8000, 8000, 1500}, {12000, 12000, 2500});
+  const auto cuts = cut_all(mesh);
+  CHECK(area_mm2(cuts[0].layer.regions) == 400);
+  REQUIRE(cuts[5].layer.regions.size() == 1);
+  CHECK(cuts[5].layer.regions[0].holes.size() == 1);
+  CHECK(cuts[10].layer.regions.size() == 2);
+  CHECK(area_mm2(cuts[10].layer.regions) == 400 - 144 + 16);
+}
+
+TEST_CASE("slice: solids that overlap or touch are one") {
+  Mesh mesh = solids::box({0, 0, 0}, {10000, 10000, 2000});
+  SECTION("overlap") {
+    solids::add_box(mesh, {5000, 5000, 0}, {15000, 15000, 2000});
+    for (const auto& cut : cut_all(mesh)) {
+      CHECK(cut.layer.regions.size() == 1);
+      CHECK(area_mm2(cut.layer.regions) == 175);
+    }
+  }
+  SECTION("one in the other") {
+    solids::add_box(mesh, {2000, 2000, 0}, {8000, 8000, 2000});
+    for (const auto& cut : cut_all(mesh)) {
+      REQUIRE(cut.layer.regions.size() == 1);
+      CHECK(cut.layer.regions[0].holes.empty());
+      CHECK(area_mm2(cut.layer.regions) == 100);
+    }
+  }
+  SECTION("face on face") {
+    solids::add_box(mesh, {10000, 0, 0}, {20000, 10000, 2000});
+    for (const auto& cut : cut_all(mesh)) {
+      REQUIRE(cut.layer.regions.size() == 1);
+      CHECK(cut.layer.regions[0].outer.size() == 4);
+      CHECK(area_mm2(cut.layer.regions) == 200);
+    }
+  }
+}
+
+TEST_CASE("slice: missing triangles are bridged, said, and cost no other outline") {
+  Mesh mesh = solids::box({0, 0, 0}, {10000, 10000, 2000});
+  mesh.triangles.erase(mesh.triangles.begin() + 4, mesh.triangles.begin() + 6);  // the wall at y = 0
+  solids::add_box(mesh, {20000, 0, 0}, {30000, 10000, 2000});
+  const auto cuts = cut_all(mesh);
+  for (const auto& cut : cuts) {
+    CHECK(cut.layer.regions.size() == 2);
+    CHECK(area_mm2(cut.layer.regions) == 200);
+    CHECK(cut.bridged.count == 1);
+    CHECK(cut.bridged.widest_um == 10000);
+    CHECK(cut.closed.count == 0);
+  }
+  const Notices notices = notices_of(cuts, "part.stl");
+  REQUIRE(notices.size() == 1);
+  CHECK(notices[0].code == "open_contour_bridged");
+  CHECK(notices[0].message ==
+        "part.stl: the mesh has holes; gaps in outlines were closed with straight lines: 10 on 10 layers; the widest, "
+        "10.000 mm, is on layer 0 (z 0.200) at 5.00, 0.00");
+}
+
+TEST_CASE("slice: walls that miss each other by a little are closed as small gaps") {
+  Mesh mesh;  // four sheets, 50 µm apart at the corners
+  const auto sheet = [&](Point a, Point b) {
+    const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), {{a.x, a.y, 0}, {b.x, b.y, 0}, {b.x, b.y, 1000}, {a.x, a.y, 1000}});
+    mesh.triangles.push_back({base, base + 1, base + 2});
+    mesh.triangles.push_back({base, base + 2, base + 3});
+  };
+  sheet({50, 0}, {10000, 0}), sheet({10000, 50}, {10000, 10000}), sheet({9950, 10000}, {0, 10000}),
+      sheet({0, 9950}, {0, 0});
+  for (const auto& cut : cut_all(mesh)) {
+    REQUIRE(cut.layer.regions.size() == 1);
+    CHECK(area_mm2(cut.layer.regions) == Approx(100).margin(0.02));
+    CHECK(cut.closed.count == 4);
+    CHECK(cut.closed.widest_um == 50);
+    CHECK(cut.bridged.count == 0);
+  }
+}
+
+TEST_CASE("slice: an inside-out solid is a solid") {
+  Mesh mesh;
+  solids::add_box(mesh, {0, 0, 0}, {10000, 10000, 1000}, true);
+  for (const auto& cut : cut_all(mesh)) CHECK(area_mm2(cut.layer.regions) == 100);
+}
+
+TEST_CASE("slice: boxes that share an edge give closed outlines") {
+  Mesh mesh = solids::box({0, 0, 0}, {10000, 10000, 2000});
+  solids::add_box(mesh, {10000, 10000, 0}, {20000, 20000, 2000});
+  for (auto& t : mesh.triangles)  // weld corners 3 and 7 of the first to 0 and 4 of the second: four faces at one edge
+    for (auto& corner : t) corner = corner == 8 ? 3 : corner == 12 ? 7 : corner;
+  for (const auto& cut : cut_all(mesh)) {
+    CHECK(area_mm2(cut.layer.regions) == 200);
+    CHECK(cut.closed.count + cut.bridged.count == 0);
+  }
+}
+
+TEST_CASE("slice: a soup of loose triangles neither hangs nor throws") {
+  std::mt19937 dice(5);
+  const auto at = [&] { return static_cast<Um>(dice() % 20000); };
+  Mesh mesh;
+  for (std::uint32_t i = 0; i < 3000; ++i) {
+    for (int k = 0; k < 3; ++k) mesh.vertices.push_back({at(), at(), at()});
+    mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  LayerSettings settings;
+  settings.layer_height = 2_mm;
+  const auto cuts = cut_all(mesh, settings);
+  CHECK(cuts.size() == 10);
+  check_proper(cuts);
+  CHECK(cuts[5].bridged.count > 0);
+}
+
+TEST_CASE("slice: a mesh of nothing, flat triangles, a mesh below the bed") {
+  CHECK(cut_all({}).empty());
+  const Mesh flat{{{0, 0, 500}, {1000, 0, 500}, {0, 1000, 500}}, {{0, 1, 2}}};
+  for (const auto& cut : cut_all(flat)) CHECK(cut.layer.regions.empty());
+  const auto sunk = cut_all(solids::box({0, 0, -3000}, {10000, 10000, 1000}));
+  REQUIRE(sunk.size() == 5);
+  for (const auto& cut : sunk) CHECK(area_mm2(cut.layer.regions) == 100);
+}
+
+TEST_CASE("slice: moving a mesh by whole microns moves its layers and changes nothing else", "[law]") {
+  const Point by = GENERATE(Point{1, 0}, Point{-7, 90'001}, Point{12'345'677, -3'000'001});
+  Mesh mesh = ball({0, 0, 10000}, 10000, 20);
+  const Mesh other = ball({7003, 5001, 9001}, 8000, 13);
+  for (Triangle t : other.triangles) {
+    for (auto& corner : t) corner += static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.triangles.push_back(t);
+  }
+  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
+  const auto here = cut_all(mesh), there = cut_all(solids::moved(mesh, {by.x, by.y, 0}));
+  REQUIRE(here.size() == there.size());
+  for (std::size_t i = 0; i < here.size(); ++i) CHECK(there[i].layer.regions == moved(here[i].layer.regions, by));
+}
+
+TEST_CASE("slice: simplification keeps the outline within the resolution") {
+  LayerSettings exact, coarse;
+  exact.resolution = 0;
+  coarse.resolution = 50_um;
+  const Mesh mesh = ball({0, 0, 10000}, 10000, 150);
+  const auto fine = cut_all(mesh, exact), simple = cut_all(mesh, coarse);
+  for (std::size_t i = 0; i < fine.size(); ++i) {
+    const geometry::SegmentIndex index(simple[i].layer.regions);
+    for (const auto& region : fine[i].layer.regions)
+      for (const Point p : region.outer) CHECK(index.nearest(p)->distance_um <= 50.0);
+  }
+  CHECK(simple[50].layer.regions[0].outer.size() * 3 < fine[50].layer.regions[0].outer.size());
+}
+
+TEST_CASE("slice: layers of real parts hold the volume of their meshes", "[law][corpus]") {
+  for (const char* name :
+       {"models/benchy.stl", "models/MINI-x-carriage.stl", "models/MINI-minda-holder.stl", "models/fandisk.stl"}) {
+    const auto path = corpus(name);
+    if (!path) return;
+    INFO(name);
+    Mesh mesh = mesh::read_file(path->string()).objects.at(0).mesh;
+    mesh = solids::moved(std::move(mesh), {0, 0, -box_of(mesh).min.z});
+    LayerSettings settings;
+    settings.layer_height = 0.05_mm;
+    const auto cuts = cut_all(mesh, settings);
+    check_proper(cuts);
+    CHECK(volume_mm3(cuts) == Approx(volume_mm3(mesh)).epsilon(0.001));
+  }
+}
+
+TEST_CASE("slice: an open scan comes out whole", "[corpus]") {
+  const auto path = corpus("models/stanford-bunny.stl");
+  if (!path) return;
+  Mesh mesh = mesh::read_file(path->string()).objects.at(0).mesh;
+  mesh = solids::moved(std::move(mesh), {0, 0, -box_of(mesh).min.z});
+  const auto cuts = cut_all(mesh);
+  check_proper(cuts);
+  CHECK(volume_mm3(cuts) == Approx(volume_mm3(mesh)).epsilon(0.05));
+  std::size_t gaps = 0;
+  for (const auto& cut : cuts) {
+    gaps += cut.closed.count + cut.bridged.count;
+    CHECK(area_mm2(cut.layer.regions) > 0);
+  }
+  CHECK(gaps > 0);
+  CHECK(notices_of(cuts, "bunny").size() >= 1);
+}
