@@ -4,7 +4,8 @@ namespace weft {
 
 Box3 box_of(const Mesh& mesh) {
   Box3 box;
-  for (const Point3& vertex : mesh.vertices) box.add(vertex);
+  for (const Triangle& triangle : mesh.triangles)
+    for (const std::uint32_t corner : triangle) box.add(mesh.vertices[corner]);
   return box;
 }
 

@@ -1,8 +1,17 @@
 #pragma once
 #include "settings/schema.h"
 
+#include <array>
+
 namespace weft {
 using namespace weft::literals;
+
+/// The way up of a lift.
+enum class HopType { vertical, slope, spiral };
+constexpr auto choices_of(HopType) {
+  return std::array{Choice<HopType>{HopType::vertical, "vertical"}, Choice<HopType>{HopType::slope, "slope"},
+                    Choice<HopType>{HopType::spiral, "spiral"}};
+}
 
 /// When filament is drawn back, and how.
 struct RetractionSettings {
@@ -15,6 +24,14 @@ struct RetractionSettings {
   Um retraction_min_travel = 1.5_mm;
   bool retract_only_when_crossing = true;
   bool retract_at_layer_change = false;
+  bool wipe = false;
+  Um wipe_distance = 1_mm;
+  Um retraction_hop = 0_mm;
+  HopType retraction_hop_type = HopType::vertical;
+  double travel_slope = 20;
+  bool retraction_hop_only_when_collides = false;
+  Um retraction_hop_above = 0_mm;
+  std::optional<Um> retraction_hop_below;
 };
 
 inline constexpr std::tuple retraction_schema{
@@ -37,6 +54,19 @@ inline constexpr std::tuple retraction_schema{
             "only_retract_when_crossing_perimeters"),
     setting("retract_at_layer_change", &RetractionSettings::retract_at_layer_change, "Filament is drawn back before the next layer.",
             "retract_layer_change"),
+    setting("wipe", &RetractionSettings::wipe, "The nozzle runs over what it has just printed while filament is drawn back.", "wipe"),
+    setting("wipe_distance", &RetractionSettings::wipe_distance, Unit::mm, 0_mm, 100_mm, "Length of that run."),
+    setting("retraction_hop", &RetractionSettings::retraction_hop, Unit::mm, 0_mm, 100_mm, "How far the nozzle is lifted on retracted travels.",
+            "retract_lift"),
+    setting("retraction_hop_type", &RetractionSettings::retraction_hop_type,
+            "How it is lifted: straight up, while travelling (slope), or on a circle (spiral)."),
+    setting("travel_slope", &RetractionSettings::travel_slope, Unit::degrees, 1, 89, "Angle of lifts that are not vertical."),
+    setting("retraction_hop_only_when_collides", &RetractionSettings::retraction_hop_only_when_collides,
+            "Only travels that pass over walls are lifted."),
+    setting("retraction_hop_above", &RetractionSettings::retraction_hop_above, Unit::mm, 0_mm, 10000_mm, "Lowest Z at which travels are lifted.",
+            "retract_lift_above"),
+    setting("retraction_hop_below", &RetractionSettings::retraction_hop_below, Unit::mm, 0_mm, 10000_mm,
+            "Highest Z at which travels are lifted; auto: any."),
 };
 static_assert(complete<RetractionSettings>(retraction_schema));
 

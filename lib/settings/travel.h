@@ -46,6 +46,11 @@ struct TravelSettings {
   Combing retraction_combing = Combing::all;
   Um retraction_combing_offset = 0_mm;
   std::optional<Um> retraction_combing_max_distance;
+  bool staggered_inner_seams = false;
+  Um seam_gap_distance = 0_mm;
+  Um wall_0_wipe_dist = 0_mm;
+  bool coasting_enable = false;
+  double coasting_volume = 0.064;
 };
 
 inline constexpr std::tuple travel_schema{
@@ -62,6 +67,15 @@ inline constexpr std::tuple travel_schema{
             "Moves the boundary of combing, outwards when positive, against the centreline of the outer wall. Only with retraction_combing = all."),
     setting("retraction_combing_max_distance", &TravelSettings::retraction_combing_max_distance, Unit::mm, 0_mm, 10000_mm,
             "Combed travels longer than this are retracted; auto: never for their length."),
+    setting("staggered_inner_seams", &TravelSettings::staggered_inner_seams,
+            "Seams of inner walls lie aside of the outer wall's, alternately, so that no gap runs through all walls.", "staggered_inner_seams"),
+    setting("seam_gap_distance", &TravelSettings::seam_gap_distance, Unit::mm, 0_mm, 5_mm,
+            "Outer walls end this far before the place where they began."),
+    setting("wall_0_wipe_dist", &TravelSettings::wall_0_wipe_dist, Unit::mm, 0_mm, 10_mm,
+            "How far the nozzle runs on over an outer wall without extruding after closing it."),
+    setting("coasting_enable", &TravelSettings::coasting_enable,
+            "The end of a bead before a retraction is not extruded: the pressure in the nozzle prints it."),
+    setting("coasting_volume", &TravelSettings::coasting_volume, Unit::mm3, 0, 10, "Volume left out; beads of less than three times as much are not touched."),
 };
 static_assert(complete<TravelSettings>(travel_schema));
 

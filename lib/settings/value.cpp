@@ -41,6 +41,7 @@ bool names_unit(std::string_view suffix, Unit unit) {
     case Unit::mm3_s: return suffix == "mm3/s" || suffix == "mm^3/s";
     case Unit::mm3_s2: return suffix == "mm3/s2" || suffix == "mm^3/s^2";
     case Unit::mm2: return suffix == "mm2" || suffix == "mm^2";
+    case Unit::mm3: return suffix == "mm3" || suffix == "mm^3";
     case Unit::degrees: return suffix == "deg";
     case Unit::celsius: return suffix == "C";
     case Unit::g_cm3: return suffix == "g/cm3";

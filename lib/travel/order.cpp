@@ -57,6 +57,23 @@ class BlockOrder {
     return at;
   }
 
+  /// Where an inner wall begins whose neighbour begins there.
+  Start beside(const Bead& bead, const Start& neighbour) const {
+    const Start start = nearest_start(bead, neighbour.at, snap_um);
+    if (!settings_.staggered_inner_seams || bead.inset % 2 == 0) return start;
+    double left = 3.0 * bead.path[start.segment].width;  // along the bead
+    const std::size_t n = bead.path.size();
+    Point at = start.at;
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t i = (start.segment + k) % n, next = (i + 1) % n;
+      const double step = distance(at, bead.path[next].at);
+      if (step > left) return {static_cast<std::uint32_t>(i), lerp(at, bead.path[next].at, left / step)};
+      left -= step;
+      at = bead.path[next].at;
+    }
+    return start;
+  }
+
   /// Inner walls begin beside the seam of the outer wall they follow, so that the way from one to the next is a line's
   /// width.
   void choose_starts(const std::vector<Touch>& touches) {
@@ -72,7 +89,7 @@ class BlockOrder {
         if (t.first != known[k] && t.second != known[k]) continue;
         const std::uint32_t other = t.first == known[k] ? t.second : t.first;
         if (chosen_[other] || !beads_[block_.walls[other]].closed) continue;
-        starts_[other] = nearest_start(beads_[block_.walls[other]], starts_[known[k]].at, snap_um);
+        starts_[other] = beside(beads_[block_.walls[other]], starts_[known[k]]);
         chosen_[other] = 1;
         known.push_back(other);
       }

@@ -1,12 +1,12 @@
+#include "model/flow.h"
 #include "travel/blocks.h"
+#include "travel/lift.h"
+#include "travel/way.h"
 
 #include <algorithm>
 
 namespace weft::travel {
 namespace {
-
-/// How far from the comb boundary a bead may end and still be reached from it without a retraction, µm.
-constexpr Um reach_um = 2500;
 
 Junction between(const Junction& a, const Junction& b, Point at) {
   const double whole = distance(a.at, b.at), t = whole > 0 ? std::min(1.0, distance(a.at, at) / whole) : 0.0;
@@ -16,16 +16,13 @@ Junction between(const Junction& a, const Junction& b, Point at) {
 
 /// The bead's path in the order it is printed; a closed one ends where it began.
 std::vector<Junction> path_of(const Bead& bead, const Turn& turn) {
-  std::vector<Junction> path;
   const std::size_t n = bead.path.size();
-  path.reserve(n + 2);
   if (!bead.closed) {
-    if (turn.reversed)
-      path.assign(bead.path.rbegin(), bead.path.rend());
-    else
-      path = bead.path;
-    return path;
+    if (turn.reversed) return {bead.path.rbegin(), bead.path.rend()};
+    return bead.path;
   }
+  std::vector<Junction> path;
+  path.reserve(n + 2);
   const std::size_t i = turn.start.segment, next = (i + 1) % n;
   const bool at_junction = turn.start.at == bead.path[i].at;
   path.push_back(at_junction ? bead.path[i] : between(bead.path[i], bead.path[next], turn.start.at));
@@ -35,111 +32,188 @@ std::vector<Junction> path_of(const Bead& bead, const Turn& turn) {
   return path;
 }
 
-double length_from(Point p, const Polyline& way) {
+/// The first `length_um` of the path, as the points after its first.
+Polyline first_of(const std::vector<Junction>& path, double length_um) {
+  Polyline line;
+  for (std::size_t i = 1; i < path.size() && length_um > 0; ++i) {
+    const double step = distance(path[i - 1].at, path[i].at);
+    line.push_back(step <= length_um ? path[i].at : lerp(path[i - 1].at, path[i].at, length_um / step));
+    length_um -= step;
+  }
+  return line;
+}
+
+/// Takes the last `length_um` off the path, as the points after its new last.
+Polyline cut_end(std::vector<Junction>& path, double length_um) {
+  Polyline tail;
+  while (path.size() > 1 && length_um >= 1) {
+    const Junction last = path.back(), before = path[path.size() - 2];
+    const double step = distance(before.at, last.at);
+    tail.insert(tail.begin(), last.at);
+    if (step > length_um) {
+      path.back() = between(before, last, lerp(last.at, before.at, length_um / step));
+      break;
+    }
+    length_um -= step;
+    path.pop_back();
+  }
+  return tail;
+}
+
+double length_um(const std::vector<Junction>& path) {
   double sum = 0;
-  for (const Point q : way) sum += distance(p, q), p = q;
+  for (std::size_t i = 1; i < path.size(); ++i) sum += distance(path[i - 1].at, path[i].at);
   return sum;
 }
 
-struct Way {
-  Polyline points;  ///< after the first
-  bool retract = false, crosses = false;
-};
-
-/// Ways between beads of one layer.
-class Router {
+/// Writes the steps of a layer: each bead is held until it is known whether a retraction follows it.
+class Writer {
  public:
-  Router(const TravelSettings& settings, const RetractionSettings& retraction, const Prepared& layer)
-      : settings_(settings), retraction_(retraction), comb_(layer.comb), outline_(layer.outline) {}
+  Writer(const TravelSettings& settings, const RetractionSettings& retraction, const Prepared& layer,
+         std::optional<Point> from)
+      : settings_(settings), retraction_(retraction), layer_(layer), router_(settings, retraction, layer), at_(from) {
+    plan_.z = layer.input.z, plan_.height = layer.input.height;
+  }
 
-  Way way(Point p, Point q) const {
-    if (auto combed = combed_way(p, q)) {
-      const double length = length_from(p, *combed);
-      const bool far = settings_.retraction_combing_max_distance && length > *settings_.retraction_combing_max_distance;
-      const bool strict = !retraction_.retract_only_when_crossing && length >= retraction_.retraction_min_travel;
-      // A boundary moved outwards may lead out of the part.
-      const bool crosses = settings_.retraction_combing_offset > 0 && leaves_outline(p, *combed);
-      return {std::move(*combed), far || strict || crosses, crosses};
+  void print(const Turn& turn) {
+    const Block& block = layer_.blocks[turn.block];
+    const Bead& bead = beads_of(layer_.input, block)[turn.bead];
+    Extrude next{path_of(bead, turn), bead.role, layer_.input.height, 0, {}};
+    const Point begin = next.path.front().at;
+    if (held_.path.empty()) {
+      label(block.object);
+      first_travel(begin);
+    } else {
+      lay_down(begin, block.object);
     }
-    const bool crosses = leaves_outline(p, {q});
-    return {{q}, crosses || distance(p, q) >= retraction_.retraction_min_travel, crosses};
+    held_ = std::move(next);
+    at_ = held_.path.back().at;
+    closed_outer_ = bead.closed && bead.role == Role::outer_wall;
+  }
+
+  LayerPlan finish() {
+    if (!held_.path.empty()) {
+      const Polyline gap = closed_outer_ ? cut_end(held_.path, gap_um()) : Polyline{};
+      plan_.steps.push_back(std::move(held_));
+      travel(gap);  // the layer above counts on the bead's end
+    }
+    label(Block::adhesion);
+    return std::move(plan_);
   }
 
  private:
-  bool leaves_outline(Point p, const Polyline& way) const {
-    bool inside = outline_.part_of(p) != Comb::outside;
-    for (const Point q : way) {
-      if (!outline_.sees(p, q)) return true;
-      p = q;
+  /// Not more than a third of the bead goes to the gap.
+  double gap_um() const { return std::min<double>(settings_.seam_gap_distance, length_um(held_.path) / 3); }
+
+  void label(std::uint32_t object) {
+    if (object == object_) return;
+    if (object_ != Block::adhesion) plan_.steps.push_back(ObjectEnd{layer_.input.objects[object_].object});
+    object_ = object;
+    if (object_ != Block::adhesion) plan_.steps.push_back(ObjectStart{layer_.input.objects[object_].object});
+  }
+
+  void travel(const Polyline& way) {
+    if (way.empty()) return;
+    Travel travel;
+    for (const Point p : way) travel.path.push_back({p.x, p.y, plan_.z});
+    plan_.steps.push_back(std::move(travel));
+    at_ = way.back();
+  }
+
+  bool lifts(const Way& way) const {
+    return retraction_.retraction_hop > 0 && plan_.z >= retraction_.retraction_hop_above &&
+           (!retraction_.retraction_hop_below || plan_.z <= *retraction_.retraction_hop_below) &&
+           (!retraction_.retraction_hop_only_when_collides || way.crosses);
+  }
+
+  void retracted(const Way& way, Polyline wipe) {
+    plan_.steps.push_back(Retract{std::move(wipe)});
+    Travel travel;
+    travel.crosses_wall = way.crosses;
+    if (lifts(way)) {
+      travel.path = lifted(retraction_, *at_, way.points, plan_.z, layer_.input.reach);
+    } else {
+      for (const Point p : way.points) travel.path.push_back({p.x, p.y, plan_.z});
     }
-    return inside != (outline_.part_of(p) != Comb::outside);
+    plan_.steps.push_back(std::move(travel));
+    plan_.steps.push_back(Prime{});
   }
 
-  /// The point of the comb area from which p is reached inside the part.
-  std::optional<Point> gate(Point p) const {
-    if (comb_.part_of(p) != Comb::outside) return p;
-    const auto gate = comb_.nearest_on_boundary(p, reach_um);
-    if (!gate || outline_.part_of(p) == Comb::outside || !outline_.sees(p, *gate)) return std::nullopt;
-    return gate;
+  void first_travel(Point begin) {
+    Way way = at_ ? router_.way(*at_, begin) : Way{{begin}, false, false};
+    if (at_ && retraction_.retraction_enable && (way.retract || retraction_.retract_at_layer_change)) {
+      retracted(way, {});
+    } else {
+      travel(way.points);
+      if (!plan_.steps.empty())
+        if (auto* t = std::get_if<Travel>(&plan_.steps.back())) t->crosses_wall = way.crosses;
+    }
   }
 
-  std::optional<Polyline> combed_way(Point p, Point q) const {
-    if (comb_.empty()) return std::nullopt;
-    const auto from = gate(p), to = gate(q);
-    if (!from || !to) return std::nullopt;
-    const double to_gates = distance(p, *from) + distance(*to, q);
-    if (to_gates > 0 && distance(p, q) <= to_gates && outline_.sees(p, q)) return Polyline{q};
-    const std::uint32_t part = comb_.part_of(*from);
-    if (part == Comb::outside || part != comb_.part_of(*to)) return std::nullopt;
-    auto inside = comb_.way(*from, *to);
-    if (!inside) return std::nullopt;
-    if (*from != p) inside->insert(inside->begin(), *from);
-    if (*to != q) inside->push_back(q);
-    return inside;
+  /// The end of a bead that the pressure in the nozzle prints.
+  Polyline coast() {
+    if (!settings_.coasting_enable || held_.path.size() < 2) return {};
+    const auto& last = held_.path.back();
+    const double area_mm2 = to_mm(last.width) * to_mm(held_.height) * static_cast<double>(last.flow);
+    const double coast_um = area_mm2 > 0 ? 1000 * settings_.coasting_volume / area_mm2 : 0;
+    return coast_um * 3 > length_um(held_.path) ? Polyline{} : cut_end(held_.path, coast_um);
+  }
+
+  /// Puts the held bead down and goes to where the next one begins.
+  void lay_down(Point begin, std::uint32_t next_object) {
+    Way way = begin == *at_ ? Way{} : router_.way(*at_, begin);
+    const bool retract = way.retract && retraction_.retraction_enable;
+    const bool closed = held_.path.front().at == held_.path.back().at;
+    const Polyline gap = closed_outer_ ? cut_end(held_.path, gap_um()) : Polyline{};
+    if (!gap.empty()) at_ = held_.path.back().at;
+    Polyline coasted = retract ? coast() : Polyline{};
+    Polyline wipe;
+    if (retract && retraction_.wipe) {
+      std::vector<Junction> back(held_.path.rbegin(), held_.path.rend());
+      wipe = first_of(closed ? held_.path : back, retraction_.wipe_distance);
+      if (closed && !gap.empty()) wipe.insert(wipe.begin(), held_.path.front().at);
+    }
+    const Polyline run_on =
+        closed_outer_ && wipe.empty() ? first_of(held_.path, settings_.wall_0_wipe_dist) : Polyline{};
+    plan_.steps.push_back(std::move(held_));
+    travel(coasted);
+    if (!run_on.empty() && !gap.empty()) travel(gap);
+    travel(run_on);
+    if (!wipe.empty()) at_ = wipe.back();
+    label(next_object);
+    if (begin == *at_) return;
+    if (!gap.empty() || !run_on.empty() || !wipe.empty()) {
+      const bool must = way.retract;
+      way = router_.way(*at_, begin);
+      way.retract = way.retract || must;
+    }
+    if (way.retract && retraction_.retraction_enable) {
+      retracted(way, std::move(wipe));
+    } else {
+      const auto before = plan_.steps.size();
+      travel(way.points);
+      if (plan_.steps.size() > before) std::get<Travel>(plan_.steps.back()).crosses_wall = way.crosses;
+    }
   }
 
   const TravelSettings& settings_;
   const RetractionSettings& retraction_;
-  const Comb& comb_;
-  const Comb& outline_;
+  const Prepared& layer_;
+  Router router_;
+  LayerPlan plan_;
+  std::optional<Point> at_;
+  Extrude held_;
+  bool closed_outer_ = false;
+  std::uint32_t object_ = Block::adhesion;
 };
 
 }  // namespace
 
 LayerPlan route(const TravelSettings& settings, const RetractionSettings& retraction, const Prepared& layer,
                 const Ordered& ordered, std::optional<Point> from) {
-  LayerPlan plan{layer.input.z, layer.input.height, {}};
-  const Router router(settings, retraction, layer);
-  constexpr std::uint32_t nothing = Block::adhesion;
-  std::uint32_t object = nothing;
-  bool new_layer = true;
-  for (const auto& turn : ordered.turns) {
-    const Block& block = layer.blocks[turn.block];
-    const Bead& bead = beads_of(layer.input, block)[turn.bead];
-    Extrude extrude{path_of(bead, turn), bead.role, layer.input.height, 0, {}};
-    const Point begin = extrude.path.front().at;
-    if (block.object != object) {
-      if (object != nothing) plan.steps.push_back(ObjectEnd{layer.input.objects[object].object});
-      object = block.object;
-      if (object != nothing) plan.steps.push_back(ObjectStart{layer.input.objects[object].object});
-    }
-    if (new_layer || begin != *from) {
-      Way way = from ? router.way(*from, begin) : Way{{begin}, false, false};
-      if (new_layer && from && retraction.retract_at_layer_change) way.retract = true;
-      const bool retract = way.retract && retraction.retraction_enable;
-      Travel travel;
-      travel.crosses_wall = way.crosses;
-      for (const Point p : way.points) travel.path.push_back({p.x, p.y, layer.input.z});
-      if (retract) plan.steps.push_back(Retract{});
-      plan.steps.push_back(std::move(travel));
-      if (retract) plan.steps.push_back(Prime{});
-    }
-    new_layer = false;
-    from = extrude.path.back().at;
-    plan.steps.push_back(std::move(extrude));
-  }
-  if (object != nothing) plan.steps.push_back(ObjectEnd{layer.input.objects[object].object});
-  return plan;
+  Writer writer(settings, retraction, layer, from);
+  for (const auto& turn : ordered.turns) writer.print(turn);
+  return writer.finish();
 }
 
 std::vector<LayerPlan> plan(const TravelSettings& settings, const RetractionSettings& retraction,

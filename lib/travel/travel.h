@@ -34,6 +34,7 @@ struct LayerInput {
   Um z = 0, height = 0;
   Beads adhesion;  ///< skirt and brim: printed first
   std::vector<ObjectLayer> objects;
+  Ring reach;  ///< where the nozzle may go; empty: anywhere
 };
 
 /// The beads of one part of one object, or the adhesion: printed before the next block begins.

@@ -1,0 +1,37 @@
+#pragma once
+#include "travel/travel.h"
+
+#include <optional>
+
+namespace weft::travel {
+
+/// How the nozzle gets from one bead to the next.
+struct Way {
+  Polyline points;       ///< after the first
+  bool retract = false;  ///< filament is to be drawn back
+  bool crosses = false;  ///< it leaves the part, or enters one
+};
+
+/// Ways between the beads of one layer, combed where they can be.
+class Router {
+ public:
+  /// The arguments must outlive the router.
+  Router(const TravelSettings& settings, const RetractionSettings& retraction, const Prepared& layer)
+      : settings_(settings), retraction_(retraction), comb_(layer.comb), outline_(layer.outline) {}
+
+  Way way(Point p, Point q) const;
+
+ private:
+  bool leaves_outline(Point p, const Polyline& way) const;
+  std::optional<Point> gate(Point p) const;
+  std::optional<Polyline> combed(Point p, Point q) const;
+
+  const TravelSettings& settings_;
+  const RetractionSettings& retraction_;
+  const Comb& comb_;
+  const Comb& outline_;
+};
+
+double length_from(Point p, const Polyline& way);
+
+}  // namespace weft::travel
