@@ -1,12 +1,15 @@
 #pragma once
+#include "settings/adhesion.h"
 #include "settings/audit.h"
 #include "settings/cooling.h"
 #include "settings/gcode.h"
+#include "settings/infill.h"
 #include "settings/layers.h"
 #include "settings/machine.h"
 #include "settings/material.h"
 #include "settings/retraction.h"
 #include "settings/speeds.h"
+#include "settings/shells.h"
 #include "settings/travel.h"
 #include "settings/walls.h"
 
@@ -18,6 +21,9 @@ struct Settings {
   MaterialSettings material;
   LayerSettings layers;
   WallSettings walls;
+  ShellSettings shells;
+  InfillSettings infill;
+  AdhesionSettings adhesion;
   TravelSettings travel;
   RetractionSettings retraction;
   SpeedSettings speeds;
@@ -42,6 +48,9 @@ inline constexpr std::tuple sections{
     Section{"material", &Settings::material, material_schema},
     Section{"layers", &Settings::layers, layer_schema},
     Section{"walls", &Settings::walls, wall_schema},
+    Section{"shells", &Settings::shells, shell_schema},
+    Section{"infill", &Settings::infill, infill_schema},
+    Section{"adhesion", &Settings::adhesion, adhesion_schema},
     Section{"travel", &Settings::travel, travel_schema},
     Section{"retraction", &Settings::retraction, retraction_schema},
     Section{"speeds", &Settings::speeds, speed_schema},

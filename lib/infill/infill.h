@@ -1,0 +1,29 @@
+#pragma once
+#include "infill/shells.h"
+#include "model/layer.h"
+#include "settings/infill.h"
+#include "settings/shells.h"
+
+#include <cstddef>
+
+namespace weft::infill {
+
+/// What one layer is filled from, besides settings.
+struct FillInput {
+  const LayerAreas& areas;
+  std::size_t index = 0;  ///< of the layer: directions alternate by it
+  Um z = 0;               ///< top of the layer: patterns that change with height
+  Um height = 0;
+  Um nozzle = 0;           ///< diameter
+  Um wall_line_width = 0;  ///< of the innermost wall; what a share of overlap is of. 0: automatic
+  Point origin{};          ///< where patterns are anchored: one point for all layers of an object
+};
+
+/// Lays beads in the areas: sparse ones in the pattern, skin and solid ones as lines that fill the area's width
+/// exactly, in an order that never leaves a line between two printed ones (monotonic), bridges as free strands. Post:
+/// volume of solid beads = area × height, of sparse ones the same times the density; beads stay within the areas
+///        grown by the overlap. Bead::part is that of the area. A solid region's beads share a `sequence`.
+/// Cost:  about 1 µs a line.
+FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const FillInput& input);
+
+}  // namespace weft::infill

@@ -1,0 +1,256 @@
+#include "infill/mask.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace weft::infill {
+namespace {
+
+using Word = std::uint64_t;
+
+constexpr std::size_t word_of(int column) {
+  return static_cast<std::size_t>(column) / 64;
+}
+constexpr Word bit_of(int column) {
+  return Word{1} << (static_cast<unsigned>(column) % 64);
+}
+
+/// to |= from, shifted by `by` cells to higher columns (by > 0) or to lower ones.
+void or_shifted(const Word* from, Word* to, std::size_t words, int by) {
+  const auto whole = static_cast<std::size_t>(std::abs(by)) / 64;
+  const int part = std::abs(by) % 64;
+  if (by > 0) {
+    for (std::size_t i = words; i-- > whole;) {
+      Word v = from[i - whole] << part;
+      if (part != 0 && i > whole) v |= from[i - whole - 1] >> (64 - part);
+      to[i] |= v;
+    }
+  } else {
+    for (std::size_t i = 0; i + whole < words; ++i) {
+      Word v = from[i + whole] >> part;
+      if (part != 0 && i + whole + 1 < words) v |= from[i + whole + 1] << (64 - part);
+      to[i] |= v;
+    }
+  }
+}
+
+/// Turns the bits where an area begins or ends into the bits between them.
+void fill_between_flips(Word* row, std::size_t words) {
+  Word inside = 0;
+  for (std::size_t i = 0; i < words; ++i) {
+    Word v = row[i];
+    v ^= v << 1, v ^= v << 2, v ^= v << 4, v ^= v << 8, v ^= v << 16, v ^= v << 32;
+    v ^= inside;
+    row[i] = v;
+    inside = (v >> 63) != 0 ? ~Word{0} : 0;
+  }
+}
+
+}  // namespace
+
+Grid Grid::over(const Box& box, Um finest, Um margin, double most_cells) {
+  Grid grid;
+  if (box.empty()) return grid;
+  const Box all = box.grown(margin);
+  const double width = all.size().x, height = all.size().y;
+  grid.origin = all.min;
+  grid.cell = std::max(finest, static_cast<Um>(std::ceil(std::sqrt(width * height / most_cells))));
+  grid.columns = static_cast<int>(all.size().x / grid.cell) + 1;
+  grid.rows = static_cast<int>(all.size().y / grid.cell) + 1;
+  return grid;
+}
+
+Grid Grid::window(const Box& box, Um margin) const {
+  Grid part{origin, cell, 0, 0};
+  if (box.empty()) return part;
+  const Box all = box.grown(margin);
+  const auto cells = [&](Um from, Um to) {
+    return static_cast<int>(std::floor((to - from) / static_cast<double>(cell)));
+  };
+  const int first_column = cells(origin.x, all.min.x), first_row = cells(origin.y, all.min.y);
+  part.origin = {origin.x + first_column * cell, origin.y + first_row * cell};
+  part.columns = cells(part.origin.x, all.max.x) + 1;
+  part.rows = cells(part.origin.y, all.max.y) + 1;
+  return part;
+}
+
+Mask::Mask(const Grid& grid)
+    : grid_(grid),
+      words_((static_cast<std::size_t>(grid.columns) + 63) / 64),
+      bits_(words_ * static_cast<std::size_t>(grid.rows)) {}
+
+Mask::Mask(const Grid& grid, std::span<const Region> regions) : Mask(grid) {
+  if (bits_.empty()) return;
+  const double cell = grid.cell, left = grid.origin.x + cell / 2, bottom = grid.origin.y + cell / 2;
+  const auto flip_along = [&](Point a, Point b) {
+    if (a.y > b.y) std::swap(a, b);
+    // rows whose centre y satisfies a.y <= y < b.y
+    const int first = std::max(0, static_cast<int>(std::ceil((a.y - bottom) / cell)));
+    const int last = std::min(grid.rows - 1, static_cast<int>(std::ceil((b.y - bottom) / cell)) - 1);
+    if (first > last) return;
+    const double slope = (static_cast<double>(b.x) - a.x) / (static_cast<double>(b.y) - a.y);
+    const double step = slope;  // columns a row: the cell cancels
+    double column = (a.x + slope * (bottom + first * cell - a.y) - left) / cell;
+    for (int r = first; r <= last; ++r, column += step) {
+      const int c = static_cast<int>(std::ceil(std::max(column, 0.0)));
+      if (c < grid.columns) row(r)[word_of(c)] ^= bit_of(c);
+    }
+  };
+  const auto flip_ring = [&](const Ring& ring) {
+    for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) flip_along(ring[j], ring[i]);
+  };
+  for (const Region& region : regions) {
+    flip_ring(region.outer);
+    for (const Ring& hole : region.holes) flip_ring(hole);
+  }
+  for (int r = 0; r < grid.rows; ++r) fill_between_flips(row(r), words_);
+  clear_beyond_columns();
+}
+
+void Mask::clear_beyond_columns() {
+  const int used = grid_.columns % 64;
+  if (used == 0) return;
+  for (int r = 0; r < grid_.rows; ++r) row(r)[words_ - 1] &= bit_of(used) - 1;
+}
+
+bool Mask::any() const {
+  return std::any_of(bits_.begin(), bits_.end(), [](Word w) { return w != 0; });
+}
+
+std::size_t Mask::count() const {
+  std::size_t n = 0;
+  for (const Word w : bits_) n += static_cast<std::size_t>(std::popcount(w));
+  return n;
+}
+
+bool Mask::at(int column, int r) const {
+  if (column < 0 || r < 0 || column >= grid_.columns || r >= grid_.rows) return false;
+  return (row(r)[word_of(column)] & bit_of(column)) != 0;
+}
+
+bool Mask::at(Point p) const {
+  if (p.x < grid_.origin.x || p.y < grid_.origin.y) return false;
+  return at(grid_.column_of(p.x), grid_.row_of(p.y));
+}
+
+Mask& Mask::operator&=(const Mask& other) {
+  for (std::size_t i = 0; i < bits_.size(); ++i) bits_[i] &= other.bits_[i];
+  return *this;
+}
+Mask& Mask::operator|=(const Mask& other) {
+  for (std::size_t i = 0; i < bits_.size(); ++i) bits_[i] |= other.bits_[i];
+  return *this;
+}
+Mask& Mask::operator-=(const Mask& other) {
+  for (std::size_t i = 0; i < bits_.size(); ++i) bits_[i] &= ~other.bits_[i];
+  return *this;
+}
+
+std::size_t Mask::common(const Mask& other, const Box& within) const {
+  if (bits_.empty() || within.empty()) return 0;
+  const int first = std::max(0, grid_.row_of(within.min.y)),
+            last = std::min(grid_.rows - 1, grid_.row_of(within.max.y));
+  const std::size_t from = word_of(std::clamp(grid_.column_of(within.min.x), 0, grid_.columns - 1));
+  const std::size_t to = word_of(std::clamp(grid_.column_of(within.max.x), 0, grid_.columns - 1));
+  std::size_t n = 0;
+  for (int r = first; r <= last; ++r)
+    for (std::size_t i = from; i <= to; ++i) n += static_cast<std::size_t>(std::popcount(row(r)[i] & other.row(r)[i]));
+  return n;
+}
+
+bool Mask::meets(const Mask& other) const {
+  const int right = (other.grid_.origin.x - grid_.origin.x) / grid_.cell,
+            up = (other.grid_.origin.y - grid_.origin.y) / grid_.cell;
+  for (int r = std::max(0, -up); r < other.grid_.rows && r + up < grid_.rows; ++r) {
+    const Word* theirs = other.row(r);
+    const Word* ours = row(r + up);
+    for (std::size_t i = 0; i < other.words_; ++i) {
+      if (theirs[i] == 0) continue;
+      // the 64 cells of ours under that word
+      const int column = static_cast<int>(i) * 64 + right;
+      Word under = 0;
+      const int word = column >= 0 ? column / 64 : -((63 - column) / 64), part = column - word * 64;
+      const auto value = [&](int w) { return w >= 0 && static_cast<std::size_t>(w) < words_ ? ours[w] : Word{0}; };
+      under = value(word) >> part;
+      if (part != 0) under |= value(word + 1) << (64 - part);
+      if ((theirs[i] & under) != 0) return true;
+    }
+  }
+  return false;
+}
+
+Mask Mask::grown(int cells) const {
+  if (cells <= 0 || bits_.empty()) return *this;
+  Mask wide = *this;
+  std::vector<Word> before(words_);
+  for (int r = 0; r < grid_.rows; ++r) {
+    Word* to = wide.row(r);
+    if (std::all_of(to, to + words_, [](Word w) { return w == 0; })) continue;
+    for (int done = 0, by = 0; done < cells; done += by) {  // what is grown by n grows by up to n + 1 in one step
+      by = std::min(done + 1, cells - done);
+      std::copy(to, to + words_, before.begin());
+      or_shifted(before.data(), to, words_, by);
+      or_shifted(before.data(), to, words_, -by);
+    }
+  }
+  Mask tall = wide;
+  for (int done = 0, by = 0; done < cells; done += by) {
+    by = std::min(done + 1, cells - done);
+    if (done > 0) wide = tall;
+    for (int r = 0; r < grid_.rows; ++r) {
+      for (const int other : {r - by, r + by}) {
+        if (other < 0 || other >= grid_.rows) continue;
+        const Word* from = wide.row(other);
+        Word* to = tall.row(r);
+        for (std::size_t i = 0; i < words_; ++i) to[i] |= from[i];
+      }
+    }
+  }
+  tall.clear_beyond_columns();
+  return tall;
+}
+
+Mask Mask::shrunk(int cells) const {
+  Mask outside = *this;
+  for (Word& w : outside.bits_) w = ~w;
+  outside.clear_beyond_columns();
+  return *this - outside.grown(cells);
+}
+
+std::vector<Ring> Mask::outlines() const {
+  std::vector<Ring> rings;
+  // Every ring has a lower edge: a set cell over one that is not set. Each is walked once, the area on its left.
+  Mask lower = *this;
+  for (int r = 1; r < grid_.rows; ++r)
+    for (std::size_t i = 0; i < words_; ++i) lower.row(r)[i] &= ~row(r - 1)[i];
+  struct Step {
+    int x, y;
+  };
+  constexpr Step ahead[4] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+  // the cells ahead of a walker at a corner, on its left and on its right
+  constexpr Step left_cell[4] = {{0, 0}, {-1, 0}, {-1, -1}, {0, -1}};
+  constexpr Step right_cell[4] = {{0, -1}, {0, 0}, {-1, 0}, {-1, -1}};
+  for (int r = 0; r < grid_.rows; ++r) {
+    for (std::size_t w = 0; w < words_; ++w) {
+      while (lower.row(r)[w] != 0) {
+        const int first = static_cast<int>(w) * 64 + std::countr_zero(lower.row(r)[w]);
+        Ring ring;
+        int x = first, y = r, d = 0;
+        do {
+          if (d == 0) lower.row(y)[word_of(x)] &= ~bit_of(x);
+          x += ahead[d].x, y += ahead[d].y;
+          const bool left = at(x + left_cell[d].x, y + left_cell[d].y);
+          const bool right = at(x + right_cell[d].x, y + right_cell[d].y);
+          const int turn = !left ? 1 : right ? 3 : 0;
+          if (turn != 0) ring.push_back({grid_.origin.x + x * grid_.cell, grid_.origin.y + y * grid_.cell});
+          d = (d + turn) % 4;
+        } while (x != first || y != r || d != 0);
+        rings.push_back(std::move(ring));
+      }
+    }
+  }
+  return rings;
+}
+
+}  // namespace weft::infill

@@ -1,0 +1,74 @@
+#pragma once
+#include "core/polygon.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+/// Areas as bits on a grid: what shells compare layers with. A Boolean of two layers costs microseconds here; exact
+/// outlines are restored afterwards, in the few places where a boundary between two kinds of fill runs (shells.cpp).
+namespace weft::infill {
+
+/// Where the cells lie. The centre of cell (column, row) is what is sampled.
+struct Grid {
+  Point origin;
+  Um cell = 100;
+  int columns = 0, rows = 0;
+  friend bool operator==(const Grid&, const Grid&) = default;
+
+  /// A grid over the box and `margin` around it, of at most `most_cells` cells no finer than `finest`.
+  static Grid over(const Box& box, Um finest, Um margin, double most_cells);
+  /// The part of this grid that covers the box and `margin` around it: the same cells, fewer of them.
+  Grid window(const Box& box, Um margin) const;
+  int column_of(Um x) const { return (x - origin.x) / cell; }
+  int row_of(Um y) const { return (y - origin.y) / cell; }
+};
+
+/// One bit a cell. All binary operations need operands of the same grid.
+class Mask {
+ public:
+  explicit Mask(const Grid& grid);
+  /// Cells whose centre is inside the regions (even-odd over all rings). Cost: 5 ns for each edge and row it crosses.
+  Mask(const Grid& grid, std::span<const Region> regions);
+
+  const Grid& grid() const { return grid_; }
+  bool any() const;
+  std::size_t count() const;
+  bool at(int column, int row) const;
+  /// The cell of that point; false outside of the grid.
+  bool at(Point p) const;
+
+  Mask& operator&=(const Mask& other);
+  Mask& operator|=(const Mask& other);
+  Mask& operator-=(const Mask& other);  ///< and not
+  friend Mask operator&(Mask a, const Mask& b) { return a &= b; }
+  friend Mask operator|(Mask a, const Mask& b) { return a |= b; }
+  friend Mask operator-(Mask a, const Mask& b) { return a -= b; }
+  friend bool operator==(const Mask&, const Mask&) = default;
+
+  /// Grown or shrunk by `cells` in x and in y (a square). Beyond the grid nothing is set.
+  Mask grown(int cells) const;
+  Mask shrunk(int cells) const;
+  Mask opened(int cells) const { return shrunk(cells).grown(cells); }
+
+  /// How many cells are set in both, among those of the box.
+  std::size_t common(const Mask& other, const Box& within) const;
+
+  /// Whether any cell is set in both; the grids may be different windows of one.
+  bool meets(const Mask& other) const;
+
+  /// The outlines of the set cells, along cell borders: outer rings counter-clockwise, holes clockwise. Cells that only
+  /// touch at a corner are not joined. Cost: by the length of the outlines.
+  std::vector<Ring> outlines() const;
+
+ private:
+  std::uint64_t* row(int r) { return bits_.data() + static_cast<std::size_t>(r) * words_; }
+  const std::uint64_t* row(int r) const { return bits_.data() + static_cast<std::size_t>(r) * words_; }
+  void clear_beyond_columns();
+
+  Grid grid_;
+  std::size_t words_ = 0;  // of a row
+  std::vector<std::uint64_t> bits_;
+};
+
+}  // namespace weft::infill

@@ -1,0 +1,288 @@
+#include "infill/shells.h"
+
+#include "geometry/boolean.h"
+#include "geometry/simplify.h"
+#include "infill/bridges.h"
+#include "infill/mask.h"
+#include "model/flow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace weft::infill {
+namespace {
+
+using namespace weft::literals;
+
+constexpr Um finest_cell = 0.1_mm;
+constexpr double most_cells = 2.3e6;  // of the grid over an object: 150 × 150 mm of the finest cells
+constexpr int margin_cells = 4;
+constexpr int beyond_cells = 2;  // how far an area is drawn over the wall beside it before it is cut to the wall's edge
+
+/// The masks that a run of layers needs, made once.
+class Window {
+ public:
+  Window(const ShellObject& object, std::size_t from, std::size_t to) : from_(from) {
+    const Grid whole = Grid::over(object.box, finest_cell, 0, most_cells);
+    Box box;
+    for (std::size_t i = from; i < to; ++i)
+      box.add(weft::box_of(*object.layers[i].outline)), box.add(weft::box_of(*object.layers[i].inside));
+    grid_ = whole.window(box, margin_cells * whole.cell);
+    for (std::size_t i = from; i < to; ++i) {
+      outlines_.emplace_back(grid_, *object.layers[i].outline);
+      insides_.emplace_back(grid_, *object.layers[i].inside);
+    }
+  }
+  const Grid& grid() const { return grid_; }
+  const Mask& outline(std::size_t layer) const { return outlines_[layer - from_]; }
+  const Mask& inside(std::size_t layer) const { return insides_[layer - from_]; }
+
+ private:
+  std::size_t from_;
+  Grid grid_;
+  std::vector<Mask> outlines_, insides_;
+};
+
+/// How many layers above (or below) a layer decide whether it is solid: [low, high) with the layer itself; beyond the
+/// object's ends means that air is within the skin.
+struct Reach {
+  std::size_t below = 0, above = 0;
+};
+
+Reach reach_of(const ShellSettings& settings, std::span<const ShellLayer> layers, std::size_t index) {
+  Reach reach{static_cast<std::size_t>(settings.bottom_layers), static_cast<std::size_t>(settings.top_layers)};
+  const ShellLayer& here = layers[index];
+  constexpr Um rounding = 1_um;
+  // the skin under a top surface at layer j reaches down to this layer's top when z_j − z < thickness
+  for (std::size_t j = index + reach.above;
+       j < layers.size() && layers[j].z - here.z + rounding < settings.top_thickness; ++j)
+    reach.above = j - index + 1;
+  const auto bottom_of = [&](std::size_t j) { return layers[j].z - layers[j].height; };
+  while (reach.below <= index &&
+         bottom_of(index) - bottom_of(index - reach.below) + rounding < settings.bottom_thickness)
+    ++reach.below;
+  return reach;
+}
+
+/// What each cell of a layer is filled with. Disjoint.
+struct Kinds {
+  Mask inside, top, solid;
+  std::vector<Mask> bridges;
+  std::vector<double> bridge_angles;
+  std::optional<Mask> sparse;  ///< present when any
+};
+
+int cells(double um, const Grid& grid) {
+  return std::max(1, static_cast<int>(std::lround(um / grid.cell)));
+}
+
+Mask solid_cells(const Window& window, std::span<const ShellLayer> layers, std::size_t index, Reach reach) {
+  const Mask& inside = window.inside(index);
+  if (index + reach.above >= layers.size() && reach.above > 0) return inside;
+  if (reach.below > index) return inside;
+  Mask core = inside;
+  for (std::size_t j = index - reach.below; j <= index + reach.above; ++j)
+    if (j != index) core &= window.inside(j);
+  return inside - core;
+}
+
+/// Bottoms over air that hang between supports become bridges.
+void find_bridges(const ShellSettings& settings, Kinds& kinds, const Mask& air, const Mask& below, Um nozzle) {
+  const Grid& grid = kinds.inside.grid();
+  const Mask gaps = air.opened(cells(nozzle / 2.0, grid));
+  if (!gaps.any()) return;
+  std::vector<Ring> rings = gaps.outlines();
+  for (Ring& ring : rings) ring = geometry::simplified(ring, grid.cell);
+  for (const Region& gap : geometry::regions_from_rings(rings)) {
+    std::optional<double> angle = bridge_angle_rad(gap, below);
+    if (!angle) continue;
+    if (settings.bridge_angle) angle = *settings.bridge_angle * std::numbers::pi / 180;
+    Mask bridge = Mask(grid, {&gap, 1}).grown(cells(settings.bridge_anchor, grid)) & kinds.solid;
+    for (const Mask& other : kinds.bridges) bridge -= other;
+    if (!bridge.any()) continue;
+    kinds.solid -= bridge, kinds.top -= bridge;
+    kinds.bridges.push_back(std::move(bridge));
+    kinds.bridge_angles.push_back(*angle);
+  }
+}
+
+Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, const ShellObject& object,
+               const Window& window, std::size_t index) {
+  const ShellLayer& layer = object.layers[index];
+  const Grid& grid = window.grid();
+  const Mask& inside = window.inside(index);
+  const Reach reach = reach_of(settings, object.layers, index);
+  const double line = flow::automatic_width(object.nozzle, layer.height);
+  Mask none(grid);
+  Kinds kinds{inside, none, none, {}, {}, std::nullopt};
+
+  const bool top = reach.above > 0, bottom = reach.below > 0 && index > 0;
+  Mask seen_above = none, air_below = none;
+  if (top) seen_above = index + 1 < object.layers.size() ? inside - window.outline(index + 1) : inside;
+  if (bottom) air_below = inside - window.outline(index - 1);
+
+  if (infill.infill_sparse_density >= 100) {
+    kinds.solid = inside;
+  } else {
+    const Mask wanted = solid_cells(window, object.layers, index, reach);
+    kinds.solid = wanted.opened(cells(0.15 * line, grid));
+    if (seen_above.any() || air_below.any()) kinds.solid |= (seen_above | air_below).grown(cells(line, grid)) & inside;
+    Mask sparse = inside - kinds.solid;
+    if (kinds.solid.any()) sparse = sparse.opened(cells(0.75 * line, grid)) & sparse;
+    kinds.solid = inside - sparse;
+    if (sparse.any()) kinds.sparse = std::move(sparse);
+  }
+  if (seen_above.any())
+    kinds.top = seen_above.opened(cells(0.4 * line, grid)).grown(cells(0.5 * line, grid)) & kinds.solid;
+  kinds.solid -= kinds.top;
+  if (air_below.any()) {
+    kinds.solid |= kinds.top;  // what is bridge below is not top
+    const Mask seen = kinds.top;
+    if (settings.bridges) find_bridges(settings, kinds, air_below, window.outline(index - 1), object.nozzle);
+    kinds.top = seen & kinds.solid;
+    kinds.solid -= kinds.top;
+  }
+  // strips between top and walls too narrow to fill apart go to the top
+  if (kinds.top.any() && kinds.solid.any()) {
+    const Mask strips = kinds.solid - kinds.solid.opened(cells(0.5 * line, grid));
+    const Mask to_top = strips & kinds.top.grown(cells(line, grid));
+    kinds.top |= to_top, kinds.solid -= to_top;
+  }
+  return kinds;
+}
+
+/// One kind of fill while exact areas are cut out.
+struct Kind {
+  const Mask* cells;
+  Regions* areas;  ///< of the part in work
+};
+
+/// Outlines of an area that may run over the wall beside it, to be cut with what is inside of the walls.
+Regions rough_outline(const Mask& cells, const Mask& inside) {
+  const Mask drawn = cells | (cells.grown(beyond_cells) - inside);
+  Regions rings;  // holes among them: the Booleans take rings as they are wound
+  for (const Ring& ring : drawn.outlines())
+    rings.push_back({geometry::simplified(ring, cells.grid().cell * 3 / 4), {}});
+  return rings;
+}
+
+/// Cuts regions of one part that hold several kinds. The last kind present gets the rest, so nothing is lost.
+void cut_apart(const Regions& mixed, std::span<const Kind> kinds, const Mask& inside) {
+  const Box box = weft::box_of(mixed);
+  std::vector<const Kind*> present;
+  for (const Kind& kind : kinds)
+    if (kind.cells->common(inside, box) > 0) present.push_back(&kind);
+  Regions rest = mixed;
+  for (std::size_t k = 0; k < present.size(); ++k) {
+    Regions& areas = *present[k]->areas;
+    if (k + 1 == present.size()) {
+      areas.insert(areas.end(), rest.begin(), rest.end());
+      break;
+    }
+    const Regions rough = rough_outline(*present[k]->cells, inside);
+    const Regions cut = geometry::intersect(rest, rough);
+    rest = geometry::subtract(rest, rough);
+    areas.insert(areas.end(), cut.begin(), cut.end());
+  }
+}
+
+/// Patches of sparse infill that are too small to be worth it become solid.
+void drop_small_sparse(PartAreas& areas, double least_mm2) {
+  const auto small = std::stable_partition(areas.sparse.begin(), areas.sparse.end(),
+                                           [&](const Region& r) { return area_mm2(r) >= least_mm2; });
+  if (small == areas.sparse.end()) return;
+  Regions patches(small, areas.sparse.end());
+  areas.sparse.erase(small, areas.sparse.end());
+  areas.solid = areas.solid.empty() ? std::move(patches) : geometry::unite(areas.solid, patches);
+}
+
+/// The part (region of the outline) that each region of the inside lies in.
+std::vector<std::uint32_t> parts_of(const Regions& inside, const Regions& outline) {
+  std::vector<std::uint32_t> parts(inside.size(), 0);
+  if (outline.size() < 2) return parts;
+  std::vector<Box> boxes;
+  for (const Region& region : outline) boxes.push_back(weft::box_of(region.outer));
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    const Point p = inside[i].outer.front();
+    const auto holds = [&](std::size_t part) {
+      if (!boxes[part].contains(p) || side_of(outline[part].outer, p) == Side::outside) return false;
+      return std::none_of(outline[part].holes.begin(), outline[part].holes.end(),
+                          [&](const Ring& h) { return side_of(h, p) == Side::inside; });
+    };
+    for (std::size_t part = 0; part < outline.size(); ++part)
+      if (holds(part)) {
+        parts[i] = static_cast<std::uint32_t>(part);
+        break;
+      }
+  }
+  return parts;
+}
+
+LayerAreas exact_areas(const ShellSettings& settings, const InfillSettings& infill, const ShellLayer& layer,
+                       const Kinds& kinds) {
+  const std::vector<std::uint32_t> parts = parts_of(*layer.inside, *layer.outline);
+  std::vector<std::size_t> order(parts.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return parts[a] < parts[b]; });
+
+  LayerAreas result;
+  for (std::size_t i = 0; i < order.size();) {
+    PartAreas& areas = result.emplace_back();
+    areas.part = parts[order[i]];
+    for (const double angle : kinds.bridge_angles) areas.bridges.push_back({{}, angle});
+    std::vector<Kind> all;
+    for (std::size_t b = 0; b < kinds.bridges.size(); ++b)
+      all.push_back({&kinds.bridges[b], &areas.bridges[b].regions});
+    all.push_back({&kinds.top, &areas.top});
+    if (kinds.sparse) all.push_back({&*kinds.sparse, &areas.sparse});
+    all.push_back({&kinds.solid, &areas.solid});
+    Regions mixed;
+    for (; i < order.size() && parts[order[i]] == areas.part; ++i) {
+      const Region& region = (*layer.inside)[order[i]];
+      const Mask cells(kinds.inside.grid().window(weft::box_of(region.outer), kinds.inside.grid().cell), {&region, 1});
+      std::vector<const Kind*> present;
+      for (const Kind& kind : all)
+        if (kind.cells->meets(cells)) present.push_back(&kind);
+      if (present.size() > 1)
+        mixed.push_back(region);
+      else
+        (present.empty() ? areas.solid : *present.front()->areas).push_back(region);
+    }
+    if (!mixed.empty()) cut_apart(mixed, all, kinds.inside);
+    std::erase_if(areas.bridges, [](const BridgeArea& b) { return b.regions.empty(); });
+    if (infill.infill_sparse_density > 0) drop_small_sparse(areas, settings.infill_solid_below_area);
+  }
+  return result;
+}
+
+}  // namespace
+
+Box box_of(std::span<const ShellLayer> layers) {
+  Box box;
+  for (const ShellLayer& layer : layers) box.add(weft::box_of(*layer.outline)), box.add(weft::box_of(*layer.inside));
+  return box;
+}
+
+std::vector<LayerAreas> find_areas(const ShellSettings& settings, const InfillSettings& infill,
+                                   const ShellObject& object, std::size_t first, std::size_t count) {
+  std::size_t from = first, to = first + count;
+  for (std::size_t i = first; i < first + count; ++i) {
+    const Reach reach = reach_of(settings, object.layers, i);
+    from = std::min(from, i - std::min(i, std::max<std::size_t>(reach.below, 1)));
+    to = std::max(to, std::min(object.layers.size(), i + std::max<std::size_t>(reach.above, 1) + 1));
+  }
+  const Window window(object, from, to);
+  std::vector<LayerAreas> result;
+  for (std::size_t i = first; i < first + count; ++i) {
+    if (object.layers[i].inside->empty()) {
+      result.emplace_back();
+      continue;
+    }
+    result.push_back(exact_areas(settings, infill, object.layers[i], kinds_of(settings, infill, object, window, i)));
+  }
+  return result;
+}
+
+}  // namespace weft::infill

@@ -1,0 +1,263 @@
+#include "infill/solid.h"
+
+#include "infill/scan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
+
+namespace weft::infill {
+namespace {
+
+using namespace weft::literals;
+
+constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+constexpr double short_lines = 1.5;      // lines shorter than this many bands cannot turn: their strip gets one bead
+constexpr double longest_turn = 4;       // bands; edges shallower than asin(1/4) are not turned along
+constexpr double most_lean = 4;          // bands that a narrow strip may lean from line to line and still be one strip
+constexpr double deepest_bump = 0.25;    // bands that the edge may stand into a turn
+constexpr double shortest_bead_um = 50;  // less than that is a blob
+
+/// Lines of a region in chains: intervals that lie over each other with no fork between them.
+struct Chains {
+  std::vector<std::vector<std::uint32_t>> intervals;  // of each chain, upwards
+  std::vector<std::vector<std::uint32_t>> above;      // chains that must wait for it
+  std::vector<std::uint32_t> waits_for;               // how many
+};
+
+/// The intervals that lie over each other on neighbouring lines: (lower, upper). In strips that lean further than they
+/// are wide none overlap; there `leads_to` says whether the strip carries on from one to the other.
+template <class LeadsTo>
+std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours(const std::vector<Interval>& all, double lean,
+                                                                LeadsTo leads_to) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  const auto n = static_cast<std::uint32_t>(all.size());
+  for (std::uint32_t a = 0, b = 0; a < n; ++a) {
+    while (b < n && all[b].line <= all[a].line) ++b;
+    // b stays at the first that may be near the next a
+    while (b < n && all[b].line == all[a].line + 1 && all[b].to <= all[a].from - lean) ++b;
+    for (std::uint32_t c = b; c < n && all[c].line == all[a].line + 1 && all[c].from < all[a].to + lean; ++c) {
+      const bool over = all[c].from < all[a].to && all[c].to > all[a].from;
+      if (over || leads_to(a, c)) pairs.emplace_back(a, c);
+    }
+  }
+  return pairs;
+}
+
+Chains chains_of(std::size_t count, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
+  const auto n = static_cast<std::uint32_t>(count);
+  std::vector<std::uint32_t> up(n, 0), down(n, 0), only_up(n, nobody);
+  for (const auto& [a, c] : pairs) ++up[a], ++down[c], only_up[a] = c;
+  Chains chains;
+  std::vector<std::uint32_t> chain(n, nobody);
+  for (std::uint32_t a = 0; a < n; ++a) {
+    if (chain[a] == nobody) {
+      chain[a] = static_cast<std::uint32_t>(chains.intervals.size());
+      chains.intervals.push_back({a});
+    }
+    const std::uint32_t c = only_up[a];
+    if (up[a] == 1 && down[c] == 1) {
+      chain[c] = chain[a];
+      chains.intervals[chain[a]].push_back(c);
+    }
+  }
+  chains.above.resize(chains.intervals.size());
+  chains.waits_for.resize(chains.intervals.size(), 0);
+  for (const auto& [a, c] : pairs) {
+    if (chain[a] == chain[c]) continue;
+    chains.above[chain[a]].push_back(chain[c]);
+    ++chains.waits_for[chain[c]];
+  }
+  return chains;
+}
+
+class Filler {
+ public:
+  Filler(const Region& region, const SolidStyle& style, Beads& beads)
+      : style_(style), beads_(beads), frame_(style.angle_rad, style.origin), outline_(region, frame_) {}
+
+  void run() {
+    const double reach = outline_.greatest_y() - outline_.least_y() + 2 * style_.overlap_um;
+    if (!(reach > 2 * style_.overlap_um)) return;
+    const double count = std::max(1.0, std::round(reach / style_.band));
+    lines_ = {outline_.least_y() - style_.overlap_um + reach / count / 2, reach / count, static_cast<int>(count)};
+    width_ = style_.fixed_strand ? style_.band : std::max(1, rounded(lines_.spacing));
+    all_ = outline_.cut(lines_);
+    left_.reserve(all_.size()), right_.reserve(all_.size());
+    for (const Interval& i : all_)
+      left_.push_back(i.from - over(i.from_edge)), right_.push_back(i.to + over(i.to_edge));
+    const auto pairs = neighbours(all_, most_lean * lines_.spacing, [&](std::uint32_t a, std::uint32_t c) {
+      return way(a, c, true).has_value() && way(a, c, false).has_value();
+    });
+    Chains chains = chains_of(all_.size(), pairs);
+    std::vector<std::uint32_t> ready;
+    for (std::uint32_t c = 0; c < chains.intervals.size(); ++c)
+      if (chains.waits_for[c] == 0) ready.push_back(c);
+    while (!ready.empty()) {
+      const std::size_t next = nearest(ready, chains);
+      const std::uint32_t c = ready[next];
+      ready.erase(ready.begin() + static_cast<std::ptrdiff_t>(next));
+      emit(chains.intervals[c]);
+      for (const std::uint32_t waiting : chains.above[c])
+        if (--chains.waits_for[waiting] == 0) ready.push_back(waiting);
+    }
+  }
+
+ private:
+  double length(std::uint32_t i) const { return all_[i].to - all_[i].from; }
+  double y(std::uint32_t i) const { return lines_.y(all_[i].line); }
+  bool is_short(std::uint32_t i) const { return length(i) < short_lines * lines_.spacing; }
+
+  /// How far a line is prolonged along itself to reach `overlap` beyond its edge.
+  double over(std::uint32_t edge) const {
+    const Turned a = outline_.points()[edge], b = outline_.points()[outline_.next(edge)];
+    const double sine = std::abs(b.y - a.y) / std::hypot(b.x - a.x, b.y - a.y);
+    return style_.overlap_um / std::max(sine, 0.4);  // not far along edges that are nearly parallel to it
+  }
+
+  /// Which of the ready chains begins nearest to where the nozzle is.
+  std::size_t nearest(const std::vector<std::uint32_t>& ready, const Chains& chains) const {
+    if (!started_) return 0;
+    constexpr std::size_t looked_at = 64;  // bounds the work in regions of thousands of chains
+    std::size_t best = 0;
+    double best_distance = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < std::min(ready.size(), looked_at); ++i) {
+      const std::uint32_t first = chains.intervals[ready[i]].front();
+      const double dy = y(first) - at_.y;
+      const double d = std::min(std::hypot(left_[first] - at_.x, dy), std::hypot(right_[first] - at_.x, dy));
+      if (d < best_distance) best_distance = d, best = i;
+    }
+    return best;
+  }
+
+  void emit(const std::vector<std::uint32_t>& chain) {
+    for (std::size_t i = 0; i < chain.size();) {
+      std::size_t j = i;
+      while (j < chain.size() && is_short(chain[j])) ++j;
+      if (j - i >= 2)
+        emit_spine({chain.begin() + static_cast<std::ptrdiff_t>(i), chain.begin() + static_cast<std::ptrdiff_t>(j)});
+      else
+        j = i;
+      // lines up to the next strip of short ones
+      std::size_t k = j;
+      while (k < chain.size() && !(is_short(chain[k]) && k + 1 < chain.size() && is_short(chain[k + 1]))) ++k;
+      if (k > j)
+        emit_lines({chain.begin() + static_cast<std::ptrdiff_t>(j), chain.begin() + static_cast<std::ptrdiff_t>(k)});
+      i = k;
+    }
+  }
+
+  /// There and back: each line a bead, or joined with the last one by a turn.
+  void emit_lines(std::span<const std::uint32_t> lines) {
+    const std::uint32_t first = lines.front();
+    bool rightwards = !started_ || std::abs(left_[first] - at_.x) <= std::abs(right_[first] - at_.x);
+    std::vector<Turned> path;
+    double start = rightwards ? left_[first] : right_[first];
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const std::uint32_t here = lines[i];
+      double end = rightwards ? right_[here] : left_[here];
+      path.push_back({start, y(here)});
+      double next_start = 0;
+      const double turn = i + 1 < lines.size() && style_.connect ? turn_length(here, lines[i + 1], rightwards) : 0;
+      const double pull = rightwards ? -turn / 2 : turn / 2;
+      if (i + 1 < lines.size()) next_start = (rightwards ? right_ : left_)[lines[i + 1]];
+      const bool joined = turn > 0 && (end + pull - start) * (rightwards ? 1 : -1) > 0 && length(lines[i + 1]) > turn;
+      path.push_back({joined ? end + pull : end, y(here)});
+      if (!joined) {
+        add(path, style_.role, {});
+        path.clear();
+      }
+      start = joined ? next_start + pull : next_start;
+      rightwards = !rightwards;
+    }
+  }
+
+  /// Follows the edge from the right (or left) end of a line up to the same end of one on the next line: how far, in x,
+  /// it stands inwards of the straight way between them; nothing when it does not lead there.
+  std::optional<double> way(std::uint32_t a, std::uint32_t b, bool right) const {
+    const double xa = right ? all_[a].to : all_[a].from, xb = right ? all_[b].to : all_[b].from;
+    const std::uint32_t last = right ? all_[b].to_edge : all_[b].from_edge;
+    std::uint32_t edge = right ? all_[a].to_edge : all_[a].from_edge;
+    const bool with_ring = outline_.points()[outline_.next(edge)].y > outline_.points()[edge].y;
+    const double low = y(a), high = y(b);
+    double bump = 0;
+    for (int steps = 0; edge != last; ++steps) {
+      constexpr int most_steps = 1000;
+      const std::uint32_t vertex = with_ring ? outline_.next(edge) : edge;
+      const Turned v = outline_.points()[vertex];
+      if (v.y < low || v.y > high || steps > most_steps) return std::nullopt;
+      const double x = xa + (xb - xa) * (v.y - low) / lines_.spacing;
+      bump = std::max(bump, right ? x - v.x : v.x - x);
+      edge = with_ring ? vertex : outline_.previous(edge);
+    }
+    return bump;
+  }
+
+  /// Length of the turn at the right (or left) end from a line to the next, or 0 where the edge between them does not
+  /// allow one.
+  double turn_length(std::uint32_t a, std::uint32_t b, bool right) const {
+    const double length = std::hypot(lines_.spacing, right ? all_[b].to - all_[a].to : all_[b].from - all_[a].from);
+    if (length > longest_turn * lines_.spacing) return 0;
+    const std::optional<double> bump = way(a, b, right);
+    return bump && *bump <= deepest_bump * lines_.spacing ? length : 0;
+  }
+
+  /// One bead along the middle of a strip, as wide as the strip is across.
+  void emit_spine(std::span<const std::uint32_t> strip) {
+    std::vector<Turned> path;
+    std::vector<Um> widths;
+    const auto middle = [&](std::uint32_t i) { return Turned{(all_[i].from + all_[i].to) / 2, y(i)}; };
+    // the strip reaches half a line beyond its first and its last line
+    const Turned first = middle(strip[0]), second = middle(strip[1]);
+    const Turned last = middle(strip.back()), before = middle(strip[strip.size() - 2]);
+    path.push_back({first.x - (second.x - first.x) / 2, first.y - lines_.spacing / 2});
+    for (const std::uint32_t i : strip) path.push_back(middle(i));
+    path.push_back({last.x + (last.x - before.x) / 2, last.y + lines_.spacing / 2});
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      const Turned a = path[i == 0 ? 0 : i - 1], b = path[std::min(i + 1, path.size() - 1)];
+      const double across = (b.y - a.y) / std::hypot(b.x - a.x, b.y - a.y);
+      const std::uint32_t line = strip[std::clamp<std::size_t>(i, 1, strip.size()) - 1];
+      widths.push_back(std::max(1, rounded(length(line) * across)));
+    }
+    add(path, Role::gap_fill, widths);
+  }
+
+  void add(const std::vector<Turned>& path, Role role, const std::vector<Um>& widths) {
+    double total = 0;
+    for (std::size_t i = 1; i < path.size(); ++i)
+      total += std::hypot(path[i].x - path[i - 1].x, path[i].y - path[i - 1].y);
+    if (total < shortest_bead_um) return;
+    Bead bead;
+    bead.role = role, bead.part = style_.part, bead.sequence = style_.sequence;
+    bead.path.reserve(path.size());
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      const Junction j{frame_.back(path[i]), widths.empty() ? width_ : widths[i], static_cast<float>(style_.flow)};
+      if (bead.path.empty() || bead.path.back().at != j.at) bead.path.push_back(j);
+    }
+    if (bead.path.size() < 2) return;
+    at_ = path.back(), started_ = true;
+    beads_.push_back(std::move(bead));
+  }
+
+  const SolidStyle& style_;
+  Beads& beads_;
+  Frame frame_;
+  Outline outline_;
+  LineSet lines_;
+  Um width_ = 0;
+  std::vector<Interval> all_;
+  std::vector<double> left_, right_;  // ends of each interval, reaching over the edge
+  Turned at_;
+  bool started_ = false;
+};
+
+}  // namespace
+
+void fill_solid(const Region& region, const SolidStyle& style, Beads& beads) {
+  if (style.band <= 0 || region.outer.size() < 3) return;
+  Filler(region, style, beads).run();
+}
+
+}  // namespace weft::infill

@@ -1,0 +1,26 @@
+#pragma once
+#include "core/polygon.h"
+#include "model/bead.h"
+
+namespace weft::infill {
+
+/// How an area is filled with lines side by side.
+struct SolidStyle {
+  Role role = Role::solid_infill;
+  Um band = 0;                ///< of a line; adapted a little so that whole lines fill the width
+  double angle_rad = 0;       ///< direction of the lines, against X
+  double overlap_um = 0;      ///< how far lines reach over the edge
+  bool connect = true;        ///< neighbouring lines are one bead where they can
+  bool fixed_strand = false;  ///< keep `band` as the width of each line (bridges)
+  double flow = 1;
+  Point origin{};
+  std::uint32_t part = 0, sequence = 0;
+};
+
+/// Fills a region with parallel lines, in an order in which every line is printed after its neighbour on one and the
+/// same side. Neighbouring lines are joined by a turn along the edge; both are shortened by half of it, so that the
+/// turn adds no plastic. Strips narrower than a line and a half get one bead along their middle as wide as they are
+/// (Role::gap_fill). Post: Σ volume = area × height × flow, but for what overlaps.
+void fill_solid(const Region& region, const SolidStyle& style, Beads& beads);
+
+}  // namespace weft::infill

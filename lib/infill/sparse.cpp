@@ -1,0 +1,272 @@
+#include "infill/sparse.h"
+
+#include "geometry/offset.h"
+#include "infill/scan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+namespace weft::infill {
+namespace {
+
+constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+constexpr double least_narrowing = 0.7;  // of the band, for the joints' sake
+constexpr double shallowest = 0.3;       // sine of the angle between line and edge below which they are not joined
+
+/// A place in the layer, fractional microns.
+struct Place {
+  double x = 0, y = 0;
+};
+Place operator+(Place a, Place b) {
+  return {a.x + b.x, a.y + b.y};
+}
+Place operator-(Place a, Place b) {
+  return {a.x - b.x, a.y - b.y};
+}
+Place operator*(double s, Place a) {
+  return {s * a.x, s * a.y};
+}
+double norm(Place a) {
+  return std::hypot(a.x, a.y);
+}
+
+/// A straight piece of the pattern between two edges of the region; its ends are `2i` and `2i + 1`.
+struct Line {
+  Place from, to;
+};
+
+/// An end of a line on the region's edge.
+struct End {
+  std::uint32_t edge = 0;
+  double along = 0;  ///< where on the edge, 0 … 1
+  double sine = 1;   ///< of the angle between line and edge
+};
+
+/// Lines of a region and where they end, and how they are joined to paths.
+class Web {
+ public:
+  Web(const Region& region, const SparseStyle& style) : style_(style), outline_(region, Frame(0, style.origin)) {
+    const std::vector<Turned>& points = outline_.points();
+    normals_.reserve(points.size());
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+      const Place d = place(outline_.next(i)) - place(i);
+      const double l = std::max(norm(d), 1e-9);
+      normals_.push_back({-d.y / l, d.x / l});  // to the left: inwards
+    }
+  }
+
+  void add_lines(const Region& region, double angle_rad, double spacing) {
+    const Frame frame(angle_rad, style_.origin);
+    const Outline turned(region, frame);
+    const double first = std::ceil(turned.least_y() / spacing) * spacing;
+    const LineSet lines{first, spacing, static_cast<int>(std::floor((turned.greatest_y() - first) / spacing)) + 1};
+    for (const Interval& i : turned.cut(lines)) {
+      const double y = lines.y(i.line);
+      const Turned a = turn(i.from, y, angle_rad), b = turn(i.to, y, angle_rad);
+      lines_.push_back({{a.x, a.y}, {b.x, b.y}});
+      for (const std::uint32_t edge : {i.from_edge, i.to_edge}) {
+        const Turned p = turned.points()[edge], q = turned.points()[turned.next(edge)];
+        ends_.push_back({edge, (y - p.y) / (q.y - p.y), std::abs(q.y - p.y) / std::hypot(q.x - p.x, q.y - p.y)});
+      }
+    }
+  }
+
+  void emit(double spacing, Beads& beads) {
+    joint_.assign(ends_.size(), nobody);
+    set_.resize(lines_.size());
+    for (std::uint32_t i = 0; i < set_.size(); ++i) set_[i] = i;
+    pull_.assign(ends_.size(), 0.0);
+    for (std::uint32_t e = 0; e < ends_.size(); ++e)
+      pull_[e] = -style_.overlap_um / std::max(ends_[e].sine, shallowest);
+    if (style_.connect) join(spacing);
+    write(beads);
+  }
+
+ private:
+  static Turned turn(double x, double y, double angle_rad) {
+    const double c = std::cos(angle_rad), s = std::sin(angle_rad);
+    return {x * c - y * s, x * s + y * c};
+  }
+  Place place(std::uint32_t i) const { return {outline_.points()[i].x, outline_.points()[i].y}; }
+  Place at(std::uint32_t end) const { return end % 2 == 0 ? lines_[end / 2].from : lines_[end / 2].to; }
+  double length(std::uint32_t line) const { return norm(lines_[line].to - lines_[line].from); }
+  /// Where the line ends after it was shortened (or prolonged).
+  Place pulled(std::uint32_t end) const {
+    const Place here = at(end), other = at(end ^ 1U);
+    return here + (pull_[end] / std::max(norm(other - here), 1e-9)) * (other - here);
+  }
+  std::uint32_t set_of(std::uint32_t line) {
+    while (set_[line] != line) line = set_[line] = set_[set_[line]];
+    return line;
+  }
+
+  /// Joins ends that are neighbours along an edge, going around each ring once. Paths never close.
+  void join(double spacing) {
+    std::vector<std::uint32_t> order(ends_.size());
+    for (std::uint32_t e = 0; e < order.size(); ++e) order[e] = e;
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      if (ends_[a].edge != ends_[b].edge) return ends_[a].edge < ends_[b].edge;
+      return ends_[a].along != ends_[b].along ? ends_[a].along < ends_[b].along : a < b;
+    });
+    for (std::size_t i = 0; i < order.size();) {
+      std::size_t last = i;  // one past the ring
+      const std::uint32_t ring = outline_.ring_of(ends_[order[i]].edge);
+      while (last < order.size() && outline_.ring_of(ends_[order[last]].edge) == ring) ++last;
+      for (std::size_t k = i; k < last; ++k) {
+        const std::uint32_t a = order[k], b = order[k + 1 < last ? k + 1 : i];
+        if (joint_[a] == nobody && joint_[b] == nobody) try_join(a, b, spacing);
+      }
+      i = last;
+    }
+  }
+
+  void try_join(std::uint32_t a, std::uint32_t b, double spacing) {
+    if (a == b || set_of(a / 2) == set_of(b / 2)) return;
+    if (ends_[a].sine < shallowest || ends_[b].sine < shallowest) return;
+    const double inset = style_.band / 2.0 - style_.overlap_um;
+    const auto room = [&](std::uint32_t e) {
+      return inset / ends_[e].sine + std::max(pull_[e ^ 1U], 0.0) < length(e / 2);
+    };
+    if (!room(a) || !room(b)) return;
+    const double before_a = pull_[a], before_b = pull_[b];
+    pull_[a] = inset / ends_[a].sine, pull_[b] = inset / ends_[b].sine;
+    std::optional<std::vector<Place>> arc = arc_between(a, b, inset, 1.5 * spacing);
+    if (!arc) {
+      pull_[a] = before_a, pull_[b] = before_b;
+      return;
+    }
+    joint_[a] = b, joint_[b] = a;
+    set_[set_of(a / 2)] = set_of(b / 2);
+    arc_from_.emplace_back(a, std::move(*arc));
+  }
+
+  /// The inner points of the way from end a to end b beside the edge; nothing when it is too long or folds.
+  std::optional<std::vector<Place>> arc_between(std::uint32_t a, std::uint32_t b, double inset, double longest) const {
+    std::vector<Place> arc;
+    double way = 0;
+    Place last = pulled(a);
+    std::uint32_t edge = ends_[a].edge;
+    const std::uint32_t last_edge = ends_[b].edge;
+    const bool wraps = edge == last_edge && ends_[b].along < ends_[a].along;
+    for (int steps = 0; edge != last_edge || (wraps && steps == 0); ++steps) {
+      constexpr int most_steps = 500;
+      const std::uint32_t vertex = outline_.next(edge);
+      const Place n = normals_[edge], m = normals_[vertex];
+      const double bend = 1 + n.x * m.x + n.y * m.y;
+      if (bend < 0.2 || steps > most_steps) return std::nullopt;  // a spike
+      const Place p = place(vertex) + (inset / bend) * (n + m);
+      const Place step = p - last, forward = {n.y, -n.x};
+      if (step.x * forward.x + step.y * forward.y > 0) {  // else the edge is shorter than the inset eats up
+        way += norm(step);
+        arc.push_back(p);
+        last = p;
+      }
+      if (way > longest) return std::nullopt;
+      edge = vertex;
+    }
+    way += norm(pulled(b) - last);
+    if (way > longest) return std::nullopt;
+    return arc;
+  }
+
+  void write(Beads& beads) {
+    std::vector<const std::vector<Place>*> arc(ends_.size(), nullptr);
+    for (const auto& [end, places] : arc_from_) arc[end] = &places;
+    std::vector<std::vector<Place>> paths;
+    std::vector<bool> done(lines_.size(), false);
+    double raw = 0, laid = 0;
+    for (std::uint32_t l = 0; l < lines_.size(); ++l) raw += length(l);
+    for (std::uint32_t start = 0; start < ends_.size(); ++start) {
+      if (joint_[start] != nobody || done[start / 2]) continue;
+      std::vector<Place> path;
+      for (std::uint32_t e = start;;) {
+        done[e / 2] = true;
+        path.push_back(pulled(e)), path.push_back(pulled(e ^ 1U));
+        const std::uint32_t a = e ^ 1U, b = joint_[a];
+        if (b == nobody) break;
+        if (arc[a] != nullptr)
+          path.insert(path.end(), arc[a]->begin(), arc[a]->end());
+        else if (arc[b] != nullptr)
+          path.insert(path.end(), arc[b]->rbegin(), arc[b]->rend());
+        e = b;
+      }
+      double way = 0;
+      for (std::size_t i = 1; i < path.size(); ++i) way += norm(path[i] - path[i - 1]);
+      if (way < style_.band) continue;  // a blob
+      laid += way;
+      paths.push_back(std::move(path));
+    }
+    if (laid <= 0) return;
+    const Um width = std::max(1, rounded(style_.band * std::clamp(raw / laid, least_narrowing, 1.0)));
+    for (const std::vector<Place>& path : paths) {
+      Bead bead;
+      bead.role = Role::infill, bead.part = style_.part;
+      for (const Place& p : path) {
+        const Junction j{{style_.origin.x + rounded(p.x), style_.origin.y + rounded(p.y)}, width, 1.F};
+        if (bead.path.empty() || bead.path.back().at != j.at) bead.path.push_back(j);
+      }
+      if (bead.path.size() >= 2) beads.push_back(std::move(bead));
+    }
+  }
+
+  const SparseStyle& style_;
+  Outline outline_;
+  std::vector<Place> normals_;
+  std::vector<Line> lines_;
+  std::vector<End> ends_;
+  std::vector<std::uint32_t> joint_, set_;
+  std::vector<double> pull_;  // how far each end is drawn back along its line
+  std::vector<std::pair<std::uint32_t, std::vector<Place>>> arc_from_;
+};
+
+/// Loops at even distances from the edge; their width makes up for the middle, where they do not come out even.
+void fill_concentric(const Region& region, const SparseStyle& style, Beads& beads) {
+  const double spacing = style.band / style.density;
+  std::vector<Ring> loops;
+  double way = 0;
+  Regions rest{region};
+  for (bool first = true; !rest.empty(); first = false) {
+    rest = geometry::offset(rest, {.by = -std::max(1, rounded(first ? spacing / 2 : spacing))});
+    for (Region& r : rest) {
+      loops.push_back(r.outer);
+      loops.insert(loops.end(), r.holes.begin(), r.holes.end());
+    }
+  }
+  std::erase_if(loops, [&](const Ring& loop) { return perimeter_of(loop) < style.band; });
+  for (const Ring& loop : loops) way += perimeter_of(loop);
+  if (way <= 0) return;
+  const double wanted = style.density * area_mm2(region) * 1e6 / style.band;  // length of beads
+  const Um width = std::max(1, rounded(style.band * std::clamp(wanted / way, least_narrowing, 1 / least_narrowing)));
+  for (const Ring& loop : loops) {
+    Bead& bead = beads.emplace_back();
+    bead.role = Role::infill, bead.part = style.part, bead.closed = true;
+    bead.path.reserve(loop.size());
+    for (const Point p : loop) bead.path.push_back({p, width, 1.F});
+  }
+}
+
+}  // namespace
+
+void fill_sparse(const Region& region, const SparseStyle& style, Beads& beads) {
+  if (style.band <= 0 || style.density <= 0 || region.outer.size() < 3) return;
+  if (style.pattern == InfillPattern::concentric) return fill_concentric(region, style, beads);
+  const double apart = style.band / style.density;  // of lines in one direction only
+  Web web(region, style);
+  switch (style.pattern) {
+    case InfillPattern::grid:
+      for (const double turn : {0.0, 0.5}) web.add_lines(region, style.angle_rad + turn * std::numbers::pi, 2 * apart);
+      return web.emit(2 * apart, beads);
+    case InfillPattern::triangles:
+      for (const double turn : {0.0, 1.0 / 3, 2.0 / 3})
+        web.add_lines(region, style.angle_rad + turn * std::numbers::pi, 3 * apart);
+      return web.emit(3 * apart, beads);
+    default:
+      web.add_lines(region, style.angle_rad + (style.turned_layer ? std::numbers::pi / 2 : 0), apart);
+      return web.emit(apart, beads);
+  }
+}
+
+}  // namespace weft::infill

@@ -1,0 +1,26 @@
+#pragma once
+#include "core/polygon.h"
+#include "model/bead.h"
+#include "settings/infill.h"
+
+namespace weft::infill {
+
+/// How an area is filled sparsely.
+struct SparseStyle {
+  InfillPattern pattern = InfillPattern::grid;
+  double density = 0.2;  ///< share of the area, 0 < density < 1
+  Um band = 0;
+  double angle_rad = 0;
+  double overlap_um = 0;  ///< how far lines reach over the edge
+  bool connect = true;
+  bool turned_layer = false;  ///< every second layer: the pattern `lines` is turned by 90°
+  Um z = 0;
+  Point origin{};  ///< patterns are anchored here, so that layers stand on each other
+  std::uint32_t part = 0;
+};
+
+/// Fills a region with the pattern. Lines that are neighbours along the edge are joined by a bead beside the edge; all
+/// beads are then narrowed a little, so that the joints do not raise the density.
+void fill_sparse(const Region& region, const SparseStyle& style, Beads& beads);
+
+}  // namespace weft::infill

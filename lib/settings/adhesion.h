@@ -1,0 +1,58 @@
+#pragma once
+#include "settings/schema.h"
+
+#include <array>
+
+namespace weft {
+using namespace weft::literals;
+
+/// Which outlines a brim follows.
+enum class BrimLocation { outside, inside, everywhere };
+constexpr auto choices_of(BrimLocation) {
+  return std::array{Choice<BrimLocation>{BrimLocation::outside, "outside"},
+                    Choice<BrimLocation>{BrimLocation::inside, "inside"},
+                    Choice<BrimLocation>{BrimLocation::everywhere, "everywhere"}};
+}
+
+/// What happens to a skirt or brim that would leave the print surface.
+enum class AdhesionOutside { keep, clip };
+constexpr auto choices_of(AdhesionOutside) {
+  return std::array{Choice<AdhesionOutside>{AdhesionOutside::keep, "keep"},
+                    Choice<AdhesionOutside>{AdhesionOutside::clip, "clip"}};
+}
+
+/// What is printed around the parts on the bed.
+struct AdhesionSettings {
+  int skirt_line_count = 1;
+  Um skirt_gap = 6_mm;
+  int skirt_height = 1;
+  Um skirt_brim_minimal_length = 0_mm;
+  Um brim_width = 0_mm;
+  Um brim_gap = 0_mm;
+  BrimLocation brim_location = BrimLocation::outside;
+  std::optional<Um> skirt_brim_line_width;
+  AdhesionOutside adhesion_outside = AdhesionOutside::keep;
+};
+
+inline constexpr std::tuple adhesion_schema{
+    setting("skirt_line_count", &AdhesionSettings::skirt_line_count, Unit::none, 0, 1000,
+            "Loops of the skirt around everything on the bed.", "skirts"),
+    setting("skirt_gap", &AdhesionSettings::skirt_gap, Unit::mm, 0_mm, 200_mm,
+            "Distance between the parts (or their brim) and the innermost loop of the skirt.", "skirt_distance"),
+    setting("skirt_height", &AdhesionSettings::skirt_height, Unit::layers, 1, 100000,
+            "Layers that the skirt is printed on.", "skirt_height"),
+    setting("skirt_brim_minimal_length", &AdhesionSettings::skirt_brim_minimal_length, Unit::mm, 0_mm, 16000_mm,
+            "Loops are added to the skirt until skirt and brim are at least this long together.", "min_skirt_length"),
+    setting("brim_width", &AdhesionSettings::brim_width, Unit::mm, 0_mm, 200_mm,
+            "Width of the brim on the first layer; 0 prints none.", "brim_width"),
+    setting("brim_gap", &AdhesionSettings::brim_gap, Unit::mm, 0_mm, 10_mm,
+            "Distance between the part and its brim, to make it easier to take off.", "brim_separation"),
+    setting("brim_location", &AdhesionSettings::brim_location, "Outlines that the brim follows.", "brim_type"),
+    setting("skirt_brim_line_width", &AdhesionSettings::skirt_brim_line_width, Unit::mm, 0.05_mm, 5_mm,
+            "Line width of skirt and brim; auto keeps the cross-section of the nozzle."),
+    setting("adhesion_outside", &AdhesionSettings::adhesion_outside,
+            "Skirt and brim that leave the print surface: keep leaves them to the audit, clip cuts them off."),
+};
+static_assert(complete<AdhesionSettings>(adhesion_schema));
+
+}  // namespace weft

@@ -1,0 +1,47 @@
+#pragma once
+#include "settings/schema.h"
+
+#include <array>
+
+namespace weft {
+using namespace weft::literals;
+
+/// How sparse infill is laid out.
+enum class InfillPattern { lines, grid, triangles, gyroid, concentric };
+constexpr auto choices_of(InfillPattern) {
+  return std::array{Choice<InfillPattern>{InfillPattern::lines, "lines"},
+                    Choice<InfillPattern>{InfillPattern::grid, "grid"},
+                    Choice<InfillPattern>{InfillPattern::triangles, "triangles"},
+                    Choice<InfillPattern>{InfillPattern::gyroid, "gyroid"},
+                    Choice<InfillPattern>{InfillPattern::concentric, "concentric"}};
+}
+
+/// What stands inside the part between its shells.
+struct InfillSettings {
+  double infill_sparse_density = 20;
+  InfillPattern infill_pattern = InfillPattern::grid;
+  std::optional<Um> infill_line_width;
+  double infill_angle = 45;
+  LengthOrShare infill_overlap = share(10);
+  bool infill_connect_lines = true;
+};
+
+inline constexpr std::tuple infill_schema{
+    setting("infill_sparse_density", &InfillSettings::infill_sparse_density, Unit::percent, 0, 100,
+            "Share of the inside that is plastic; 100 % is solid.", "fill_density"),
+    setting("infill_pattern", &InfillSettings::infill_pattern, "Layout of sparse infill.", "fill_pattern"),
+    setting("infill_line_width", &InfillSettings::infill_line_width, Unit::mm, 0.05_mm, 10_mm,
+            "Line width of sparse infill; auto keeps the cross-section of the nozzle.", "infill_extrusion_width"),
+    setting("infill_angle", &InfillSettings::infill_angle, Unit::degrees, -360, 360,
+            "Direction of sparse lines, against X; the pattern lines is turned by 90° on every second layer.",
+            "fill_angle"),
+    setting(
+        "infill_overlap", &InfillSettings::infill_overlap, Unit::mm, 0_mm, 5_mm,
+        "How far skin and infill reach into the innermost wall, to bond with it; a share is of that wall's line width.",
+        "infill_overlap"),
+    setting("infill_connect_lines", &InfillSettings::infill_connect_lines,
+            "Neighbouring lines are joined along the wall instead of travelling from one to the next."),
+};
+static_assert(complete<InfillSettings>(infill_schema));
+
+}  // namespace weft

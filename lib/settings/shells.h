@@ -1,0 +1,54 @@
+#pragma once
+#include "settings/schema.h"
+
+namespace weft {
+using namespace weft::literals;
+
+/// What closes the part above and below: solid layers, and bridges where they hang over air.
+struct ShellSettings {
+  int top_layers = 4;
+  int bottom_layers = 4;
+  Um top_thickness = 0.7_mm;
+  Um bottom_thickness = 0.5_mm;
+  std::optional<Um> skin_line_width;
+  std::optional<Um> top_skin_line_width;
+  double skin_angle = 45;
+  double infill_solid_below_area = 20;
+  bool bridges = true;
+  std::optional<double> bridge_angle;
+  double bridge_flow = 100;
+  Um bridge_anchor = 1_mm;
+};
+
+inline constexpr std::tuple shell_schema{
+    setting("top_layers", &ShellSettings::top_layers, Unit::layers, 0, 100000,
+            "Solid layers under every top surface; top_thickness may ask for more.", "top_solid_layers"),
+    setting("bottom_layers", &ShellSettings::bottom_layers, Unit::layers, 0, 100000,
+            "Solid layers over every bottom surface; bottom_thickness may ask for more.", "bottom_solid_layers"),
+    setting("top_thickness", &ShellSettings::top_thickness, Unit::mm, 0_mm, 1000_mm,
+            "Least thickness of what is solid under a top surface.", "top_solid_min_thickness"),
+    setting("bottom_thickness", &ShellSettings::bottom_thickness, Unit::mm, 0_mm, 1000_mm,
+            "Least thickness of what is solid over a bottom surface.", "bottom_solid_min_thickness"),
+    setting("skin_line_width", &ShellSettings::skin_line_width, Unit::mm, 0.05_mm, 5_mm,
+            "Line width of bottoms and of solid infill; auto keeps the cross-section of the nozzle.",
+            "solid_infill_extrusion_width"),
+    setting("top_skin_line_width", &ShellSettings::top_skin_line_width, Unit::mm, 0.05_mm, 5_mm,
+            "Line width of top surfaces; auto is nozzle_diameter, narrow for an even surface.",
+            "top_infill_extrusion_width"),
+    setting("skin_angle", &ShellSettings::skin_angle, Unit::degrees, -360, 360,
+            "Direction of the lines of solid layers, against X; every second layer is turned by 90°."),
+    setting("infill_solid_below_area", &ShellSettings::infill_solid_below_area, Unit::mm2, 0, 1000000,
+            "A patch of sparse infill smaller than this is made solid.", "solid_infill_below_area"),
+    setting("bridges", &ShellSettings::bridges,
+            "Bottoms over air that rest on two sides are printed as bridges: free strands along the shorter span."),
+    setting("bridge_angle", &ShellSettings::bridge_angle, Unit::degrees, -360, 360,
+            "Direction of all bridges, against X; auto finds it for each.", "bridge_angle"),
+    setting("bridge_flow", &ShellSettings::bridge_flow, Unit::percent, 10, 300,
+            "Plastic in a bridge's strand, as a share of a round strand of the nozzle's diameter.",
+            "bridge_flow_ratio"),
+    setting("bridge_anchor", &ShellSettings::bridge_anchor, Unit::mm, 0_mm, 20_mm,
+            "How far a bridge reaches over the layer that it rests on."),
+};
+static_assert(complete<ShellSettings>(shell_schema));
+
+}  // namespace weft

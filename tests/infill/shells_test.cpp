@@ -1,0 +1,215 @@
+#include "infill/shells.h"
+
+#include "areas.h"
+#include "geometry/offset.h"
+
+#include <algorithm>
+
+#include <catch2/catch.hpp>
+
+using namespace weft;
+using namespace weft::test;
+using infill::LayerAreas;
+using infill::PartAreas;
+using infill::ShellLayer;
+
+namespace {
+
+/// An object from its outlines, with walls of 1 mm.
+struct Object {
+  std::vector<Regions> outlines, insides;
+  std::vector<ShellLayer> layers;
+
+  explicit Object(std::vector<Regions> from, Um wall = 1000) : outlines(std::move(from)) {
+    for (const Regions& r : outlines) insides.push_back(geometry::offset(r, {.by = -wall}));
+    for (std::size_t i = 0; i < outlines.size(); ++i)
+      layers.push_back({static_cast<Um>(200 * (i + 1)), 200, &outlines[i], &insides[i]});
+  }
+  std::vector<LayerAreas> areas(const ShellSettings& shells, const InfillSettings& infill = {}) const {
+    return infill::find_areas(shells, infill, {layers, infill::box_of(layers), 400}, 0, layers.size());
+  }
+};
+
+/// Counts of layers, thicknesses and the smallest sparse patch.
+ShellSettings skin(int top, int bottom, Um top_thickness, Um bottom_thickness, double below_area = 20) {
+  ShellSettings shells;
+  shells.top_layers = top, shells.bottom_layers = bottom;
+  shells.top_thickness = top_thickness, shells.bottom_thickness = bottom_thickness;
+  shells.infill_solid_below_area = below_area;
+  return shells;
+}
+
+double sum(const LayerAreas& layer, Regions PartAreas::*kind) {
+  double mm2 = 0;
+  for (const PartAreas& part : layer) mm2 += area_mm2(part.*kind);
+  return mm2;
+}
+double bridged(const LayerAreas& layer) {
+  double mm2 = 0;
+  for (const PartAreas& part : layer)
+    for (const infill::BridgeArea& b : part.bridges) mm2 += area_mm2(b.regions);
+  return mm2;
+}
+double all(const LayerAreas& layer) {
+  return sum(layer, &PartAreas::top) + sum(layer, &PartAreas::solid) + sum(layer, &PartAreas::sparse) + bridged(layer);
+}
+bool solid_at(const LayerAreas& layer, Point p) {
+  return std::any_of(layer.begin(), layer.end(), [&](const PartAreas& a) {
+    return holds(a.top, p) || holds(a.solid, p) ||
+           std::any_of(a.bridges.begin(), a.bridges.end(), [&](const auto& b) { return holds(b.regions, p); });
+  });
+}
+
+}  // namespace
+
+TEST_CASE("shells: a block has its solid layers below and above, and nothing else", "[infill]") {
+  const Object block(std::vector<Regions>(20, {rectangle(0, 0, 20000, 20000)}));
+  const ShellSettings shells = skin(3, 2, 0, 0);
+  const auto areas = block.areas(shells);
+  for (std::size_t i = 0; i < 20; ++i) {
+    CAPTURE(i);
+    CHECK(sum(areas[i], &PartAreas::sparse) == Approx(i >= 2 && i < 17 ? 324 : 0).margin(0.001));
+    CHECK(sum(areas[i], &PartAreas::top) == Approx(i == 19 ? 324 : 0).margin(0.001));
+    CHECK(all(areas[i]) == Approx(324));
+  }
+}
+
+TEST_CASE("shells: thickness asks for as many layers as it needs", "[infill]") {
+  const Object block(std::vector<Regions>(20, {rectangle(0, 0, 20000, 20000)}));
+  const auto solid_layers = [&](const ShellSettings& shells) {
+    const auto areas = block.areas(shells);
+    return std::count_if(areas.begin(), areas.end(),
+                         [](const LayerAreas& a) { return sum(a, &PartAreas::sparse) == 0; });
+  };
+  CHECK(solid_layers(skin(1, 1, 0, 0)) == 2);
+  CHECK(solid_layers(skin(1, 1, 700, 500)) == 4 + 3);
+  CHECK(solid_layers(skin(1, 1, 800, 0)) == 4 + 1);
+  CHECK(solid_layers(skin(0, 0, 0, 0)) == 0);
+}
+
+TEST_CASE("shells: areas of a layer do not overlap and together are the inside", "[infill][law]") {
+  std::vector<Regions> outlines;
+  for (std::uint32_t seed = 1; seed <= 30; ++seed)
+    outlines.push_back({star(seed / 3, 25000 - static_cast<Um>(seed) * 300, 19)});
+  const Object object(std::move(outlines));
+  const auto areas = object.areas({});
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    CAPTURE(i);
+    CHECK(all(areas[i]) == Approx(area_mm2(object.insides[i])).epsilon(0.001).margin(0.01));
+  }
+}
+
+TEST_CASE("shells: a sloped roof leaves no open spot", "[infill][law]") {
+  const Um slope = GENERATE(40, 150, 400, 900, 2500);  // how far the outline recedes a layer
+  std::vector<Regions> outlines;
+  for (int i = 0; i < 30 && 30000 - 2 * i * slope > 3000; ++i)
+    outlines.push_back({rectangle(i * slope, i * slope / 2, 30000 - i * slope, 30000 - i * slope / 2)});
+  const Object roof(std::move(outlines));
+  const auto areas = roof.areas({});
+  CAPTURE(slope);
+  for (std::size_t i = 1; i < areas.size(); ++i)
+    for (Um x = 37; x < 30000; x += 211)
+      for (Um y = 41; y < 30000; y += 397) {
+        const Point p{x, y};
+        if (!holds(roof.insides[i], p)) continue;
+        const bool open_above = i + 1 == areas.size() || !holds(roof.outlines[i + 1], p);
+        if (open_above && !solid_at(areas[i], p)) FAIL_CHECK("open at layer " << i << ", " << x << ", " << y);
+      }
+}
+
+TEST_CASE("shells: solid reaches under the walls of what stands on it", "[infill]") {
+  std::vector<Regions> outlines(10, {rectangle(0, 0, 30000, 30000)});
+  outlines.insert(outlines.end(), 10, {rectangle(10000, 10000, 20000, 20000)});
+  const Object step(std::move(outlines));
+  const auto areas = step.areas(skin(4, 4, 0, 0, 0));
+  CHECK(solid_at(areas[9], {10500, 15000}));
+  CHECK(!solid_at(areas[9], {15000, 15000}));
+  CHECK(sum(areas[9], &PartAreas::sparse) == Approx(64).epsilon(0.06));
+  CHECK(sum(areas[9], &PartAreas::top) > 600);
+}
+
+TEST_CASE("shells: a gap between two supports is bridged along its shorter span", "[infill]") {
+  const bool turned = GENERATE(false, true);
+  std::vector<Regions> outlines;
+  const auto box = [&](Um x0, Um y0, Um x1, Um y1) {
+    return turned ? rectangle(y0, x0, y1, x1) : rectangle(x0, y0, x1, y1);
+  };
+  for (int i = 0; i < 10; ++i) outlines.push_back({box(0, 0, 8000, 30000), box(20000, 0, 28000, 30000)});
+  for (int i = 0; i < 10; ++i) outlines.push_back({box(0, 0, 28000, 30000)});
+  const auto areas = Object(std::move(outlines)).areas({});
+  REQUIRE(areas[10].size() == 1);
+  REQUIRE(areas[10][0].bridges.size() == 1);
+  const double angle = areas[10][0].bridges[0].angle_rad * 180 / std::numbers::pi;
+  CHECK(angle == Approx(turned ? 90 : 0).margin(6));
+  CHECK(bridged(areas[10]) > 12 * 28);  // the gap, and anchors on both sides
+  CHECK(bridged(areas[10]) < 14.4 * 28.2);
+  CHECK(bridged(areas[11]) == 0);
+}
+
+TEST_CASE("shells: a ceiling over a pit is bridged, a ledge is not", "[infill]") {
+  std::vector<Regions> pit(6, {with_hole(rectangle(0, 0, 30000, 20000), 5000, 5000, 25000, 15000)});
+  pit.insert(pit.end(), 6, {rectangle(0, 0, 30000, 20000)});
+  const auto ceiling = Object(std::move(pit)).areas({});
+  REQUIRE(ceiling[6][0].bridges.size() == 1);
+  CHECK(ceiling[6][0].bridges[0].angle_rad == Approx(std::numbers::pi / 2).margin(0.1));
+
+  std::vector<Regions> ledge(6, {rectangle(0, 0, 10000, 20000)});
+  ledge.insert(ledge.end(), 6, {rectangle(0, 0, 20000, 20000)});
+  const auto hanging = Object(std::move(ledge)).areas({});
+  CHECK(bridged(hanging[6]) == 0);
+  CHECK(solid_at(hanging[6], {15000, 10000}));
+}
+
+TEST_CASE("shells: small patches of sparse infill become solid", "[infill]") {
+  const Object tower(std::vector<Regions>(20, {rectangle(0, 0, 8000, 8000)}));
+  CHECK(sum(tower.areas(skin(4, 4, 0, 0, 40))[10], &PartAreas::sparse) == 0);
+  CHECK(sum(tower.areas(skin(4, 4, 0, 0, 30))[10], &PartAreas::sparse) == Approx(36));
+}
+
+TEST_CASE("shells: full density is solid everywhere", "[infill]") {
+  const Object block(std::vector<Regions>(20, {rectangle(0, 0, 20000, 20000)}));
+  InfillSettings full;
+  full.infill_sparse_density = 100;
+  for (const LayerAreas& layer : block.areas({}, full)) CHECK(sum(layer, &PartAreas::sparse) == 0);
+}
+
+TEST_CASE("shells: a layer's areas do not depend on the run they are found in", "[infill][law]") {
+  std::vector<Regions> outlines;
+  for (std::uint32_t i = 0; i < 25; ++i) outlines.push_back({star(3 + i / 4, 20000 - static_cast<Um>(i) * 250, 15)});
+  const Object object(std::move(outlines));
+  const auto together = object.areas({});
+  for (std::size_t i = 0; i < object.layers.size(); ++i) {
+    const auto alone = infill::find_areas({}, {}, {object.layers, infill::box_of(object.layers), 400}, i, 1);
+    REQUIRE(alone.size() == 1);
+    REQUIRE(alone[0].size() == together[i].size());
+    for (std::size_t k = 0; k < alone[0].size(); ++k) {
+      CHECK(alone[0][k].solid == together[i][k].solid);
+      CHECK(alone[0][k].top == together[i][k].top);
+      CHECK(alone[0][k].sparse == together[i][k].sparse);
+    }
+  }
+}
+
+TEST_CASE("shells: each area knows the part that it lies in", "[infill]") {
+  const Regions two{rectangle(0, 0, 20000, 20000), rectangle(30000, 0, 50000, 20000)};
+  const auto areas = Object(std::vector<Regions>(12, two)).areas({});
+  REQUIRE(areas[6].size() == 2);
+  for (const PartAreas& part : areas[6]) {
+    REQUIRE(part.sparse.size() == 1);
+    CHECK(holds({two[part.part]}, part.sparse[0].outer[0]));
+  }
+}
+
+TEST_CASE("shells: empty layers, specks and ten thousand regions are borne", "[infill]") {
+  CHECK(infill::find_areas({}, {}, {}, 0, 0).empty());
+  const Object gaps({{rectangle(0, 0, 9000, 9000)}, {}, {rectangle(0, 0, 9000, 9000)}, {rectangle(0, 0, 30, 30)}});
+  CHECK(gaps.areas({}).size() == 4);
+  Regions many;
+  for (int x = 0; x < 100; ++x)
+    for (int y = 0; y < 100; ++y) many.push_back(rectangle(x * 3000, y * 3000, x * 3000 + 2600, y * 3000 + 2600));
+  const Object crowd(std::vector<Regions>(3, many), 400);
+  const auto areas =
+      infill::find_areas(skin(1, 1, 0, 0, 0), {}, {crowd.layers, infill::box_of(crowd.layers), 400}, 1, 1);
+  CHECK(areas[0].size() == 10000);
+  CHECK(sum(areas[0], &PartAreas::sparse) == Approx(32400));
+}

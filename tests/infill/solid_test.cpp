@@ -1,0 +1,130 @@
+#include "infill/solid.h"
+
+#include "areas.h"
+
+#include <algorithm>
+
+#include <catch2/catch.hpp>
+
+using namespace weft;
+using namespace weft::test;
+using infill::SolidStyle;
+
+namespace {
+Beads filled(const Region& region, const SolidStyle& style) {
+  Beads beads;
+  infill::fill_solid(region, style, beads);
+  return beads;
+}
+}  // namespace
+
+TEST_CASE("solid: the volume of an area's lines is the area's", "[infill][law]") {
+  const double angle = GENERATE(0.0, 30.0, 45.0, 90.0, 135.0);
+  const bool connect = GENERATE(true, false);
+  const SolidStyle style{.band = 420, .angle_rad = degrees(angle), .connect = connect};
+  CAPTURE(angle, connect);
+  CHECK(covered_mm2(filled(rectangle(0, 0, 20000, 20000), style)) == Approx(400).epsilon(0.003));
+  const Region frame = with_hole(rectangle(0, 0, 20000, 15000), 4000, 5000, 9000, 9000);
+  CHECK(covered_mm2(filled(frame, style)) == Approx(280).epsilon(0.005));
+  for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+    const Region region = star(seed, 12000, 17);
+    CAPTURE(seed);
+    CHECK(covered_mm2(filled(region, style)) == Approx(area_mm2(region)).epsilon(0.01));
+  }
+}
+
+TEST_CASE("solid: lines lie side by side without gap and without overlap", "[infill][law]") {
+  const double angle = GENERATE(0.0, 45.0, 77.0);
+  const Beads beads = filled(rectangle(0, 0, 8000, 5000), {.band = 430, .angle_rad = degrees(angle)});
+  int bare = 0, twice = 0, all = 0;
+  for (double x = 650; x < 7400; x += 31)
+    for (double y = 650; y < 4400; y += 29) {
+      const int n = cover(beads, x, y);
+      ++all, bare += n == 0, twice += n > 1;
+    }
+  CAPTURE(angle);
+  CHECK(bare <= all / 500);  // a line's width is rounded to a micron
+  CHECK(twice <= all / 200);
+}
+
+TEST_CASE("solid: lines along a side fill the width exactly, whatever it is", "[infill]") {
+  for (Um width = 900; width < 3000; width += 130) {
+    const Beads beads = filled(rectangle(0, 0, 10000, width), {.band = 430, .angle_rad = 0, .connect = false});
+    REQUIRE(!beads.empty());
+    Um lowest = max_coord, highest = 0;
+    for (const Bead& bead : beads)
+      for (const Junction& j : bead.path) {
+        lowest = std::min(lowest, j.at.y - j.width / 2), highest = std::max(highest, j.at.y + j.width / 2);
+        CHECK(std::abs(j.width - 430) <= 430 / 4 + 1);
+      }
+    CHECK(lowest <= 2);
+    CHECK(highest >= width - 2);
+  }
+}
+
+TEST_CASE("solid: every line is printed after its neighbour below", "[infill][law]") {
+  const Region frame =
+      with_hole(with_hole(rectangle(0, 0, 20000, 15000), 4000, 5000, 9000, 9000), 12000, 2000, 16000, 13000);
+  const bool connect = GENERATE(true, false);
+  const Beads beads = filled(frame, {.band = 400, .angle_rad = 0, .connect = connect, .sequence = 7});
+  struct Line {
+    Um y, from, to;
+  };
+  std::vector<Line> printed;
+  for (const Bead& bead : beads) {
+    CHECK(bead.sequence == 7);
+    for (std::size_t i = 1; i < bead.path.size(); ++i) {
+      const Point a = bead.path[i - 1].at, b = bead.path[i].at;
+      if (a.y == b.y) printed.push_back({a.y, std::min(a.x, b.x), std::max(a.x, b.x)});
+    }
+  }
+  REQUIRE(printed.size() > 60);
+  for (std::size_t i = 0; i < printed.size(); ++i)
+    for (std::size_t j = i + 1; j < printed.size(); ++j) {
+      const bool beside = std::min(printed[i].to, printed[j].to) - std::max(printed[i].from, printed[j].from) > 400;
+      if (beside && std::abs(printed[i].y - printed[j].y) < 500) CHECK(printed[i].y < printed[j].y);
+    }
+}
+
+TEST_CASE("solid: joined lines are fewer beads of the same volume", "[infill]") {
+  const Region square = rectangle(0, 0, 20000, 20000);
+  const Beads joined = filled(square, {.band = 420, .angle_rad = degrees(45), .connect = true});
+  const Beads apart = filled(square, {.band = 420, .angle_rad = degrees(45), .connect = false});
+  CHECK(joined.size() < 5);
+  CHECK(apart.size() > 60);
+  CHECK(covered_mm2(joined) == Approx(covered_mm2(apart)).epsilon(0.003));
+}
+
+TEST_CASE("solid: a strip narrower than a line gets one bead as wide as the strip", "[infill]") {
+  const Region strip{{{0, 0}, {20000, 0}, {20000, 300}, {0, 300}}, {}};
+  const Beads beads = filled(strip, {.band = 430, .angle_rad = degrees(45)});
+  CHECK(covered_mm2(beads) == Approx(6).epsilon(0.05));
+  CHECK(beads.size() <= 3);
+  CHECK(std::any_of(beads.begin(), beads.end(), [](const Bead& b) { return b.role == Role::gap_fill; }));
+}
+
+TEST_CASE("solid: lines reach over the edge by the overlap and no further", "[infill][law]") {
+  for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+    const Region region = star(seed, 9000, 13);
+    const Beads beads = filled(region, {.band = 400, .angle_rad = degrees(45), .overlap_um = 50});
+    for (const Bead& bead : beads)
+      for (const Junction& j : bead.path) {
+        // an overlap of 50 µm across a shallow edge is up to 125 along the line; turns may bend a quarter of a line
+        bool near = side_of(region.outer, j.at) != Side::outside;
+        for (int a = 0; a < 16 && !near; ++a)
+          near = side_of(region.outer, {j.at.x + rounded(240 * std::cos(a * 0.3927)),
+                                        j.at.y + rounded(240 * std::sin(a * 0.3927))}) != Side::outside;
+        CHECK(near);
+      }
+  }
+}
+
+TEST_CASE("solid: nothing, specks and needles are borne", "[infill]") {
+  const SolidStyle style{.band = 430, .angle_rad = degrees(45), .overlap_um = 45};
+  CHECK(filled({}, style).empty());
+  CHECK(filled({{{0, 0}, {1000, 0}}, {}}, style).empty());
+  filled(rectangle(0, 0, 1, 1), style);
+  filled(rectangle(0, 0, 20, 30), style);
+  filled({{{0, 0}, {50000, 1}, {0, 2}}, {}}, style);
+  filled({{{0, 0}, {1000, 0}, {2000, 0}}, {}}, style);
+}

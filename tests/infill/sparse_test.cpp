@@ -1,0 +1,94 @@
+#include "infill/sparse.h"
+
+#include "areas.h"
+
+#include <algorithm>
+
+#include <catch2/catch.hpp>
+
+using namespace weft;
+using namespace weft::test;
+using infill::SparseStyle;
+
+namespace {
+Beads filled(const Region& region, const SparseStyle& style) {
+  Beads beads;
+  infill::fill_sparse(region, style, beads);
+  return beads;
+}
+}  // namespace
+
+TEST_CASE("sparse: the volume is the density's share of the area", "[infill][law]") {
+  const InfillPattern pattern = GENERATE(InfillPattern::lines, InfillPattern::grid, InfillPattern::triangles,
+                                         InfillPattern::gyroid, InfillPattern::concentric);
+  const double density = GENERATE(0.1, 0.2, 0.4, 0.7);
+  const bool connect = GENERATE(true, false);
+  const Region region = with_hole(rectangle(-50000, -50000, 50000, 50000), -9000, -9000, 12000, 15000);
+  for (const Um z : {200, 1000, 2400, 3600}) {
+    const Beads beads = filled(region, {.pattern = pattern,
+                                        .density = density,
+                                        .band = 420,
+                                        .angle_rad = degrees(45),
+                                        .overlap_um = 45,
+                                        .connect = connect,
+                                        .z = z});
+    CAPTURE(static_cast<int>(pattern), density, connect, z);
+    CHECK(covered_mm2(beads) / area_mm2(region) == Approx(density).epsilon(0.02));
+  }
+}
+
+TEST_CASE("sparse: lines stay inside, and reach the edge", "[infill][law]") {
+  const InfillPattern pattern = GENERATE(InfillPattern::lines, InfillPattern::grid, InfillPattern::triangles,
+                                         InfillPattern::gyroid, InfillPattern::concentric);
+  for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+    const Region region = star(seed, 15000, 15);
+    for (const Bead& bead :
+         filled(region, {.pattern = pattern, .density = 0.25, .band = 420, .angle_rad = degrees(45), .z = 3000})) {
+      CHECK(bead.role == Role::infill);
+      REQUIRE(bead.path.size() >= 2);
+      for (const Junction& j : bead.path) {
+        bool near = side_of(region.outer, j.at) != Side::outside;
+        for (const Point by : {Point{3, 0}, Point{-3, 0}, Point{0, 3}, Point{0, -3}})
+          near |= side_of(region.outer, j.at + by) != Side::outside;
+        CHECK(near);
+      }
+    }
+  }
+}
+
+TEST_CASE("sparse: joining lines saves travels", "[infill]") {
+  const Region square = rectangle(0, 0, 40000, 40000);
+  for (const InfillPattern pattern : {InfillPattern::lines, InfillPattern::grid, InfillPattern::triangles}) {
+    SparseStyle style{.pattern = pattern, .density = 0.2, .band = 420, .angle_rad = degrees(45)};
+    const std::size_t joined = filled(square, style).size();
+    style.connect = false;
+    const std::size_t apart = filled(square, style).size();
+    CAPTURE(static_cast<int>(pattern));
+    CHECK(joined * 4 < apart);
+  }
+}
+
+TEST_CASE("sparse: layers stand on each other", "[infill][law]") {
+  // The lattice is anchored at the origin: another area of the same layer carries on the same lines.
+  const SparseStyle style{
+      .pattern = InfillPattern::grid, .density = 0.2, .band = 420, .angle_rad = 0, .connect = false};
+  std::vector<Um> large, small;
+  const auto horizontals = [](const Beads& beads, std::vector<Um>& ys) {
+    for (const Bead& bead : beads)
+      if (bead.path.front().at.y == bead.path.back().at.y) ys.push_back(bead.path.front().at.y);
+  };
+  horizontals(filled(rectangle(-30000, -30000, 30000, 30000), style), large);
+  horizontals(filled(rectangle(-7777, -9999, 8123, 12345), style), small);
+  REQUIRE(small.size() >= 4);
+  for (const Um y : small) CHECK(std::find(large.begin(), large.end(), y) != large.end());
+}
+
+TEST_CASE("sparse: nothing, specks and needles are borne", "[infill]") {
+  const InfillPattern pattern = GENERATE(InfillPattern::lines, InfillPattern::grid, InfillPattern::triangles,
+                                         InfillPattern::gyroid, InfillPattern::concentric);
+  const SparseStyle style{.pattern = pattern, .density = 0.2, .band = 420, .overlap_um = 40};
+  CHECK(filled({}, style).empty());
+  filled(rectangle(0, 0, 1, 1), style);
+  filled({{{0, 0}, {50000, 1}, {0, 2}}, {}}, style);
+  filled({{{0, 0}, {1000, 0}, {2000, 0}}, {}}, style);
+}
