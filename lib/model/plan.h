@@ -14,7 +14,7 @@ struct Extrude {
   Role role = Role::outer_wall;
   Um height = 0;                        ///< of the layer at this place
   double speed_mm_s = 0;                ///< set by motion; 0 before
-  std::vector<float> segment_speed_mm_s;  ///< set by motion where speed varies along the path: one a segment; else empty
+  std::vector<float> segment_speed_mm_s{};  ///< set by motion where speed varies along the path: one a segment; else empty
   double acceleration_mm_s2 = 0;          ///< set by motion; 0: whatever the firmware has
 };
 
@@ -49,7 +49,7 @@ using Step = std::variant<Extrude, Travel, Retract, Prime, SetFan, ObjectStart, 
 /// One layer of the whole plate, in the order it is printed.
 struct LayerPlan {
   Um z = 0, height = 0;
-  std::vector<Step> steps;
+  std::vector<Step> steps{};
 };
 
 /// What firmware calls an object: one copy of one model.

@@ -1,0 +1,341 @@
+#include "motion/motion.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "model/flow.h"
+#include "motion/cooling.h"
+#include "motion/kinematics.h"
+#include "motion/speeds.h"
+
+using namespace weft;
+using namespace weft::motion;
+
+namespace {
+/// A bead along X from x = 0, of one band a junction.
+Extrude line(std::vector<std::pair<Um, Um>> places_and_bands, Role role = Role::infill, Um y = 0) {
+  Extrude bead{.path = {}, .role = role, .height = 200};
+  for (const auto& [x, band] : places_and_bands) bead.path.push_back({{x, y}, band, 1.F});
+  return bead;
+}
+Extrude square(Um side, Role role = Role::outer_wall, Um band = 400) {
+  Extrude bead{.path = {}, .role = role, .height = 200};
+  for (const Point p : {Point{0, 0}, Point{side, 0}, Point{side, side}, Point{0, side}, Point{0, 0}}) bead.path.push_back({p, band, 1.F});
+  return bead;
+}
+LayerPlan layer_of(std::vector<Step> steps) { return {.z = 400, .height = 200, .steps = std::move(steps)}; }
+Rules plain_rules() {
+  Rules rules;
+  rules.cooling.cool_min_layer_time = 0;
+  rules.material.material_max_volumetric_speed = 500;
+  return rules;
+}
+const Extrude& bead_in(const LayerPlan& layer, std::size_t wanted = 0) {
+  for (const auto& step : layer.steps)
+    if (const auto* bead = std::get_if<Extrude>(&step); bead && wanted-- == 0) return *bead;
+  throw std::logic_error("no such bead");
+}
+double seconds_of_line(const Rules& rules, Um length) {
+  return plan_layer(rules, layer_of({line({{0, 400}, {length, 400}})}), 5, Point3{0, 0, 400}).statistics.print_time_s;
+}
+/// The largest mm³/s along a bead.
+double most_flow(const Extrude& bead) {
+  double most = 0;
+  for (std::size_t i = 1; i < bead.path.size(); ++i) {
+    const double v = bead.segment_speed_mm_s.empty() ? bead.speed_mm_s : static_cast<double>(bead.segment_speed_mm_s[i - 1]);
+    for (const auto& j : {bead.path[i - 1], bead.path[i]}) most = std::max(most, to_mm(j.width) * static_cast<double>(j.flow) * to_mm(bead.height) * v);
+  }
+  return most;
+}
+}  // namespace
+
+TEST_CASE("motion: a straight line from rest to rest takes length over speed plus speed over acceleration") {
+  auto rules = plain_rules();
+  rules.speeds.speed_infill = 80;
+  rules.speeds.acceleration_print = 1000;
+  CHECK(seconds_of_line(rules, 100'000) == Approx(100.0 / 80 + 80.0 / 1000));
+  CHECK(seconds_of_line(rules, 1'000) == Approx(2 * std::sqrt(1.0 / 1000)));  // too short to reach 80 mm/s
+}
+
+TEST_CASE("motion: cutting a straight line in pieces changes its time for no machine") {
+  auto rules = plain_rules();
+  rules.machine.firmware = GENERATE(Firmware::marlin, Firmware::klipper, Firmware::reprapfirmware);
+  if (rules.machine.firmware == Firmware::reprapfirmware) rules.machine.machine_junction_deviation = 0.02;
+  std::vector<std::pair<Um, Um>> pieces;
+  for (Um x = 0; x <= 100'000; x += 500) pieces.emplace_back(x, 400);
+  const double cut = plan_layer(rules, layer_of({line(pieces)}), 5, Point3{0, 0, 400}).statistics.print_time_s;
+  CHECK(cut == Approx(seconds_of_line(rules, 100'000)));
+}
+
+TEST_CASE("motion: corners cost time, the sharper the more, by every planner's rule") {
+  auto rules = plain_rules();
+  rules.machine.firmware = GENERATE(Firmware::marlin, Firmware::klipper);
+  const auto bent = [&](double degrees) {
+    const double a = degrees * std::numbers::pi / 180;
+    Extrude bead = line({{0, 400}, {50'000, 400}});
+    bead.path.push_back({{rounded(50'000 + 50'000 * std::cos(a)), rounded(50'000 * std::sin(a))}, 400, 1.F});
+    return plan_layer(rules, layer_of({bead}), 5, Point3{0, 0, 400}).statistics.print_time_s;
+  };
+  const double straight = seconds_of_line(rules, 100'000);
+  CHECK(bent(10) >= straight - 1e-4);
+  CHECK(bent(45) > bent(10));
+  CHECK(bent(90) > bent(45));
+  CHECK(bent(180) > bent(90) - 1e-9);
+  const double full_stop = 2 * seconds_of_line(rules, 50'000);
+  CHECK(bent(90) < full_stop);
+}
+
+TEST_CASE("motion: a right angle is taken at Klipper's square corner velocity") {
+  auto rules = plain_rules();
+  rules.machine.firmware = Firmware::klipper;
+  rules.machine.machine_max_jerk = 5;
+  rules.speeds.speed_infill = 50;
+  rules.speeds.acceleration_print = 1000;
+  Extrude bead = line({{0, 400}, {50'000, 400}});
+  bead.path.push_back({{50'000, 50'000}, 400, 1.F});
+  const double s = plan_layer(rules, layer_of({bead}), 5, Point3{0, 0, 400}).statistics.print_time_s;
+  // Each leg: from rest to 50, down to 5 mm/s (or up from it).
+  const double leg = 50.0 / 1000 + (50.0 - 5) / 1000 + (50.0 - (50.0 * 50 / 2000 + (50.0 * 50 - 25) / 2000)) / 50;
+  CHECK(s == Approx(2 * leg).epsilon(1e-6));
+}
+
+TEST_CASE("motion: doubled speed and fourfold acceleration halve the time") {
+  auto rules = plain_rules();
+  rules.cooling.cool_fan_enabled = false;
+  rules.machine.machine_max_acceleration_x = rules.machine.machine_max_acceleration_y = 1e5;
+  rules.machine.machine_max_speed_x = rules.machine.machine_max_speed_y = 5000;
+  const auto time = [&] { return plan_layer(rules, layer_of({square(30'000), line({{0, 400}, {20'000, 400}})}), 5, Point3{0, 0, 400}).statistics.print_time_s; };
+  const double slow = time();
+  auto& s = rules.speeds;
+  s.speed_wall_0 *= 2, s.speed_infill *= 2, s.speed_travel *= 2, s.acceleration_print *= 4, rules.machine.machine_max_jerk *= 2;
+  CHECK(time() == Approx(slow / 2));
+}
+
+TEST_CASE("motion: no junction exceeds the material's mm³/s") {
+  auto rules = plain_rules();
+  rules.material.material_max_volumetric_speed = 5;
+  std::mt19937 random(7);
+  std::uniform_int_distribution<Um> band(50, 900), step(100, 3000);
+  for (int n = 0; n < 100; ++n) {
+    std::vector<std::pair<Um, Um>> places;
+    Um x = 0;
+    for (int i = 0; i < 30; ++i) places.emplace_back(x += step(random), band(random));
+    const auto planned = plan_layer(rules, layer_of({line(places, Role::inner_wall)}), 5, Point3{places[0].first, 0, 400});
+    CHECK(most_flow(bead_in(planned.plan)) <= 5 * (1 + 1e-6));
+  }
+}
+
+TEST_CASE("motion: a material with more flow is printed slower, so that its limit holds") {
+  auto rules = plain_rules();
+  rules.material.material_max_volumetric_speed = 4;
+  rules.material.material_flow = 125;
+  const auto planned = plan_layer(rules, layer_of({line({{0, 500}, {50'000, 500}})}), 5, Point3{0, 0, 400});
+  CHECK(bead_in(planned.plan).speed_mm_s == Approx(4 / (0.5 * 0.2 * 1.25)));
+}
+
+TEST_CASE("motion: a bead whose width changes is cut so that each piece may be one width, and keeps its volume") {
+  auto wedge = line({{0, 100}, {20'000, 900}});
+  Bead before{wedge.path, Role::inner_wall};
+  cut_where_width_changes(wedge.path);
+  CHECK(wedge.path.size() == 41);
+  CHECK(wedge.path.front().at == before.path.front().at);
+  CHECK(wedge.path.back().at == before.path.back().at);
+  for (std::size_t i = 1; i < wedge.path.size(); ++i) CHECK(std::abs(wedge.path[i].width - wedge.path[i - 1].width) <= 20);
+  CHECK(volume_mm3(Bead{wedge.path, Role::inner_wall}, 200) == Approx(volume_mm3(before, 200)).epsilon(1e-6));
+
+  auto abrupt = line({{0, 100}, {500, 900}});
+  cut_where_width_changes(abrupt.path);
+  CHECK(abrupt.path.size() == 3);  // pieces are never shorter than 0.2 mm
+
+  auto even = line({{0, 400}, {20'000, 400}});
+  cut_where_width_changes(even.path);
+  CHECK(even.path.size() == 2);
+}
+
+TEST_CASE("motion: F does not change at every segment of a bead that widens") {
+  auto rules = plain_rules();
+  rules.material.material_max_volumetric_speed = 3;
+  const auto planned = plan_layer(rules, layer_of({line({{0, 400}, {60'000, 800}}, Role::inner_wall)}), 5, Point3{0, 0, 400});
+  const auto& speeds = bead_in(planned.plan).segment_speed_mm_s;
+  REQUIRE(speeds.size() == 20);
+  int changes = 0;
+  for (std::size_t i = 1; i < speeds.size(); ++i)
+    if (speeds[i] != speeds[i - 1]) ++changes;
+  CHECK(changes > 4);
+  CHECK(changes < 15);
+}
+
+TEST_CASE("motion: mm³/s change no faster along a bead than max_extrusion_rate_slope") {
+  auto rules = plain_rules();
+  rules.speeds.speed_wall_x = 100;
+  const double slope = 20;
+  rules.speeds.max_extrusion_rate_slope = slope;
+  auto bead = line({{0, 300}, {10'000, 300}, {10'400, 900}, {30'000, 900}, {30'200, 200}, {60'000, 200}}, Role::inner_wall);
+  cut_where_width_changes(bead.path);
+  Extrude free = bead;
+  set_bead_speed(rules, bead, false);
+  rules.speeds.max_extrusion_rate_slope.reset();
+  set_bead_speed(rules, free, false);
+  CHECK(free.speed_mm_s == Approx(100));
+  REQUIRE(bead.segment_speed_mm_s.size() + 1 == bead.path.size());
+  for (std::size_t i = 1; i + 1 < bead.path.size(); ++i) {
+    const auto rate = [&](std::size_t k) { return mean_area_mm2(bead.path[k - 1], bead.path[k], 0.2) * static_cast<double>(bead.segment_speed_mm_s[k - 1]); };
+    const auto duration = [&](std::size_t k) { return distance(bead.path[k - 1].at, bead.path[k].at) / 1000 / static_cast<double>(bead.segment_speed_mm_s[k - 1]); };
+    INFO("junction " << i);
+    // Sharing one speed among neighbours within 5 % moves the rate by as much.
+    CHECK(std::abs(rate(i + 1) - rate(i)) <= slope * 0.5 * (duration(i) + duration(i + 1)) + 0.06 * std::max(rate(i), rate(i + 1)));
+  }
+}
+
+TEST_CASE("motion: with full equalisation walls of any width are printed at one mm³/s") {
+  auto rules = plain_rules();
+  rules.speeds.speed_equalize_flow_width_factor = 100;
+  rules.speeds.speed_travel = 1000;
+  const double nominal = flow::area_mm2(0.42, 0.2) * rules.speeds.speed_wall_0;
+  for (const Um band : {200, 377, 700}) {
+    auto bead = line({{0, band}, {30'000, band}}, Role::outer_wall);
+    set_bead_speed(rules, bead, false);
+    CHECK(bead.speed_mm_s * to_mm(band) * 0.2 == Approx(nominal));
+  }
+}
+
+TEST_CASE("motion: the first layer is slow, a share is of the feature's own speed, and travels have theirs") {
+  auto rules = plain_rules();
+  rules.speeds.speed_layer_0 = {20, false};
+  rules.speeds.speed_bridge = 15;
+  CHECK(feature_speed_mm_s(rules, Role::infill, true) == 20);
+  CHECK(feature_speed_mm_s(rules, Role::bridge, true) == 15);
+  rules.speeds.speed_layer_0 = {50, true};
+  CHECK(feature_speed_mm_s(rules, Role::infill, true) == 40);
+  rules.speeds.speed_travel_layer_0 = 70;
+  const LayerPlan layer = layer_of({Travel{{{0, 0, 400}, {50'000, 0, 400}}}});
+  CHECK(std::get<Travel>(plan_layer(rules, layer, 0, {}).plan.steps.back()).speed_mm_s == 70);
+  CHECK(std::get<Travel>(plan_layer(rules, layer, 1, {}).plan.steps.back()).speed_mm_s == 150);
+}
+
+TEST_CASE("motion: small closed walls are slowed, long and open ones are not") {
+  auto rules = plain_rules();
+  auto small = square(3'000), large = square(30'000);
+  set_bead_speed(rules, small, false), set_bead_speed(rules, large, false);
+  CHECK(small.speed_mm_s == 20);
+  CHECK(large.speed_mm_s == 40);
+  auto open = line({{0, 400}, {3'000, 400}}, Role::outer_wall);
+  set_bead_speed(rules, open, false);
+  CHECK(open.speed_mm_s == 40);
+}
+
+TEST_CASE("motion: a travel is put in where a bead begins away from the nozzle") {
+  const auto planned = plan_layer(plain_rules(), layer_of({line({{0, 400}, {10'000, 400}}), line({{0, 400}, {10'000, 400}}, Role::infill, 400)}), 5, {});
+  CHECK(planned.statistics.travel.moves == 2);
+  CHECK(planned.statistics.travel.mm == Approx(std::hypot(10.0, 0.4)));  // where the first one comes from is not known
+}
+
+TEST_CASE("motion: a fast layer is slowed to cool_min_layer_time, travels are not") {
+  Rules rules;
+  rules.machine.firmware = GENERATE(Firmware::marlin, Firmware::klipper);
+  rules.cooling.cool_min_layer_time = 9;
+  rules.cooling.cool_min_speed = 1;
+  const LayerPlan layer = layer_of({square(20'000), Travel{{{0, 0, 400}, {20'000, 20'000, 400}}}, square(5'000)});
+  const auto planned = plan_layer(rules, layer, 5, Point3{0, 0, 400});
+  CHECK(planned.statistics.print_time_s >= 9);
+  CHECK(planned.statistics.print_time_s < 9.011);
+  for (const auto& step : planned.plan.steps)
+    if (const auto* travel = std::get_if<Travel>(&step)) CHECK(travel->speed_mm_s == 150);
+}
+
+TEST_CASE("motion: slowing down ends at cool_min_speed, and what is slower already stays") {
+  Rules rules;
+  rules.cooling.cool_min_layer_time = 1000;
+  rules.cooling.cool_min_speed = 25;
+  rules.speeds.speed_bridge = 12;
+  const auto planned = plan_layer(rules, layer_of({square(20'000), line({{0, 400}, {10'000, 400}}, Role::bridge)}), 5, Point3{0, 0, 400});
+  CHECK(bead_in(planned.plan, 0).speed_mm_s == 25);
+  CHECK(bead_in(planned.plan, 1).speed_mm_s == 12);
+}
+
+TEST_CASE("motion: the fan is off at first, rises by layer, follows the layer's time, and is on over bridges") {
+  CoolingSettings c;
+  c.cool_fan_off_layers = 2, c.cool_fan_full_layer = 6;
+  c.cool_fan_speed_min = 40, c.cool_fan_speed_max = 100;
+  c.cool_min_layer_time = 5, c.cool_min_layer_time_fan_speed_max = 25;
+  CHECK(fan_share(c, 0, 60) == 0);
+  CHECK(fan_share(c, 1, 60) == 0);
+  CHECK(fan_share(c, 2, 60) == Approx(0.1));
+  CHECK(fan_share(c, 4, 60) == Approx(0.3));
+  CHECK(fan_share(c, 5, 60) == Approx(0.4));
+  CHECK(fan_share(c, 9, 15) == Approx(0.7));
+  CHECK(fan_share(c, 9, 3) == Approx(1.0));
+  c.cool_fan_always_on = false;
+  CHECK(fan_share(c, 9, 60) == 0);
+  c.cool_fan_enabled = false;
+  CHECK(fan_share(c, 9, 3) == 0);
+
+  c = {};
+  c.cool_fan_speed_min = 50, c.bridge_fan_speed = 90;
+  LayerPlan layer = layer_of({line({{0, 400}, {1000, 400}}), line({{0, 400}, {1000, 400}}, Role::bridge), line({{0, 400}, {1000, 400}})});
+  set_fan(c, layer, 9, 100);
+  std::vector<double> fans;
+  for (const auto& step : layer.steps)
+    if (const auto* fan = std::get_if<SetFan>(&step)) fans.push_back(fan->share);
+  CHECK(fans == std::vector<double>{0.5, 0.9, 0.5});
+}
+
+TEST_CASE("motion: statistics are the sums of what is printed") {
+  auto rules = plain_rules();
+  rules.material.material_flow = 110;
+  rules.retraction.retraction_extra_prime_amount = 100;
+  Extrude thin = line({{0, 200}, {10'000, 200}}, Role::inner_wall);
+  for (auto& j : thin.path) j.flow = 0.25F;
+  const auto s = plan_layer(rules, layer_of({square(20'000), Retract{}, Travel{{{0, 0, 400}, {0, 0, 600}, {0, 0, 400}}, 0, true}, Prime{}, thin}), 5, Point3{0, 0, 400}).statistics;
+  const auto wall = s.features[static_cast<std::size_t>(Role::outer_wall)], inner = s.features[static_cast<std::size_t>(Role::inner_wall)];
+  CHECK(wall.mm == Approx(80));
+  CHECK(wall.mm3 == Approx(80 * 0.4 * 0.2));
+  CHECK(inner.mm3 == Approx(10 * 0.2 * 0.2 * 0.25));
+  const double filament_area = std::numbers::pi / 4 * 1.75 * 1.75;
+  CHECK(s.filament_mm3 == Approx((wall.mm3 + inner.mm3) * 1.1 + 0.1 * filament_area));
+  CHECK(s.filament_mm == Approx(s.filament_mm3 / filament_area));
+  CHECK(s.filament_g == Approx(s.filament_mm3 * 1.24e-3));
+  CHECK(s.walls.beads == 2);
+  CHECK(s.walls.flow_compensated_mm == Approx(10));
+  CHECK(s.walls.min_flow_ratio == Approx(0.25));
+  CHECK(s.walls.min_width == 200 + 43);
+  CHECK(s.travel.retractions == 1);
+  CHECK(s.travel.wall_crossings == 1);
+  CHECK(s.travel.mm == Approx(0.4));
+  double sum = s.travel.s + s.travel.retraction_s;
+  for (const auto& f : s.features) sum += f.s;
+  CHECK(sum == Approx(s.print_time_s));
+  CHECK(s.travel.retraction_s == Approx((1.0 / 40 + 40.0 / 5000) + (1.1 / 40 + 40.0 / 5000)));
+}
+
+TEST_CASE("motion: layers planned apart are the layers planned together") {
+  PrintPlan print;
+  for (int i = 0; i < 5; ++i) {
+    LayerPlan layer = layer_of({Travel{{{i * 1000, 0, 200 * i}}}, square(10'000 + 1000 * i)});
+    layer.z = 200 * i;
+    print.layers.push_back(layer);
+  }
+  const auto whole = plan(plain_rules(), print);
+  const auto starts = starts_of(print);
+  double sum = 0;
+  for (std::size_t i = 5; i-- > 0;) sum += plan_layer(plain_rules(), print.layers[i], i, starts[i]).statistics.print_time_s;
+  CHECK(whole.statistics.layer_s.size() == 5);
+  CHECK(whole.statistics.print_time_s == Approx(sum));
+  CHECK_FALSE(starts[0].has_value());
+  CHECK(starts[1] == Point3{0, 0, 0});
+}
+
+TEST_CASE("motion: filament is drawn back while wiping as far as the extruder keeps up, the rest before") {
+  auto rules = plain_rules();
+  rules.retraction.retraction_amount = 1000;
+  rules.retraction.retraction_retract_speed = 40;
+  rules.speeds.speed_travel = 100;
+  Retract wipe;
+  wipe.wipe = {{20'000, 0}, {19'000, 0}};  // 1 mm in 10 ms: 0.4 mm of filament
+  const auto planned = plan_layer(rules, layer_of({line({{0, 400}, {20'000, 400}}), wipe}), 5, Point3{0, 0, 400});
+  const auto& retract = std::get<Retract>(planned.plan.steps.back());
+  CHECK(retract.wipe_speed_mm_s == 100);
+  CHECK(retract.before_wipe == Approx(0.6));
+}
