@@ -9,8 +9,8 @@ namespace weft::gcode {
 namespace {
 
 void point(Text& out, Point p) {
-  out.length(p.x) << ',';
-  out.length(p.y);
+  out.spelled(p.x) << ',';
+  out.spelled(p.y);
 }
 
 /// Cut to `most` bytes, but not within a character of UTF-8.

@@ -52,11 +52,11 @@ class LayerText {
  private:
   void head() {
     out_ << ";LAYER_CHANGE\n;Z:";
-    out_.length(job_.plan.z) << "\n;HEIGHT:";
-    out_.length(height_ = job_.plan.height) << '\n';
+    out_.spelled(job_.plan.z) << "\n;HEIGHT:";
+    out_.spelled(height_ = job_.plan.height) << '\n';
     if (job_.before_layer.find(";BEFORE_LAYER_CHANGE") == std::string_view::npos) {
       out_ << ";BEFORE_LAYER_CHANGE\n;";  // where print servers look for the height of the object
-      out_.length(job_.plan.z) << '\n';
+      out_.spelled(job_.plan.z) << '\n';
     }
     out_ << job_.preamble;
     if (!job_.settings.gcode.relative_extrusion) out_ << "G92 E0\n";
@@ -127,7 +127,7 @@ class LayerText {
       role_ = static_cast<int>(bead.role);
       out_ << ";TYPE:" << name_of(bead.role).comment << '\n';
     }
-    if (bead.height != height_) (out_ << ";HEIGHT:").length(height_ = bead.height) << '\n';
+    if (bead.height != height_) (out_ << ";HEIGHT:").spelled(height_ = bead.height) << '\n';
     accelerate(bead.acceleration_mm_s2, false);
     const double height_mm = to_mm(bead.height);
     const bool varies = !bead.segment_speed_mm_s.empty(), flow_comments = job_.settings.gcode.gcode_flow_comments;
@@ -141,7 +141,7 @@ class LayerText {
       feed(varies ? static_cast<double>(bead.segment_speed_mm_s[i - 1]) : bead.speed_mm_s);
       if (flow_comments && (a.flow != 1.F || b.flow != 1.F)) {
         out_ << " ; flow ";
-        out_.length(rounded(500.0 * static_cast<double>(a.flow + b.flow)));
+        out_.spelled(rounded(500.0 * static_cast<double>(a.flow + b.flow)));
       }
       out_ << '\n';
       state_.at = Point3{b.at.x, b.at.y, job_.plan.z};
@@ -151,7 +151,7 @@ class LayerText {
   void width(Um band, Um height) {
     if (std::abs(band - band_) < width_step) return;
     band_ = band;
-    (out_ << ";WIDTH:").length(flow::line_width(band, height)) << '\n';
+    (out_ << ";WIDTH:").spelled(flow::line_width(band, height)) << '\n';
   }
 
   void print(const Travel& travel) {

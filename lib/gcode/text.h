@@ -32,8 +32,10 @@ class Text {
     return *this;
   }
 
-  /// A length in mm: 12.5, .05, -3, 0.
+  /// A length in mm for moves: 12.5, .05, -3, 0.
   Text& length(Um v) { return decimal<3>(v); }
+  /// A length in mm as JSON and the readers of comments want it: 12.5, 0.05, -3, 0.
+  Text& spelled(Um v) { return decimal<3, true>(v); }
   /// A length of filament, in 10⁻⁵ mm, as mm.
   Text& filament(std::int64_t v) { return decimal<5>(v); }
 
@@ -49,7 +51,7 @@ class Text {
   }
 
   /// v / 10^digits without the zeros that say nothing.
-  template <int digits>
+  template <int digits, bool leading_zero = false>
   Text& decimal(std::int64_t v) {
     constexpr std::uint64_t unit = digits == 3 ? 1000 : 100000;
     char* const begin = room(28);
@@ -58,7 +60,7 @@ class Text {
     const std::uint64_t u = v < 0 ? 0 - static_cast<std::uint64_t>(v) : static_cast<std::uint64_t>(v);
     const std::uint64_t whole = u / unit;
     auto rest = static_cast<std::uint32_t>(u % unit);
-    if (whole != 0 || rest == 0) p = std::to_chars(p, p + 20, whole).ptr;
+    if (leading_zero || whole != 0 || rest == 0) p = std::to_chars(p, p + 20, whole).ptr;
     if (rest != 0) {
       *p++ = '.';
       for (int i = digits - 1; i >= 0; --i) p[i] = static_cast<char>('0' + rest % 10), rest /= 10;

@@ -1,14 +1,15 @@
 #include "motion/motion.h"
 
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-#include <random>
-
 #include "model/flow.h"
 #include "motion/cooling.h"
 #include "motion/kinematics.h"
 #include "motion/speeds.h"
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <catch2/catch.hpp>
 
 using namespace weft;
 using namespace weft::motion;
@@ -22,10 +23,13 @@ Extrude line(std::vector<std::pair<Um, Um>> places_and_bands, Role role = Role::
 }
 Extrude square(Um side, Role role = Role::outer_wall, Um band = 400) {
   Extrude bead{.path = {}, .role = role, .height = 200};
-  for (const Point p : {Point{0, 0}, Point{side, 0}, Point{side, side}, Point{0, side}, Point{0, 0}}) bead.path.push_back({p, band, 1.F});
+  for (const Point p : {Point{0, 0}, Point{side, 0}, Point{side, side}, Point{0, side}, Point{0, 0}})
+    bead.path.push_back({p, band, 1.F});
   return bead;
 }
-LayerPlan layer_of(std::vector<Step> steps) { return {.z = 400, .height = 200, .steps = std::move(steps)}; }
+LayerPlan layer_of(std::vector<Step> steps) {
+  return {.z = 400, .height = 200, .steps = std::move(steps)};
+}
 Rules plain_rules() {
   Rules rules;
   rules.cooling.cool_min_layer_time = 0;
@@ -44,8 +48,10 @@ double seconds_of_line(const Rules& rules, Um length) {
 double most_flow(const Extrude& bead) {
   double most = 0;
   for (std::size_t i = 1; i < bead.path.size(); ++i) {
-    const double v = bead.segment_speed_mm_s.empty() ? bead.speed_mm_s : static_cast<double>(bead.segment_speed_mm_s[i - 1]);
-    for (const auto& j : {bead.path[i - 1], bead.path[i]}) most = std::max(most, to_mm(j.width) * static_cast<double>(j.flow) * to_mm(bead.height) * v);
+    const double v =
+        bead.segment_speed_mm_s.empty() ? bead.speed_mm_s : static_cast<double>(bead.segment_speed_mm_s[i - 1]);
+    for (const auto& j : {bead.path[i - 1], bead.path[i]})
+      most = std::max(most, to_mm(j.width) * static_cast<double>(j.flow) * to_mm(bead.height) * v);
   }
   return most;
 }
@@ -106,10 +112,14 @@ TEST_CASE("motion: doubled speed and fourfold acceleration halve the time") {
   rules.cooling.cool_fan_enabled = false;
   rules.machine.machine_max_acceleration_x = rules.machine.machine_max_acceleration_y = 1e5;
   rules.machine.machine_max_speed_x = rules.machine.machine_max_speed_y = 5000;
-  const auto time = [&] { return plan_layer(rules, layer_of({square(30'000), line({{0, 400}, {20'000, 400}})}), 5, Point3{0, 0, 400}).statistics.print_time_s; };
+  const auto time = [&] {
+    return plan_layer(rules, layer_of({square(30'000), line({{0, 400}, {20'000, 400}})}), 5, Point3{0, 0, 400})
+        .statistics.print_time_s;
+  };
   const double slow = time();
   auto& s = rules.speeds;
-  s.speed_wall_0 *= 2, s.speed_infill *= 2, s.speed_travel *= 2, s.acceleration_print *= 4, rules.machine.machine_max_jerk *= 2;
+  s.speed_wall_0 *= 2, s.speed_infill *= 2, s.speed_travel *= 2, s.acceleration_print *= 4,
+      rules.machine.machine_max_jerk *= 2;
   CHECK(time() == Approx(slow / 2));
 }
 
@@ -122,7 +132,8 @@ TEST_CASE("motion: no junction exceeds the material's mm³/s") {
     std::vector<std::pair<Um, Um>> places;
     Um x = 0;
     for (int i = 0; i < 30; ++i) places.emplace_back(x += step(random), band(random));
-    const auto planned = plan_layer(rules, layer_of({line(places, Role::inner_wall)}), 5, Point3{places[0].first, 0, 400});
+    const auto planned =
+        plan_layer(rules, layer_of({line(places, Role::inner_wall)}), 5, Point3{places[0].first, 0, 400});
     CHECK(most_flow(bead_in(planned.plan)) <= 5 * (1 + 1e-6));
   }
 }
@@ -142,7 +153,8 @@ TEST_CASE("motion: a bead whose width changes is cut so that each piece may be o
   CHECK(wedge.path.size() == 41);
   CHECK(wedge.path.front().at == before.path.front().at);
   CHECK(wedge.path.back().at == before.path.back().at);
-  for (std::size_t i = 1; i < wedge.path.size(); ++i) CHECK(std::abs(wedge.path[i].width - wedge.path[i - 1].width) <= 20);
+  for (std::size_t i = 1; i < wedge.path.size(); ++i)
+    CHECK(std::abs(wedge.path[i].width - wedge.path[i - 1].width) <= 20);
   CHECK(volume_mm3(Bead{wedge.path, Role::inner_wall}, 200) == Approx(volume_mm3(before, 200)).epsilon(1e-6));
 
   auto abrupt = line({{0, 100}, {500, 900}});
@@ -157,7 +169,8 @@ TEST_CASE("motion: a bead whose width changes is cut so that each piece may be o
 TEST_CASE("motion: F does not change at every segment of a bead that widens") {
   auto rules = plain_rules();
   rules.material.material_max_volumetric_speed = 3;
-  const auto planned = plan_layer(rules, layer_of({line({{0, 400}, {60'000, 800}}, Role::inner_wall)}), 5, Point3{0, 0, 400});
+  const auto planned =
+      plan_layer(rules, layer_of({line({{0, 400}, {60'000, 800}}, Role::inner_wall)}), 5, Point3{0, 0, 400});
   const auto& speeds = bead_in(planned.plan).segment_speed_mm_s;
   REQUIRE(speeds.size() == 20);
   int changes = 0;
@@ -172,7 +185,8 @@ TEST_CASE("motion: mm³/s change no faster along a bead than max_extrusion_rate_
   rules.speeds.speed_wall_x = 100;
   const double slope = 20;
   rules.speeds.max_extrusion_rate_slope = slope;
-  auto bead = line({{0, 300}, {10'000, 300}, {10'400, 900}, {30'000, 900}, {30'200, 200}, {60'000, 200}}, Role::inner_wall);
+  auto bead =
+      line({{0, 300}, {10'000, 300}, {10'400, 900}, {30'000, 900}, {30'200, 200}, {60'000, 200}}, Role::inner_wall);
   cut_where_width_changes(bead.path);
   Extrude free = bead;
   set_bead_speed(rules, bead, false);
@@ -181,11 +195,17 @@ TEST_CASE("motion: mm³/s change no faster along a bead than max_extrusion_rate_
   CHECK(free.speed_mm_s == Approx(100));
   REQUIRE(bead.segment_speed_mm_s.size() + 1 == bead.path.size());
   for (std::size_t i = 1; i + 1 < bead.path.size(); ++i) {
-    const auto rate = [&](std::size_t k) { return mean_area_mm2(bead.path[k - 1], bead.path[k], 0.2) * static_cast<double>(bead.segment_speed_mm_s[k - 1]); };
-    const auto duration = [&](std::size_t k) { return distance(bead.path[k - 1].at, bead.path[k].at) / 1000 / static_cast<double>(bead.segment_speed_mm_s[k - 1]); };
+    const auto rate = [&](std::size_t k) {
+      return mean_area_mm2(bead.path[k - 1], bead.path[k], 0.2) * static_cast<double>(bead.segment_speed_mm_s[k - 1]);
+    };
+    const auto duration = [&](std::size_t k) {
+      return distance(bead.path[k - 1].at, bead.path[k].at) / 1000 /
+             static_cast<double>(bead.segment_speed_mm_s[k - 1]);
+    };
     INFO("junction " << i);
     // Sharing one speed among neighbours within 5 % moves the rate by as much.
-    CHECK(std::abs(rate(i + 1) - rate(i)) <= slope * 0.5 * (duration(i) + duration(i + 1)) + 0.06 * std::max(rate(i), rate(i + 1)));
+    CHECK(std::abs(rate(i + 1) - rate(i)) <=
+          slope * 0.5 * (duration(i) + duration(i + 1)) + 0.06 * std::max(rate(i), rate(i + 1)));
   }
 }
 
@@ -227,7 +247,9 @@ TEST_CASE("motion: small closed walls are slowed, long and open ones are not") {
 }
 
 TEST_CASE("motion: a travel is put in where a bead begins away from the nozzle") {
-  const auto planned = plan_layer(plain_rules(), layer_of({line({{0, 400}, {10'000, 400}}), line({{0, 400}, {10'000, 400}}, Role::infill, 400)}), 5, {});
+  const auto planned = plan_layer(
+      plain_rules(), layer_of({line({{0, 400}, {10'000, 400}}), line({{0, 400}, {10'000, 400}}, Role::infill, 400)}), 5,
+      {});
   CHECK(planned.statistics.travel.moves == 2);
   CHECK(planned.statistics.travel.mm == Approx(std::hypot(10.0, 0.4)));  // where the first one comes from is not known
 }
@@ -250,7 +272,8 @@ TEST_CASE("motion: slowing down ends at cool_min_speed, and what is slower alrea
   rules.cooling.cool_min_layer_time = 1000;
   rules.cooling.cool_min_speed = 25;
   rules.speeds.speed_bridge = 12;
-  const auto planned = plan_layer(rules, layer_of({square(20'000), line({{0, 400}, {10'000, 400}}, Role::bridge)}), 5, Point3{0, 0, 400});
+  const auto planned = plan_layer(rules, layer_of({square(20'000), line({{0, 400}, {10'000, 400}}, Role::bridge)}), 5,
+                                  Point3{0, 0, 400});
   CHECK(bead_in(planned.plan, 0).speed_mm_s == 25);
   CHECK(bead_in(planned.plan, 1).speed_mm_s == 12);
 }
@@ -274,7 +297,8 @@ TEST_CASE("motion: the fan is off at first, rises by layer, follows the layer's 
 
   c = {};
   c.cool_fan_speed_min = 50, c.bridge_fan_speed = 90;
-  LayerPlan layer = layer_of({line({{0, 400}, {1000, 400}}), line({{0, 400}, {1000, 400}}, Role::bridge), line({{0, 400}, {1000, 400}})});
+  LayerPlan layer = layer_of(
+      {line({{0, 400}, {1000, 400}}), line({{0, 400}, {1000, 400}}, Role::bridge), line({{0, 400}, {1000, 400}})});
   set_fan(c, layer, 9, 100);
   std::vector<double> fans;
   for (const auto& step : layer.steps)
@@ -288,8 +312,13 @@ TEST_CASE("motion: statistics are the sums of what is printed") {
   rules.retraction.retraction_extra_prime_amount = 100;
   Extrude thin = line({{0, 200}, {10'000, 200}}, Role::inner_wall);
   for (auto& j : thin.path) j.flow = 0.25F;
-  const auto s = plan_layer(rules, layer_of({square(20'000), Retract{}, Travel{{{0, 0, 400}, {0, 0, 600}, {0, 0, 400}}, 0, true}, Prime{}, thin}), 5, Point3{0, 0, 400}).statistics;
-  const auto wall = s.features[static_cast<std::size_t>(Role::outer_wall)], inner = s.features[static_cast<std::size_t>(Role::inner_wall)];
+  const auto s = plan_layer(rules,
+                            layer_of({square(20'000), Retract{},
+                                      Travel{{{0, 0, 400}, {0, 0, 600}, {0, 0, 400}}, 0, true}, Prime{}, thin}),
+                            5, Point3{0, 0, 400})
+                     .statistics;
+  const auto wall = s.features[static_cast<std::size_t>(Role::outer_wall)],
+             inner = s.features[static_cast<std::size_t>(Role::inner_wall)];
   CHECK(wall.mm == Approx(80));
   CHECK(wall.mm3 == Approx(80 * 0.4 * 0.2));
   CHECK(inner.mm3 == Approx(10 * 0.2 * 0.2 * 0.25));
@@ -320,7 +349,8 @@ TEST_CASE("motion: layers planned apart are the layers planned together") {
   const auto whole = plan(plain_rules(), print);
   const auto starts = starts_of(print);
   double sum = 0;
-  for (std::size_t i = 5; i-- > 0;) sum += plan_layer(plain_rules(), print.layers[i], i, starts[i]).statistics.print_time_s;
+  for (std::size_t i = 5; i-- > 0;)
+    sum += plan_layer(plain_rules(), print.layers[i], i, starts[i]).statistics.print_time_s;
   CHECK(whole.statistics.layer_s.size() == 5);
   CHECK(whole.statistics.print_time_s == Approx(sum));
   CHECK_FALSE(starts[0].has_value());
