@@ -221,3 +221,12 @@ TEST_CASE("mesh: a vertex of very many edges does not slow the repair down", "[m
   }
   CHECK(repair(std::move(mesh)).repairs.watertight());
 }
+
+TEST_CASE("mesh: the example models are sound as they are", "[mesh][repair]") {
+  const std::string name = GENERATE("box.stl", "bracket.stl", "calibration-tower.stl");
+  const Loaded loaded = read_file(std::string(WEFT_SOURCE_DIR) + "/examples/" + name);
+  REQUIRE(loaded.objects.size() == 1);
+  CHECK(loaded.objects[0].repairs == Repairs{.shells = 1});
+  CHECK(loaded.objects[0].mesh.triangles.size() == loaded.triangles_in_file);
+  CHECK(volume_mm3(loaded.objects[0].mesh) > 7999);
+}
