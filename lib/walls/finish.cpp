@@ -1,0 +1,168 @@
+#include "walls/finish.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft::walls {
+namespace {
+
+using Vertex = Line::Vertex;
+
+constexpr double straight_um = 1.0;     // a vertex this close to its neighbours' chord is left out
+constexpr double even_um = 2.0;         // … where the width is this close to theirs
+constexpr double width_step_um = 10.0;  // a segment is printed at one width: no more difference over it than this
+
+double distance(Place a, Place b) {
+  return std::hypot(b.x - a.x, b.y - a.y);
+}
+double length_of(const std::vector<Vertex>& path) {
+  double sum = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) sum += distance(path[i - 1].at, path[i].at);
+  return sum;
+}
+
+/// True when b lies on the way from a to c.
+bool on_the_way(const Vertex& a, const Vertex& b, const Vertex& c) {
+  const double dx = c.at.x - a.at.x, dy = c.at.y - a.at.y, d2 = dx * dx + dy * dy;
+  if (d2 < 1e-6) return false;
+  const double t = ((b.at.x - a.at.x) * dx + (b.at.y - a.at.y) * dy) / d2;
+  if (t < 0 || t > 1) return false;
+  const double off = std::abs(dx * (b.at.y - a.at.y) - dy * (b.at.x - a.at.x)) / std::sqrt(d2);
+  return off <= straight_um && std::abs(a.width + t * (c.width - a.width) - b.width) <= even_um;
+}
+
+/// Leaves out what chords stand for. The ends stay.
+void thin_out(std::vector<Vertex>& path) {
+  constexpr std::size_t most_skipped = 24;
+  if (path.size() < 3) return;
+  std::vector<Vertex> out{path.front()};
+  std::size_t from = 0;
+  while (from + 1 < path.size()) {
+    std::size_t to = from + 1;
+    while (to + 1 < path.size() && to - from < most_skipped) {
+      bool fits = true;
+      for (std::size_t i = from + 1; i <= to && fits; ++i) fits = on_the_way(path[from], path[i], path[to + 1]);
+      if (!fits) break;
+      ++to;
+    }
+    out.push_back(path[to]);
+    from = to;
+  }
+  path = std::move(out);
+}
+
+void limit_steps(std::vector<Vertex>& path) {
+  std::vector<Vertex> out;
+  out.reserve(path.size());
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (i > 0) {
+      const Vertex a = path[i - 1], b = path[i];
+      const double d = distance(a.at, b.at);
+      const int pieces =
+          std::clamp(static_cast<int>(std::min(std::abs(b.width - a.width) / width_step_um, d / 20)), 1, 1000);
+      for (int k = 1; k < pieces; ++k) {
+        const double t = static_cast<double>(k) / pieces;
+        out.push_back(
+            {{a.at.x + t * (b.at.x - a.at.x), a.at.y + t * (b.at.y - a.at.y)}, a.width + t * (b.width - a.width)});
+      }
+    }
+    out.push_back(path[i]);
+  }
+  path = std::move(out);
+}
+
+/// The stretches of a line at least `least` wide; ends lie where the width passes it.
+std::vector<std::vector<Vertex>> thick_stretches(const std::vector<Vertex>& path, double least) {
+  std::vector<std::vector<Vertex>> out;
+  bool open = false;
+  auto between = [&](const Vertex& a, const Vertex& b) {
+    const double t = (least - a.width) / (b.width - a.width);
+    return Vertex{{a.at.x + t * (b.at.x - a.at.x), a.at.y + t * (b.at.y - a.at.y)}, least};
+  };
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const bool thick = path[i].width >= least;
+    if (thick && !open) {
+      out.emplace_back();
+      if (i > 0) out.back().push_back(between(path[i - 1], path[i]));
+    } else if (!thick && open) {
+      out.back().push_back(between(path[i - 1], path[i]));
+    }
+    if (thick) out.back().push_back(path[i]);
+    open = thick;
+  }
+  return out;
+}
+
+void emit(const std::vector<Vertex>& path, bool closed, int inset, const FinishOptions& o, Beads& out) {
+  Bead bead;
+  bead.role = inset == 0 ? Role::outer_wall : Role::inner_wall;
+  bead.closed = closed;
+  bead.inset = static_cast<std::uint16_t>(inset);
+  bead.part = o.part;
+  const double stable = inset == 0 ? o.stable_outer : o.stable_inner;
+  for (const Vertex& v : path) {
+    Junction j{{o.origin.x + rounded(v.at.x), o.origin.y + rounded(v.at.y)}, rounded(std::max(1.0, v.width)), 1.F};
+    if (o.compensate && v.width < stable) {
+      j.width = rounded(stable);
+      j.flow = static_cast<float>(std::clamp(v.width / stable, o.least_flow, o.most_flow));
+    }
+    if (!bead.path.empty() && bead.path.back().at == j.at) continue;
+    bead.path.push_back(j);
+  }
+  if (closed && bead.path.size() > 2 && bead.path.front().at == bead.path.back().at) bead.path.pop_back();
+  if (closed && bead.path.size() < 3) bead.closed = false;
+  if (bead.path.size() >= 2) out.push_back(std::move(bead));
+}
+
+}  // namespace
+
+void finish(Line line, const FinishOptions& o, Beads& out, double& dropped_mm) {
+  if (line.path.size() < 2) return;
+  if (line.closed) line.path.push_back(line.path.front());
+  const bool all_thick =
+      std::all_of(line.path.begin(), line.path.end(), [&](const Vertex& v) { return v.width >= o.least_feature; });
+  if (line.closed && all_thick) {
+    thin_out(line.path);
+    limit_steps(line.path);
+    line.path.pop_back();
+    emit(line.path, true, line.inset, o, out);
+    return;
+  }
+  const double whole = length_of(line.path);
+  double kept = 0;
+  for (auto& stretch : thick_stretches(line.path, o.least_feature)) {
+    const double length = length_of(stretch);
+    if (length < o.least_length) continue;
+    kept += length;
+    // A bead begins at its thin end: what swells behind the nozzle there is least.
+    if (stretch.front().width > stretch.back().width) std::reverse(stretch.begin(), stretch.end());
+    thin_out(stretch);
+    limit_steps(stretch);
+    emit(stretch, false, line.inset, o, out);
+  }
+  dropped_mm += (whole - kept) / 1000;
+}
+
+void put_in_order(Beads& beads, WallOrder order) {
+  auto rank = [&](const Bead& bead) {
+    const int inset = bead.inset;
+    switch (order) {
+      case WallOrder::inside_out:
+        return -inset;
+      case WallOrder::outside_in:
+        return inset;
+      case WallOrder::outer_inner_outer: {
+        double area = 0;
+        for (std::size_t i = 0; i < bead.path.size(); ++i) {
+          const Point a = bead.path[i].at, b = bead.path[(i + 1) % bead.path.size()].at;
+          area += static_cast<double>(a.x) * b.y - static_cast<double>(b.x) * a.y;
+        }
+        return inset == 0 && bead.closed && area < 0 ? 1 << 20 : inset;
+      }
+    }
+    return 0;
+  };
+  std::stable_sort(beads.begin(), beads.end(), [&](const Bead& a, const Bead& b) { return rank(a) < rank(b); });
+}
+
+}  // namespace weft::walls

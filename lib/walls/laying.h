@@ -1,0 +1,42 @@
+#pragma once
+#include "walls/beading.h"
+#include "walls/skeleton.h"
+
+#include <cstdint>
+#include <vector>
+
+/// Private to walls: which beads lie on each piece of the skeleton, and where.
+namespace weft::walls {
+
+/// Beads along one edge of the skeleton, the same on both its sides.
+struct Span {
+  bool core = false;    ///< beads follow the thickness; else the edge runs into a corner where they turn back
+  bool middle = false;  ///< a bead on the axis itself
+  bool open = false;    ///< the axis lies in what is left for infill, from bounds[pairs] inwards
+  int pairs = 0;        ///< beads on either side, each between bounds[i] and bounds[i + 1]
+  std::uint32_t at_start = 0, at_end = 0;  ///< where the bounds begin in Laying::bounds, for the ends of the even half
+};
+
+struct Laying {
+  std::vector<Span> spans;  ///< by edge
+  std::vector<double> bounds;
+  std::vector<std::uint32_t> dots;  ///< a half that leaves a node which is all there is of a bead
+  /// Bounds at the start (end) of a half.
+  const double* start(std::uint32_t half) const {
+    const Span& s = spans[Skeleton::edge_of(half)];
+    return &bounds[half % 2 == 0 ? s.at_start : s.at_end];
+  }
+  const double* end(std::uint32_t half) const { return start(Skeleton::twin(half)); }
+};
+
+struct LayingOptions {
+  double steep = 0.5;             ///< |d clearance / d length| above which an edge may run into a corner
+  double ramp = 400;              ///< length of a transition, µm
+  double filter = 1000;           ///< a change of count undone within this length is left out, µm
+  double filter_deviation = 100;  ///< … where the thickness is no further than this from the change, µm
+};
+
+/// Decides the beads. Adds nodes to the skeleton where their number changes.
+Laying lay(Skeleton& skeleton, const Widths& widths, const LayingOptions& options);
+
+}  // namespace weft::walls

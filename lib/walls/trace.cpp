@@ -1,0 +1,207 @@
+#include "walls/trace.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft::walls {
+namespace {
+
+using Vertex = Line::Vertex;
+constexpr double same_um = 0.5;
+
+double distance(Place a, Place b) {
+  return std::hypot(b.x - a.x, b.y - a.y);
+}
+Place unit(Place from, Place to) {
+  const double d = std::max(1e-9, distance(from, to));
+  return {(to.x - from.x) / d, (to.y - from.y) / d};
+}
+double cross(Place o, Place a, Place b) {
+  return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+}
+double quad_area(Place a, Place b, Place c, Place d) {
+  return 0.5 * std::abs(cross(a, b, c) + cross(a, c, d));
+}
+Place lerp(Place a, Place b, double t) {
+  return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
+}
+
+/// What the widths of a piece are multiplied with, so that its volume is the area it stands for: ribs of a tapering
+/// part are not perpendicular to the bead.
+double fit(double area, double mean_width, double length) {
+  if (length < 1 || mean_width < 1) return 1;
+  return std::clamp(area / (mean_width * length), 0.5, 1.6);
+}
+
+/// One bead over one half: its two ends.
+struct Piece {
+  Vertex start, end;
+};
+
+Piece pair_piece(const Skeleton& s, const Laying& laying, std::uint32_t h, std::size_t i) {
+  const double *a = laying.start(h), *b = laying.end(h);
+  Piece p{{s.on_start_rib(h, (a[i] + a[i + 1]) / 2), a[i + 1] - a[i]},
+          {s.on_end_rib(h, (b[i] + b[i + 1]) / 2), b[i + 1] - b[i]}};
+  if (laying.spans[h / 2].core) {
+    const double area = quad_area(s.on_start_rib(h, a[i]), s.on_end_rib(h, b[i]), s.on_end_rib(h, b[i + 1]),
+                                  s.on_start_rib(h, a[i + 1]));
+    const double f = fit(area, (p.start.width + p.end.width) / 2, distance(p.start.at, p.end.at));
+    p.start.width *= f;
+    p.end.width *= f;
+  }
+  return p;
+}
+
+/// A chain of pieces in the making: widths of two pieces that meet are averaged.
+void append(std::vector<Vertex>& path, const Piece& p) {
+  if (!path.empty() && distance(path.back().at, p.start.at) < same_um)
+    path.back().width = (path.back().width + p.start.width) / 2;
+  else
+    path.push_back(p.start);
+  path.push_back(p.end);
+}
+
+double length_of(const std::vector<Vertex>& path) {
+  double sum = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) sum += distance(path[i - 1].at, path[i].at);
+  return sum;
+}
+
+/// Takes `by` from the end of a chain.
+void shorten(std::vector<Vertex>& path, double by) {
+  while (path.size() > 1) {
+    Vertex &last = path.back(), &before = path[path.size() - 2];
+    const double d = distance(last.at, before.at);
+    if (d > by) {
+      const double t = by / d;
+      last = {lerp(last.at, before.at, t), last.width + t * (before.width - last.width)};
+      return;
+    }
+    by -= d;
+    path.pop_back();
+  }
+}
+
+/// A stretch of a loop between turns.
+struct Chain {
+  std::vector<Vertex> path;
+  double before = 0, after = 0;  ///< how far the turn at its start (end) lies beyond the node where the count changes
+};
+
+/// Where a wall turns back in the middle of a part, its turn lies half its width inside its own stretch: the bead on
+/// the axis begins behind it.
+void set_back(Chain& chain) {
+  auto& path = chain.path;
+  const double head = std::max(0.0, path.front().width / 2 + chain.before);
+  const double tail = std::max(0.0, path.back().width / 2 + chain.after), length = length_of(path);
+  const double scale = std::min(1.0, 0.9 * length / std::max(1.0, head + tail));
+  shorten(path, tail * scale);
+  std::reverse(path.begin(), path.end());
+  shorten(path, head * scale);
+  std::reverse(path.begin(), path.end());
+}
+
+struct Loop {
+  std::vector<Chain> chains;  ///< a turn between each and the next
+};
+
+Line joined(Loop& loop, int inset) {
+  Line line;
+  line.closed = true;
+  line.inset = inset;
+  auto& chains = loop.chains;
+  if (chains.size() > 1) {
+    for (auto& chain : chains) set_back(chain);
+  }
+  for (auto& chain : chains)
+    for (const Vertex& v : chain.path) {
+      if (!line.path.empty() && distance(line.path.back().at, v.at) < same_um) continue;
+      line.path.push_back(v);
+    }
+  while (line.path.size() > 1 && distance(line.path.front().at, line.path.back().at) < same_um) line.path.pop_back();
+  return line;
+}
+
+}  // namespace
+
+std::vector<Line> trace_pairs(const Skeleton& s, const Laying& laying) {
+  std::vector<Line> out;
+  const auto halves = static_cast<std::uint32_t>(s.halves.size());
+  std::vector<std::uint32_t> first(halves + 1, 0);
+  for (std::uint32_t h = 0; h < halves; ++h)
+    first[h + 1] = first[h] + static_cast<std::uint32_t>(laying.spans[h / 2].pairs);
+  std::vector<std::uint8_t> seen(first[halves], 0);
+  for (std::uint32_t begin = 0; begin < halves; ++begin)
+    for (int i = 0; i < laying.spans[begin / 2].pairs; ++i) {
+      const auto k = static_cast<std::uint32_t>(i);
+      if (seen[first[begin] + k]) continue;
+      Loop loop;
+      loop.chains.emplace_back();
+      std::uint32_t h = begin;
+      bool turned_last = false;
+      do {
+        seen[first[h] + k] = 1;
+        const Piece piece = pair_piece(s, laying, h, k);
+        append(loop.chains.back().path, piece);
+        std::uint32_t g = s.halves[h].next;
+        while (laying.spans[g / 2].pairs <= i) g = s.halves[Skeleton::twin(g)].next;
+        turned_last = false;
+        if (g == Skeleton::twin(h)) {
+          const Piece back = pair_piece(s, laying, g, k);
+          if (distance(back.start.at, piece.end.at) > 4) {
+            // Along the axis the ends of the ribs lie off the node itself.
+            const Place node = s.end(h).at, way = unit(s.start(h).at, node);
+            auto beyond = [&](Place p) { return (p.x - node.x) * way.x + (p.y - node.y) * way.y; };
+            loop.chains.back().after = beyond(piece.end.at);
+            loop.chains.emplace_back();
+            loop.chains.back().before = beyond(back.start.at);
+            turned_last = true;
+          }
+        }
+        h = g;
+      } while (h != begin);
+      auto& chains = loop.chains;
+      if (turned_last) {
+        chains.front().before = chains.back().before;
+        chains.pop_back();
+        if (chains.size() == 1) {  // a single turn: cut in two halves' worth, both ends are set back
+          set_back(chains.front());
+        }
+      } else if (chains.size() > 1) {  // the first chain goes on in the last
+        auto &last = chains.back().path, &start = chains.front().path;
+        last.insert(last.end(), start.begin(), start.end());
+        chains.back().after = chains.front().after;
+        chains.erase(chains.begin());
+        if (chains.size() == 1) set_back(chains.front());
+      }
+      Line line = joined(loop, i);
+      if (line.path.size() >= 2) out.push_back(std::move(line));
+    }
+  return out;
+}
+
+std::vector<std::vector<Place>> trace_rest(const Skeleton& s, const Laying& laying) {
+  std::vector<std::vector<Place>> out;
+  const auto halves = static_cast<std::uint32_t>(s.halves.size());
+  std::vector<std::uint8_t> seen(halves, 0);
+  for (std::uint32_t begin = 0; begin < halves; ++begin) {
+    if (seen[begin] || !laying.spans[begin / 2].open) continue;
+    std::vector<Place> ring;
+    auto add = [&](Place p) {
+      if (ring.empty() || distance(ring.back(), p) >= same_um) ring.push_back(p);
+    };
+    std::uint32_t h = begin;
+    do {
+      seen[h] = 1;
+      const auto k = static_cast<std::size_t>(laying.spans[h / 2].pairs);
+      add(s.on_start_rib(h, std::min(laying.start(h)[k], s.start(h).clearance)));
+      add(s.on_end_rib(h, std::min(laying.end(h)[k], s.end(h).clearance)));
+      h = s.halves[h].next;
+      while (!laying.spans[h / 2].open) h = s.halves[Skeleton::twin(h)].next;
+    } while (h != begin);
+    if (ring.size() >= 3) out.push_back(std::move(ring));
+  }
+  return out;
+}
+
+}  // namespace weft::walls

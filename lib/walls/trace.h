@@ -1,0 +1,26 @@
+#pragma once
+#include "walls/laying.h"
+
+#include <vector>
+
+/// Private to walls: joins the beads of the pieces to lines.
+namespace weft::walls {
+
+struct Line {
+  struct Vertex {
+    Place at;
+    double width = 0;  ///< band, µm
+  };
+  std::vector<Vertex> path;
+  bool closed = false;
+  int inset = 0;
+};
+
+/// Walls on both sides of the axis: closed without exception, because what joins pieces is a permutation of them.
+std::vector<Line> trace_pairs(const Skeleton& skeleton, const Laying& laying);
+/// Beads on the axis, led on to the ends of the part.
+std::vector<Line> trace_middles(const Skeleton& skeleton, const Laying& laying);
+/// Outlines of what is left for infill, material on the left.
+std::vector<std::vector<Place>> trace_rest(const Skeleton& skeleton, const Laying& laying);
+
+}  // namespace weft::walls
