@@ -1,0 +1,27 @@
+#pragma once
+#include "core/polygon.h"
+#include "settings/adhesion.h"
+
+#include <vector>
+
+namespace weft::adhesion {
+
+/// Centrelines of a brim's loops, the outermost first. A ring is closed, a line is what is left of one that was cut.
+struct BrimLoop {
+  Polyline line;
+  bool closed = true;
+  int loop = 0;  ///< 0 is nearest to the part
+};
+
+/// @param gap    between the part and the first band
+/// @param band   width of each of the `count` bands
+std::vector<BrimLoop> brim_loops(const Regions& outlines, BrimLocation location, Um gap, double band_um, int count);
+
+/// The convex hull, counter-clockwise, without points on its edges. Empty when the points are on a line.
+/// Source: Andrew 1979, "Another efficient algorithm for convex hulls in two dimensions".
+Ring convex_hull(std::vector<Point> points);
+
+/// The pieces of a loop inside (or outside) of regions; a piece that runs over the loop's start is one piece.
+std::vector<BrimLoop> cut_loop(const BrimLoop& loop, const Regions& regions, bool keep_inside);
+
+}  // namespace weft::adhesion
