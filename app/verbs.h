@@ -10,6 +10,7 @@ using Words = std::vector<std::string>;
 
 // A verb takes the words behind its name and returns the exit status; it throws Error for what the user can mend.
 int settings(const Words& words);
+int preview(const Words& words);
 int profile(const Words& words);
 
 struct Verb {
@@ -19,6 +20,7 @@ struct Verb {
 };
 inline constexpr std::array verbs{
     
+    Verb{"preview", preview, "FILE.gcode -o OUT.(html|svg|png)", "look at toolpaths"},
     Verb{"profile", profile, "check|show FILE...", "validate, print resolved"},
     Verb{"settings", settings, "[--format text|json|markdown] [KEY...]", "every setting: type, unit, default, range, meaning"},
 };

@@ -196,6 +196,7 @@ void Reader::move(const Words& w) {
   std::array<double, 3> to;
   std::array<bool, 3> known;
   const bool named = target(w, to, known);
+  if (w.has('F')) speed_mm_s_ = w['F'] * (state_.inches ? 25.4 : 1.0) / 60;
   double e_mm = 0;
   if (w.has('E')) {
     const double e = w['E'] * (state_.inches ? 25.4 : 1.0);

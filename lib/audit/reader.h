@@ -57,6 +57,7 @@ class Reader {
 
   const Context& context() const { return context_; }
   std::int64_t line_number() const { return line_number_; }
+  double speed_mm_s() const { return speed_mm_s_; }  ///< of the last motion, as F asks for it; 0 when it never did
   std::span<const Opaque> opaque() const { return opaque_; }  ///< in order of first use, at most 64 names
   std::int64_t opaque_count() const { return opaque_count_; }
 
@@ -115,6 +116,7 @@ class Reader {
   bool volumetric_ = false;
   const char* line_begin_ = nullptr;
   std::int64_t line_number_ = 0, opaque_count_ = 0;
+  double speed_mm_s_ = 0;
   std::vector<Motion> motions_;
   std::vector<Problem> problems_;
   std::vector<Opaque> opaque_;

@@ -2,12 +2,7 @@
 
 #include "corpus.h"
 #include "mesh/read.h"
-
-#include <chrono>
-#include <cstring>
-#include <fstream>
-
-#include <png.h>
+#include "preview/picture.h"
 
 using namespace weft;
 using namespace weft::preview;
@@ -20,18 +15,6 @@ Mesh box(Um size) {
   mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
   return mesh;
-}
-
-/// The picture in PNG bytes, read back by libpng's other half.
-Image decoded(const std::vector<std::uint8_t>& bytes) {
-  png_image png;
-  std::memset(&png, 0, sizeof png);
-  png.version = PNG_IMAGE_VERSION;
-  REQUIRE(png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) != 0);
-  png.format = PNG_FORMAT_RGBA;
-  Image image({static_cast<int>(png.width), static_cast<int>(png.height)});
-  REQUIRE(png_image_finish_read(&png, nullptr, image.rgba.data(), 0, nullptr) != 0);
-  return image;
 }
 
 }  // namespace
@@ -70,14 +53,7 @@ TEST_CASE("thumbnail: a real model", "[preview]") {
   const auto path = corpus("models/benchy.stl");
   if (!path) return;
   const auto loaded = mesh::read_file(path->string());
-  const auto start = std::chrono::steady_clock::now();
   const auto bytes = thumbnail(loaded.objects[0].mesh, {300, 300});
-  const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
-  UNSCOPED_INFO(loaded.objects[0].mesh.triangles.size()
-                << " triangles, " << bytes.size() << " bytes, " << spent.count() << " ms");
-  if (const char* out = std::getenv("WEFT_TEST_PICTURES"))
-    std::ofstream(std::filesystem::path(out) / "thumbnail.png", std::ios::binary)
-        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   Image image = decoded(bytes);
   std::size_t covered = 0;
   for (std::size_t i = 3; i < image.rgba.size(); i += 4) covered += image.rgba[i] == 255;

@@ -1,0 +1,125 @@
+#include "preview/preview.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+#include "audit/audit.h"
+#include "command.h"
+#include "mesh/file_bytes.h"
+#include "settings/value.h"
+#include "verbs.h"
+
+namespace po = boost::program_options;
+
+namespace weft::app {
+namespace {
+
+po::options_description preview_options() {
+  po::options_description out("Options of weft preview");
+  out.add_options()
+    ("layer", po::value<int>()->value_name("N"), "the layer to show, from 0; -1 is the last (default: the middle one; of a page: the last)")
+    ("colour,color", po::value<std::string>()->value_name("WHAT")->default_value("feature"), "what colours tell: feature, width, speed or flow")
+    ("travels", po::bool_switch(), "show moves that do not extrude")
+    ("window", po::value<std::string>()->value_name("X1xY1,X2xY2"), "two opposite corners, in mm, of what a picture shows (default: all of the layer)")
+    ("size", po::value<int>()->value_name("PIXELS")->default_value(1600), "longer side of a picture, without its legend")
+    ("audit", po::bool_switch(), "show the machine of the profile, its no-go areas and reach, and in red every move that the audit finds outside");
+  return out;
+}
+
+preview::Colour colour_of(const std::string& name) {
+  using preview::Colour;
+  constexpr std::pair<std::string_view, Colour> colours[] = {
+      {"feature", Colour::feature}, {"width", Colour::width}, {"speed", Colour::speed}, {"flow", Colour::flow}};
+  for (const auto& [known, colour] : colours)
+    if (name == known) return colour;
+  throw Error{Error::Kind::usage, fmt::format("'{}' is not one of feature, width, speed, flow", name), "--colour"};
+}
+
+/// The layer that --layer means. Pre: the file has layers.
+std::optional<std::size_t> layer_of(const Command& command, std::size_t layers) {
+  if (!command.options.count("layer")) return std::nullopt;
+  const int typed = command.options["layer"].as<int>(), count = static_cast<int>(layers);
+  const int index = typed < 0 ? count + typed : typed;
+  if (index < 0 || index >= count)
+    throw Error{Error::Kind::usage, fmt::format("there is no layer {}", typed), "--layer", fmt::format("the file has layers 0 … {}", count - 1)};
+  return static_cast<std::size_t>(index);
+}
+
+std::optional<Box> window_of(const Command& command) {
+  if (!command.options.count("window")) return std::nullopt;
+  const auto& typed = command.options["window"].as<std::string>();
+  Ring corners;
+  try {
+    value::parse(typed, Unit::none, corners);
+  } catch (const std::invalid_argument&) {
+    corners.clear();
+  }
+  const Box box = box_of(corners);
+  if (corners.size() != 2 || box.size().x <= 0 || box.size().y <= 0)
+    throw Error{Error::Kind::usage, fmt::format("'{}' is not two corners in mm", typed), "--window", "as in --window 90x90,130x120"};
+  return box;
+}
+
+preview::Overlay overlay_of(const Profile& profile, std::string_view gcode, Console& console) {
+  const auto& settings = profile.settings;
+  auto listed = settings.audit;
+  listed.audit_max_findings = 1'000'000;  // every one is drawn
+  const auto report = audit::examine_text(settings.machine, settings.material, listed, gcode);
+  console.info(audit::summary(report));
+  preview::Overlay overlay{print_surface(settings.machine), settings.machine.bed_exclude_areas, reach_area(settings.machine), {}};
+  for (const auto& finding : report.findings) overlay.lines.push_back(static_cast<std::uint32_t>(finding.line));
+  std::sort(overlay.lines.begin(), overlay.lines.end());
+  return overlay;
+}
+
+std::string drawn(const std::string& kind, const preview::Toolpaths& paths, const preview::View& view,
+                  const std::optional<preview::Overlay>& overlay) {
+  if (kind == ".svg") return preview::svg(paths, view, overlay);
+  if (kind == ".html") return preview::html(paths, view, overlay);
+  const auto bytes = preview::png(paths, view, overlay);
+  return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace
+
+int preview(const Words& words) {
+  const auto options = preview_options();
+  const auto command = parse_command(words, options);
+  if (command.help) {
+    std::ostringstream out;
+    out << "weft preview FILE.gcode -o OUT.(html|svg|png)    look at toolpaths\n\n"
+           "svg and png show one layer, html all of them; beads are drawn as wide as their filament makes them.\n\n"
+        << options << "\n" << common_help();
+    return fmt::print("{}", out.str()), 0;
+  }
+  if (command.inputs.size() != 1)
+    throw Error{Error::Kind::usage, fmt::format("takes one G-code file, not {}", command.inputs.size()), "weft preview"};
+  if (!command.output) throw Error{Error::Kind::usage, "no output was given", "weft preview", "as in -o layer.png"};
+  const std::string kind = std::filesystem::path(*command.output).extension().string();
+  if (kind != ".svg" && kind != ".png" && kind != ".html")
+    throw Error{Error::Kind::usage, "is neither .html nor .svg nor .png", *command.output, "the extension tells the kind of picture"};
+
+  Console console(command.console);
+  const Profile profile = resolve(command);
+  const mesh::FileBytes file(command.inputs[0]);
+  const std::string_view gcode = file.view();
+  const auto paths = preview::read(gcode, profile.settings.material.filament_diameter);
+  if (paths.layers.empty()) throw Error{Error::Kind::file, "holds no motion that could be drawn", command.inputs[0], "is it G-code?"};
+  preview::View view;
+  view.colour = colour_of(command.options["colour"].as<std::string>());
+  view.travels = command.options["travels"].as<bool>();
+  view.size = command.options["size"].as<int>();
+  if (view.size < 16 || view.size > 8192) throw Error{Error::Kind::usage, "must be 16 … 8192", "--size"};
+  view.layer = layer_of(command, paths.layers.size());
+  view.window = window_of(command);
+  view.title = std::filesystem::path(command.inputs[0]).filename().string();
+  std::optional<preview::Overlay> overlay;
+  if (command.options["audit"].as<bool>()) overlay = overlay_of(profile, gcode, console);
+  write_output(*command.output, drawn(kind, paths, view, overlay));
+  return 0;
+}
+
+}  // namespace weft::app

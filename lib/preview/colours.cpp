@@ -1,0 +1,98 @@
+#include "preview/colours.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace weft::preview {
+namespace {
+
+struct FeatureColour {
+  std::string_view feature;
+  Rgb colour;
+};
+constexpr std::array feature_colours{
+    FeatureColour{"outer_wall", {238, 121, 52}},   FeatureColour{"inner_wall", {246, 199, 68}},
+    FeatureColour{"overhang_wall", {48, 88, 214}}, FeatureColour{"infill", {178, 62, 52}},
+    FeatureColour{"skin", {146, 98, 214}},         FeatureColour{"top_skin", {226, 76, 96}},
+    FeatureColour{"bridge", {88, 156, 236}},       FeatureColour{"gap_fill", {190, 196, 204}},
+    FeatureColour{"skirt", {44, 160, 112}},        FeatureColour{"brim", {24, 130, 90}},
+    FeatureColour{"support", {98, 196, 116}},      FeatureColour{"support_interface", {40, 130, 66}},
+    FeatureColour{"wipe_tower", {170, 190, 150}},  FeatureColour{"custom", {90, 190, 200}},
+};
+constexpr Rgb unknown{150, 150, 150};
+
+constexpr std::array<Rgb, 6> viridis{
+    {{68, 1, 84}, {65, 68, 135}, {42, 120, 142}, {34, 168, 132}, {122, 209, 81}, {253, 231, 37}}};
+
+std::uint8_t mixed(std::uint8_t a, std::uint8_t b, double t) {
+  return static_cast<std::uint8_t>(std::lround(a + (b - a) * t));
+}
+
+}  // namespace
+
+Rgb colour_of(std::string_view feature) {
+  for (const auto& row : feature_colours)
+    if (row.feature == feature) return row.colour;
+  return unknown;
+}
+
+Rgb ramp(double share) {
+  const double at = std::clamp(share, 0.0, 1.0) * (viridis.size() - 1);
+  const std::size_t i = std::min(static_cast<std::size_t>(at), viridis.size() - 2);
+  const double t = at - static_cast<double>(i);
+  const Rgb a = viridis[i], b = viridis[i + 1];
+  return {mixed(a.r, b.r, t), mixed(a.g, b.g, t), mixed(a.b, b.b, t)};
+}
+
+Rgb darker(Rgb c) {
+  auto tone = [](std::uint8_t v) { return static_cast<std::uint8_t>(v * 11 / 20); };
+  return {tone(c.r), tone(c.g), tone(c.b)};
+}
+
+std::string css(Rgb c) {
+  return fmt::format("#{:02x}{:02x}{:02x}", c.r, c.g, c.b);
+}
+
+double measure(const Stroke& stroke, Colour colour) {
+  switch (colour) {
+    case Colour::feature:
+      return 0;
+    case Colour::width:
+      return to_mm(stroke.width);
+    case Colour::speed:
+      return static_cast<double>(stroke.speed_mm_s);
+    case Colour::flow:
+      return static_cast<double>(stroke.flow_mm3_s);
+  }
+  return 0;
+}
+
+std::string_view unit_of(Colour colour) {
+  switch (colour) {
+    case Colour::feature:
+      return "";
+    case Colour::width:
+      return "mm";
+    case Colour::speed:
+      return "mm/s";
+    case Colour::flow:
+      return "mm3/s";
+  }
+  return "";
+}
+
+Range range_of(const Toolpaths& paths, std::size_t first_layer, std::size_t last_layer, Colour colour) {
+  double least = 1e300, most = -1e300;
+  for (std::size_t i = first_layer; i <= last_layer && i < paths.layers.size(); ++i)
+    for (const Stroke& stroke : paths.layers[i].strokes) {
+      if (!stroke.extrudes() || paths.features[stroke.feature] == "custom") continue;
+      least = std::min(least, measure(stroke, colour));
+      most = std::max(most, measure(stroke, colour));
+    }
+  return least > most ? Range{} : Range{least, most};
+}
+
+}  // namespace weft::preview

@@ -1,0 +1,41 @@
+#pragma once
+#include "preview/toolpaths.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace weft::preview {
+
+/// What the colour of a bead tells.
+enum class Colour : std::uint8_t { feature, width, speed, flow };
+
+/// How toolpaths are shown.
+struct View {
+  Colour colour = Colour::feature;
+  bool travels = false;
+  int size = 1600;                        ///< pixels of the longer side of the drawing; the legend stands beside it
+  std::optional<std::size_t> layer = {};  ///< from 0; absent: the middle one, and the last one of a page
+  std::optional<Box> window = {};         ///< what a picture shows; absent: all of the layer
+  std::string title = {};                 ///< above the legend
+};
+
+/// The machine under the toolpaths, and the moves that an audit found outside.
+struct Overlay {
+  Ring bed;
+  std::vector<Ring> no_go;
+  Ring reach;
+  std::vector<std::uint32_t> lines;  ///< of the file, ascending: their moves are drawn in red
+};
+
+/// Pictures of a layer: beads in their true width, legend, compensated beads marked by a bright centreline.
+/// Pre: paths has a layer, view.layer is one of them, size in 16 … 8192.
+std::string svg(const Toolpaths& paths, const View& view, const std::optional<Overlay>& overlay = {});
+std::vector<std::uint8_t> png(const Toolpaths& paths, const View& view, const std::optional<Overlay>& overlay = {});
+
+/// A page with all layers that needs no network: slider, zoom, colours, travels. Points are rounded to 5 µm.
+/// Pre: paths has a layer.
+std::string html(const Toolpaths& paths, const View& view, const std::optional<Overlay>& overlay = {});
+
+}  // namespace weft::preview

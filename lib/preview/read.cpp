@@ -1,0 +1,165 @@
+#include "audit/reader.h"
+#include "model/flow.h"
+#include "preview/toolpaths.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace weft::preview {
+namespace {
+
+constexpr double shortest_mm = 0.0005;   // of a piece that is drawn: half the lattice
+constexpr double chord_error_mm = 0.01;  // how far the pieces of an arc may stand off it
+constexpr double full_flow = 0.93;       // below this share of the announced bead a piece counts as compensated
+constexpr double layer_step_mm = 0.005;  // files without comments: a bead this much higher begins a layer
+
+/// Gathers the motions of an audit::Reader into layers.
+class Gatherer {
+ public:
+  enum class LayersBy { comments, height };
+  Gatherer(Um filament_diameter, LayersBy by)
+      : filament_mm2_(std::numbers::pi / 4 * to_mm(filament_diameter) * to_mm(filament_diameter)), by_(by) {
+    feature_of_.fill(none);
+  }
+
+  void line(const char* begin, const char* end) {
+    reader_.line(begin, end);
+    for (const audit::Motion& motion : reader_.motions()) add(motion);
+  }
+
+  bool has_comments() const { return reader_.context().began(); }
+
+  Toolpaths finish() {
+    if (!has_comments() && custom_ != none) out_.features[custom_] = "";  // nobody said what it is
+    return std::move(out_);
+  }
+
+ private:
+  static constexpr std::uint8_t none = 255;
+
+  void add(const audit::Motion& motion) {
+    constexpr double reach_mm = max_coord / 1000.0 - 1;
+    const audit::Vec from = motion.path.from, to = motion.path.to;
+    if (!motion.from_known || !motion.x_known || !motion.y_known || !motion.judgeable) return;
+    if (std::max({std::abs(from.x), std::abs(from.y), std::abs(to.x), std::abs(to.y), std::abs(motion.z_to)}) >
+        reach_mm)
+      return;
+    const double length = audit::length_mm(motion.path);
+    if (length < shortest_mm) return;
+    PathLayer& layer = layer_of(motion);
+    if (motion.extrudes && layer.z == 0 && !custom()) start(layer, motion);
+    emit(layer, motion, look(motion, layer, length));
+  }
+
+  bool custom() const { return by_ == LayersBy::comments && reader_.context().custom(); }
+
+  PathLayer& layer_of(const audit::Motion& motion) {
+    if (by_ == LayersBy::comments) {
+      const std::size_t index = static_cast<std::size_t>(std::clamp(reader_.context().layer(), 0, 1'000'000));
+      if (index >= out_.layers.size()) out_.layers.resize(index + 1);
+      return out_.layers[index];
+    }
+    if (out_.layers.empty() ||
+        (motion.extrudes && motion.z_to > to_mm(out_.layers.back().z) + layer_step_mm && out_.layers.back().z != 0))
+      out_.layers.emplace_back();
+    return out_.layers.back();
+  }
+
+  /// Z and height, from the first bead of the layer.
+  void start(PathLayer& layer, const audit::Motion& motion) {
+    layer.z = from_mm(motion.z_to);
+    const double said_mm = reader_.context().height_mm();
+    const std::size_t index = static_cast<std::size_t>(&layer - out_.layers.data());
+    const Um below = index > 0 ? out_.layers[index - 1].z : 0;
+    layer.height = said_mm > 0 && said_mm < 10 ? from_mm(said_mm) : std::max(layer.z - below, 1);
+  }
+
+  /// Everything of a stroke but its place.
+  Stroke look(const audit::Motion& motion, const PathLayer& layer, double length) {
+    Stroke stroke;
+    stroke.line = static_cast<std::uint32_t>(reader_.line_number());
+    stroke.speed_mm_s = static_cast<float>(reader_.speed_mm_s());
+    stroke.feature = feature();
+    if (!motion.extrudes || motion.e_mm <= 0) return stroke;
+    const double area_mm2 = motion.e_mm * (motion.volumetric ? 1.0 : filament_mm2_) / length;
+    const double height_mm =
+        layer.height > 0 ? to_mm(layer.height) : 0.2;  // start G-code purges before any layer is known
+    const double band_mm = std::min(area_mm2 / height_mm, 50.0);
+    stroke.width = std::max(flow::line_width(from_mm(band_mm), from_mm(height_mm)), 1);
+    stroke.flow_mm3_s = static_cast<float>(area_mm2) * stroke.speed_mm_s;
+    const bool bridge = out_.features[stroke.feature] == "bridge";
+    if (bridge)  // nothing presses it flat: a round strand
+      stroke.width = std::min(stroke.width, std::max(from_mm(2 * std::sqrt(area_mm2 / std::numbers::pi)), 1));
+    const double said_mm = reader_.context().width_mm();
+    stroke.compensated =
+        said_mm > 0 && !bridge && !custom() && area_mm2 < full_flow * flow::area_mm2(said_mm, height_mm);
+    return stroke;
+  }
+
+  std::uint8_t feature() {
+    const audit::Context& context = reader_.context();
+    if (context.custom()) {
+      if (custom_ == none) custom_ = named("custom");
+      return custom_;
+    }
+    std::uint8_t& known = feature_of_[context.feature_index()];
+    if (known == none) known = named(context.feature());
+    return known;
+  }
+
+  std::uint8_t named(std::string_view name) {
+    const auto at = std::find(out_.features.begin(), out_.features.end(), name);
+    if (at == out_.features.end())
+      return out_.features.emplace_back(name), static_cast<std::uint8_t>(out_.features.size() - 1);
+    return static_cast<std::uint8_t>(at - out_.features.begin());
+  }
+
+  static void emit(PathLayer& layer, const audit::Motion& motion, Stroke stroke) {
+    int pieces = 1;
+    if (motion.path.arc) {
+      const double radius = std::max(motion.path.radius_mm, chord_error_mm);
+      const double step_rad = 2 * std::acos(1 - chord_error_mm / radius);
+      pieces = static_cast<int>(std::clamp(std::ceil(std::abs(motion.path.sweep_rad) / step_rad), 1.0, 10'000.0));
+    }
+    Point last = point(motion.path.from);
+    for (int i = 1; i <= pieces; ++i) {
+      const Point next = point(i == pieces ? motion.path.to : audit::at(motion.path, static_cast<double>(i) / pieces));
+      stroke.from = last, stroke.to = next;
+      layer.strokes.push_back(stroke);
+      last = next;
+    }
+  }
+  static Point point(audit::Vec v) { return {from_mm(v.x), from_mm(v.y)}; }
+
+  double filament_mm2_;
+  LayersBy by_;
+  audit::Reader reader_{std::nullopt};
+  std::array<std::uint8_t, 256> feature_of_{};
+  std::uint8_t custom_ = none;
+  Toolpaths out_;
+};
+
+void read_lines(Gatherer& gatherer, std::string_view gcode) {
+  std::size_t at = 0;
+  for (std::size_t end; (end = gcode.find('\n', at)) != std::string_view::npos; at = end + 1)
+    gatherer.line(gcode.data() + at, gcode.data() + end);
+  if (at == gcode.size()) return;
+  const std::string last = std::string(gcode.substr(at)) + '\n';
+  gatherer.line(last.data(), last.data() + last.size() - 1);
+}
+
+}  // namespace
+
+Toolpaths read(std::string_view gcode, Um filament_diameter) {
+  Gatherer gatherer(filament_diameter, Gatherer::LayersBy::comments);
+  read_lines(gatherer, gcode);
+  if (gatherer.has_comments()) return gatherer.finish();
+  Gatherer again(filament_diameter, Gatherer::LayersBy::height);
+  read_lines(again, gcode);
+  return again.finish();
+}
+
+}  // namespace weft::preview

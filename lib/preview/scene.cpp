@@ -1,0 +1,110 @@
+#include "preview/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace weft::preview {
+namespace {
+
+constexpr Um margin = 2000;  // free border of a picture, µm
+
+bool custom(const Toolpaths& paths, const Stroke& stroke) {
+  return paths.features[stroke.feature] == "custom";
+}
+
+Box box_of_prints(const Toolpaths& paths, const PathLayer& layer) {
+  Box all, printed;
+  for (const Stroke& stroke : layer.strokes) {
+    all.add(stroke.from), all.add(stroke.to);
+    if (!stroke.extrudes() || custom(paths, stroke)) continue;
+    printed.add(stroke.from), printed.add(stroke.to);
+  }
+  if (!printed.empty()) return printed;
+  return all.empty() ? Box{{0, 0}, {0, 0}} : all;
+}
+
+/// Appends the stroke to the last line when it goes on where that ends and looks the same.
+void append(std::vector<Line>& lines, const Stroke& stroke, Um width, Rgb colour) {
+  if (!lines.empty()) {
+    Line& last = lines.back();
+    if (last.path.back() == stroke.from && last.width == width && last.colour == colour) {
+      last.path.push_back(stroke.to);
+      return;
+    }
+  }
+  lines.push_back({{stroke.from, stroke.to}, width, colour});
+}
+
+void add_legend(Scene& scene, const Toolpaths& paths, const View& view, const PathLayer& layer, Range range) {
+  if (view.colour == Colour::feature) {
+    std::vector<bool> present(paths.features.size());
+    for (const Stroke& stroke : layer.strokes)
+      if (stroke.extrudes()) present[stroke.feature] = true;
+    for (std::size_t i = 0; i < present.size(); ++i)
+      if (present[i]) {
+        std::string name = paths.features[i].empty() ? "other" : paths.features[i];
+        std::replace(name.begin(), name.end(), '_', ' ');
+        scene.legend.push_back({colour_of(paths.features[i]), std::move(name)});
+      }
+  } else {
+    constexpr int steps = 6;
+    const int rows = range.most > range.least ? steps : 1;
+    for (int i = rows - 1; i >= 0; --i) {
+      const double share = rows > 1 ? static_cast<double>(i) / (rows - 1) : 0.5;
+      const double value = range.least + share * (range.most - range.least);
+      scene.legend.push_back(
+          {ramp(share), fmt::format("{:.{}f} {}", value, view.colour == Colour::speed ? 0 : 2, unit_of(view.colour))});
+    }
+  }
+  if (!scene.marks.empty()) scene.legend.push_back({{255, 255, 255}, "flow reduced"});
+  if (!scene.travels.empty()) scene.legend.push_back({travel_colour, "travel"});
+  if (!scene.offending.empty()) scene.legend.push_back({offending_colour, "outside"});
+  if (!scene.no_go.empty()) scene.legend.push_back({no_go_colour, "no-go area"});
+}
+
+}  // namespace
+
+Scene scene_of(const Toolpaths& paths, const View& view, const std::optional<Overlay>& overlay) {
+  const std::size_t index = view.layer.value_or(paths.layers.size() / 2);
+  const PathLayer& layer = paths.layers[index];
+  Scene scene;
+  scene.box = box_of_prints(paths, layer);
+  if (overlay) {
+    scene.bed = overlay->bed, scene.reach = overlay->reach, scene.no_go = overlay->no_go;
+    scene.box.add(box_of(scene.bed)), scene.box.add(box_of(scene.reach));
+    for (const Ring& area : scene.no_go) scene.box.add(box_of(area));
+  }
+  const Range range = range_of(paths, index, index, view.colour);
+  for (const Stroke& stroke : layer.strokes) {
+    if (overlay && std::binary_search(overlay->lines.begin(), overlay->lines.end(), stroke.line)) {
+      append(scene.offending, stroke, 0, offending_colour);
+      scene.box.add(stroke.from), scene.box.add(stroke.to);
+    }
+    if (!stroke.extrudes()) {
+      if (view.travels && stroke.from != stroke.to) append(scene.travels, stroke, 0, travel_colour);
+      continue;
+    }
+    const bool by_feature = view.colour == Colour::feature || custom(paths, stroke);
+    const Rgb colour =
+        by_feature ? colour_of(paths.features[stroke.feature]) : ramp(range.share(measure(stroke, view.colour)));
+    append(scene.beads, stroke, stroke.width, colour);
+    if (stroke.compensated) append(scene.marks, stroke, 0, {255, 255, 255});
+  }
+  scene.box = view.window.value_or(scene.box.grown(margin));
+  if (!view.title.empty()) scene.title.push_back(view.title);
+  scene.title.push_back(fmt::format("layer {} of {}", index, paths.layers.size()));
+  scene.title.push_back(fmt::format("z {:.2f}, height {:.2f}", to_mm(layer.z), to_mm(layer.height)));
+  add_legend(scene, paths, view, layer, range);
+  return scene;
+}
+
+Frame frame_of(const Scene& scene, int size) {
+  const double across = to_mm(scene.box.size().x), along = to_mm(scene.box.size().y);
+  const double scale = size / std::max(across, along);
+  return {scale, std::max(1, static_cast<int>(std::ceil(across * scale))),
+          std::max(1, static_cast<int>(std::ceil(along * scale)))};
+}
+
+}  // namespace weft::preview

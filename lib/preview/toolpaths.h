@@ -1,0 +1,42 @@
+#pragma once
+#include "core/polygon.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace weft::preview {
+
+/// A straight piece of the nozzle's way; arcs are cut into such pieces.
+struct Stroke {
+  Point from, to;
+  Um width =
+      0;  ///< line width of the bead that the filament of this piece makes (model/flow.h); 0: nothing is extruded
+  float speed_mm_s = 0;
+  float flow_mm3_s = 0;
+  std::uint8_t feature = 0;  ///< index into Toolpaths::features
+  bool compensated = false;  ///< less filament than the width that the file announces (;WIDTH:) would take
+  std::uint32_t line = 0;    ///< of the file, from 1
+
+  bool extrudes() const { return width > 0; }
+};
+
+struct PathLayer {
+  Um z = 0, height = 0;
+  std::vector<Stroke> strokes;  ///< in the order of the file
+};
+
+/// What a G-code file does, layer by layer.
+struct Toolpaths {
+  std::vector<std::string>
+      features;  ///< weft's names of what beads are for ("outer_wall"), other slicers' where weft has none
+  std::vector<PathLayer> layers;
+};
+
+/// What is put before the first layer (start G-code) counts to the first, what comes last to the last.
+/// @param filament_diameter  what E is measured in
+/// Throws nothing: what cannot be understood is not drawn. Cost: linear in bytes.
+Toolpaths read(std::string_view gcode, Um filament_diameter);
+
+}  // namespace weft::preview
