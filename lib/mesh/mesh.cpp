@@ -4,8 +4,7 @@ namespace weft {
 
 Box3 box_of(const Mesh& mesh) {
   Box3 box;
-  for (const Triangle& triangle : mesh.triangles)
-    for (const std::uint32_t corner : triangle) box.add(mesh.vertices[corner]);
+  for (const Point3& vertex : mesh.vertices) box.add(vertex);
   return box;
 }
 

@@ -11,9 +11,9 @@ namespace weft {
 /// Corners as indices of vertices, counter-clockwise seen from outside.
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// A triangle mesh on the lattice. Welded: no two vertices are equal. After mesh::read no triangle has a corner twice.
-/// Not promised: that it is closed, that it is free of self-intersections, that a triangle has an area (three corners
-/// in a line are kept: without them their neighbours would have open edges).
+/// A triangle mesh on the lattice. Welded: no two vertices are equal. After mesh::read no triangle has a corner twice,
+/// and every vertex is one's corner. Not promised: that it is closed, that it is free of self-intersections, that a
+/// triangle has an area (three corners in a line are kept: without them their neighbours would have open edges).
 struct Mesh {
   std::vector<Point3> vertices;
   std::vector<Triangle> triangles;
@@ -41,7 +41,7 @@ struct Box3 {
   }
 };
 
-/// The box of the corners that triangles use.
+/// The box of the vertices.
 Box3 box_of(const Mesh& mesh);
 
 /// Enclosed volume, mm³, voids counted off; negative when the mesh is inside out. Of an open mesh: about what it would

@@ -74,7 +74,7 @@ std::string fault_of(double mm) {
 }
 
 Loaded read(std::string_view bytes, const std::string& path_as_typed, const ReadOptions& options) {
-  Loaded loaded{.path = path_as_typed, .sha256 = {}, .objects = {}, .notices = {}};
+  Loaded loaded{.path = path_as_typed};
   const Source source{without_byte_order_mark(bytes), path_as_typed, options.scale};
   const Reader reader = reader_for(source);
   loaded.format = reader.format;

@@ -22,11 +22,11 @@ struct Object {
 struct Loaded {
   std::string path;  ///< as typed
   Format format = Format::stl_binary;
-  std::string sha256;                 ///< of the file's bytes
+  std::string sha256{};               ///< of the file's bytes
   std::string unit = "millimeter";    ///< what the file says, in 3MF's words; STL and OBJ do not say
   std::size_t triangles_in_file = 0;  ///< before any repair; every copy in a 3MF's build counts
-  std::vector<Object> objects;        ///< not empty, and each has a triangle
-  Notices notices;                    ///< what of the file was left out; repairs are noticed with each object
+  std::vector<Object> objects{};      ///< not empty, and each has a triangle
+  Notices notices{};                  ///< what of the file was left out; repairs are noticed with each object
 };
 
 struct ReadOptions {

@@ -2,6 +2,7 @@
 
 #include "mesh/edges.h"
 #include "mesh/orient.h"
+#include "mesh/weld.h"
 
 #include <algorithm>
 #include <numeric>
@@ -116,8 +117,7 @@ std::size_t drop_sheets(Mesh& mesh, const EdgeTable& edges, const std::vector<Tr
 
 Repaired repair(Mesh mesh) {
   Repairs repairs;
-  repairs.degenerate =
-      std::erase_if(mesh.triangles, [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+  repairs.degenerate = drop_degenerate(mesh);
   EdgeTable edges = edges_of(mesh);
   if (const auto suspects = twin_suspects(edges); !suspects.empty()) {
     const auto balanced = drop_twins(mesh, suspects, repairs.duplicates);
@@ -126,6 +126,7 @@ Repaired repair(Mesh mesh) {
     if (repairs.sheets > 0) edges = edges_of(mesh);
   }
   orient(mesh, edges, repairs);
+  drop_unused_vertices(mesh);
   repairs.open_edges = edges.open_edges;
   repairs.non_manifold_edges = edges.crowded_ends.size();
   return {std::move(mesh), repairs};

@@ -28,4 +28,24 @@ void Weld::resize(unsigned bits) {
   }
 }
 
+std::size_t drop_degenerate(Mesh& mesh) {
+  return std::erase_if(mesh.triangles, [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+}
+
+void drop_unused_vertices(Mesh& mesh) {
+  std::vector<std::uint32_t> renumbered(mesh.vertices.size(), 0);
+  for (const Triangle& triangle : mesh.triangles)
+    for (const std::uint32_t corner : triangle) renumbered[corner] = 1;
+  std::uint32_t used = 0;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    if (!renumbered[i]) continue;
+    mesh.vertices[used] = mesh.vertices[i];
+    renumbered[i] = used++;
+  }
+  if (used == mesh.vertices.size()) return;
+  mesh.vertices.resize(used);
+  for (Triangle& triangle : mesh.triangles)
+    for (std::uint32_t& corner : triangle) corner = renumbered[corner];
+}
+
 }  // namespace weft::mesh

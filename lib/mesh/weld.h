@@ -57,4 +57,10 @@ class Weld {
   unsigned shift_ = 0;
 };
 
+/// Drops triangles that have a corner twice. Returns how many.
+std::size_t drop_degenerate(Mesh& mesh);
+
+/// Drops vertices that are no triangle's corner; the others keep their order.
+void drop_unused_vertices(Mesh& mesh);
+
 }  // namespace weft::mesh

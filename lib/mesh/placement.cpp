@@ -1,0 +1,92 @@
+#include "mesh/placement.h"
+
+#include "core/error.h"
+#include "mesh/arrange.h"
+#include "mesh/fits.h"
+#include "mesh/weld.h"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+namespace weft::mesh {
+namespace {
+
+/// Cosine and sine, which are whole numbers when the angle is a multiple of 90°.
+Eigen::Rotation2Dd::Matrix2 turn(double degrees) {
+  const double quarters = degrees / 90, whole = std::round(quarters);
+  if (quarters != whole) return Eigen::Rotation2Dd(degrees * std::numbers::pi / 180).toRotationMatrix();
+  Eigen::Matrix2d result = Eigen::Matrix2d::Identity(), quarter;
+  quarter << 0, -1, 1, 0;
+  for (int i = static_cast<int>(std::fmod(std::fmod(whole, 4) + 4, 4)); i > 0; --i) result = quarter * result;
+  return result;
+}
+
+PlacedModel at_origin(const Loaded& loaded, double rotate_deg, Point& home) {
+  PlacedModel model{loaded.path, {}, {}, {}, {}};
+  Box3 in_file;
+  for (const Object& object : loaded.objects) in_file.add(box_of(object.mesh));
+  const Point about = in_file.footprint().centre();
+  for (const Object& object : loaded.objects) model.objects.push_back(rotated(object.mesh, rotate_deg, about));
+  Box3 turned;
+  for (const Mesh& mesh : model.objects) turned.add(box_of(mesh));
+  home = turned.footprint().centre();
+  const Point3 by{-home.x, -home.y, -turned.min.z};
+  std::vector<Point> footprint;
+  for (Mesh& mesh : model.objects) {
+    mesh = moved(std::move(mesh), by);
+    model.box.add(box_of(mesh));
+    for (const Point3& vertex : mesh.vertices) footprint.push_back(flat(vertex));
+  }
+  model.hull = hull_of(std::move(footprint));
+  return model;
+}
+
+}  // namespace
+
+Mesh rotated(Mesh mesh, double degrees, Point about) {
+  const Eigen::Matrix2d matrix = turn(degrees);
+  if (matrix.isIdentity(0)) return mesh;
+  Weld weld(mesh.vertices.size());
+  std::vector<std::uint32_t> welded;
+  welded.reserve(mesh.vertices.size());
+  for (const Point3& p : mesh.vertices) {
+    const Eigen::Vector2d um = matrix * Eigen::Vector2d(p.x - about.x, p.y - about.y);
+    welded.push_back(weld.index({lattice(um.x() / 1000) + about.x, lattice(um.y() / 1000) + about.y, p.z}));
+  }
+  for (Triangle& triangle : mesh.triangles)
+    for (std::uint32_t& corner : triangle) corner = welded[corner];
+  mesh.vertices = weld.take_vertices();
+  if (drop_degenerate(mesh) > 0) drop_unused_vertices(mesh);
+  return mesh;
+}
+
+Mesh moved(Mesh mesh, Point3 by) {
+  for (Point3& p : mesh.vertices) p = {p.x + by.x, p.y + by.y, p.z + by.z};
+  return mesh;
+}
+
+std::vector<PlacedModel> place(std::span<const Loaded> models, const PlacementOptions& options, const Plate& plate) {
+  if (options.keep_position && options.copies > 1)
+    throw Error(Error::Kind::usage, "copies of one position would lie in each other", "--keep-position",
+                "leave out --copies or --keep-position");
+  std::vector<PlacedModel> placed;
+  std::vector<Point> homes(models.size());
+  for (std::size_t i = 0; i < models.size(); ++i) placed.push_back(at_origin(models[i], options.rotate_deg, homes[i]));
+  if (options.keep_position) {
+    for (std::size_t i = 0; i < models.size(); ++i) placed[i].instances = {homes[i]};
+    return placed;
+  }
+  const auto copies = static_cast<std::size_t>(options.copies);
+  std::vector<Item> items;
+  for (const PlacedModel& model : placed)
+    items.insert(items.end(), copies, {model.box.footprint().size(), &model.hull});
+  const Arrangement arrangement = arrange(items, plate, options.center, options.spacing);
+  for (std::size_t i = 0; i < items.size(); ++i) placed[i / copies].instances.push_back(arrangement.at[i]);
+  return placed;
+}
+
+}  // namespace weft::mesh

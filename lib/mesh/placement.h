@@ -1,0 +1,57 @@
+#pragma once
+#include "mesh/read.h"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace weft::mesh {
+
+/// What models are placed on.
+struct Plate {
+  Ring surface{};                ///< simple, counter-clockwise, maybe concave
+  std::vector<Ring> keep_out{};  ///< areas of the surface that nothing may stand on
+  Um height = 0;                 ///< highest that may be printed
+};
+
+struct PlacementOptions {
+  double rotate_deg = 0;          ///< counter-clockwise about a vertical axis through the middle of each model
+  bool keep_position = false;     ///< x and y stay as in the file; Pre: copies is 1
+  std::optional<Point> center{};  ///< of the box of everything; none: the middle of the plate
+  int copies = 1;                 ///< of each model, > 0
+  Um spacing = 6_mm;              ///< between the boxes of two models or copies, >= 0
+};
+
+/// One file's objects, which keep their places among themselves. The model is sliced once, at its own origin; where its
+/// copies stand are translations of the result by whole microns.
+struct PlacedModel {
+  std::string path;
+  std::vector<Mesh>
+      objects;  ///< as many as were loaded; the middle of their box is x = y = 0, their lowest point z = 0
+  Box3 box;     ///< of all objects
+  Ring hull;    ///< convex, of their footprint, counter-clockwise
+  std::vector<Point>
+      instances;  ///< where the origin of each copy is on the plate; in rows from the front, from the left
+  friend bool operator==(const PlacedModel&, const PlacedModel&) = default;
+};
+
+/// Turns the models, drops them to z = 0 and puts them on the plate: one alone in the middle, several in rows around
+/// it, or, where rows do not fit (a round or a concave plate), in the cells of a grid that do. What fits nowhere is
+/// placed in rows nevertheless: check_fits and the audit find it. Throws: Error::Kind::usage for copies of kept
+/// positions; Error::Kind::audit when the rows leave the lattice. Law: deterministic; turning by a multiple of 90° is
+/// exact, by another angle rounds each vertex to a micron. Cost: linear in the models, and (copies × columns of the
+/// plate) for the rows.
+std::vector<PlacedModel> place(std::span<const Loaded> models, const PlacementOptions& options, const Plate& plate);
+
+/// Throws Error::Kind::audit for the first model of which a copy reaches beyond the plate by more than `tolerance`,
+/// with the size that it has and the size that is there. Exact also for a concave plate: the triangles are looked at.
+void check_fits(std::span<const PlacedModel> models, const Plate& plate, Um tolerance);
+
+/// The mesh turned about the z axis through `about`. Post: welded, no triangle has a corner twice.
+Mesh rotated(Mesh mesh, double degrees, Point about);
+
+/// The mesh moved. Pre: it stays on the lattice.
+Mesh moved(Mesh mesh, Point3 by);
+
+}  // namespace weft::mesh
