@@ -183,9 +183,15 @@ std::string Writer::tail() const {
 
 std::string write(const Job& job) {
   const Writer writer(job);
-  std::string out = writer.head();
-  for (std::size_t i = 0; i < job.plan.layers.size(); ++i) out += writer.layer(i);
-  return out + writer.tail();
+  std::vector<std::string> pieces{writer.head()};
+  for (std::size_t i = 0; i < job.plan.layers.size(); ++i) pieces.push_back(writer.layer(i));
+  pieces.push_back(writer.tail());
+  std::size_t size = 0;
+  for (const auto& piece : pieces) size += piece.size();
+  std::string out;
+  out.reserve(size);
+  for (const auto& piece : pieces) out += piece;
+  return out;
 }
 
 }  // namespace weft::gcode

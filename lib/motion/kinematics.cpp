@@ -30,13 +30,31 @@ double extruder_s(double mm, double speed_mm_s, const MachineSettings& machine) 
   return mm * a >= v * v ? mm / v + v / a : 2 * std::sqrt(mm / a);
 }
 
+bool uses_jerk(const MachineSettings& machine) {
+  return machine.firmware != Firmware::klipper && !machine.machine_junction_deviation;
+}
+
+/// Square of the speed that a move may begin or end at beside a pause: what jerk allows at once, else rest.
+double rest_speed2(const MachineSettings& machine, const Move& m) {
+  if (!uses_jerk(machine) || m.length_mm == 0) return 0;
+  const double v = smaller_per_axis(m, machine.machine_max_jerk, machine.machine_max_jerk, z_jerk_mm_s);
+  return v * v;
+}
+
+/// By how much an axis' speed jumps in a corner, per unit of speed; where it reverses, Marlin counts the larger part
+/// only.
+double jump(double in, double out) {
+  return in * out < 0 ? std::max(std::abs(in), std::abs(out)) : std::abs(in - out);
+}
+
 /// Square of the speed that a corner may be taken at, (mm/s)², by the machine's rule; before the moves' own speeds.
 double corner_speed2(const MachineSettings& machine, const Move& in, const Move& out) {
-  if (in.length_mm == 0 || out.length_mm == 0) return 0;
-  if (machine.firmware != Firmware::klipper && !machine.machine_junction_deviation) {
+  if (in.length_mm == 0) return rest_speed2(machine, out);
+  if (out.length_mm == 0) return rest_speed2(machine, in);
+  if (uses_jerk(machine)) {
+    const double jerk = machine.machine_max_jerk;
     const double across =
-        std::max({std::abs(in.ux - out.ux) / machine.machine_max_jerk,
-                  std::abs(in.uy - out.uy) / machine.machine_max_jerk, std::abs(in.uz - out.uz) / z_jerk_mm_s});
+        std::max({jump(in.ux, out.ux) / jerk, jump(in.uy, out.uy) / jerk, jump(in.uz, out.uz) / z_jerk_mm_s});
     return across > 0 ? 1 / (across * across) : 1e12;
   }
   const double cos_theta = -(in.ux * out.ux + in.uy * out.uy + in.uz * out.uz);  // of the angle between the two legs
@@ -147,17 +165,21 @@ void seconds_of(const MachineSettings& machine, const std::vector<Move>& moves, 
                 std::vector<double>& seconds) {
   const std::size_t n = moves.size();
   seconds.assign(n, 0);
-  std::vector<double> speed(n), entry2(n + 1, 0.0);  // entry2[n]: at rest in the end
+  std::vector<double> speed(n), entry2(n + 1, 0.0);  // entry2[i]: between moves i − 1 and i
   for (std::size_t i = 0; i < n; ++i)
     speed[i] = moves[i].prints ? slowdown.of(moves[i].speed_mm_s) : moves[i].speed_mm_s;
-  for (std::size_t i = 1; i < n; ++i) {
-    const double v = std::min(speed[i - 1], speed[i]);
-    entry2[i] = std::min(v * v, corner_speed2(machine, moves[i - 1], moves[i]));
+  const Move rest;
+  for (std::size_t i = 0; i <= n && n > 0; ++i) {
+    const Move &in = i > 0 ? moves[i - 1] : rest, &out = i < n ? moves[i] : rest;
+    const double v_in = in.length_mm > 0 ? speed[i - 1] : 1e9, v_out = out.length_mm > 0 ? speed[i] : 1e9;
+    const double v = std::min(v_in, v_out);
+    entry2[i] = std::min(v * v, corner_speed2(machine, in, out));
   }
-  for (std::size_t i = n; i-- > 0;)
-    entry2[i] = std::min(entry2[i], entry2[i + 1] + 2 * moves[i].acceleration_mm_s2 * moves[i].length_mm);
-  for (std::size_t i = 0; i < n; ++i)
-    entry2[i + 1] = std::min(entry2[i + 1], entry2[i] + 2 * moves[i].acceleration_mm_s2 * moves[i].length_mm);
+  const auto gain2 = [&](std::size_t i) {  // what acceleration adds to the square of the speed along move i
+    return moves[i].length_mm > 0 ? 2 * moves[i].acceleration_mm_s2 * moves[i].length_mm : 1e18;
+  };
+  for (std::size_t i = n; i-- > 0;) entry2[i] = std::min(entry2[i], entry2[i + 1] + gain2(i));
+  for (std::size_t i = 0; i < n; ++i) entry2[i + 1] = std::min(entry2[i + 1], entry2[i] + gain2(i));
   const bool klipper = machine.firmware == Firmware::klipper;
   for (std::size_t i = 0; i < n; ++i) {
     const auto& m = moves[i];

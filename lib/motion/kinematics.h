@@ -29,10 +29,11 @@ struct Slowdown {
 };
 
 /// Seconds that each move takes, from rest to rest, with look-ahead over all of them: trapezoids whose speed in a
-/// corner is bounded by jerk per axis (Marlin, RepRapFirmware), by junction deviation where machine_junction_deviation
-/// is set, or by Klipper's square corner velocity (machine_max_jerk) and minimum cruise ratio. Source: Marlin
-/// planner.cpp; Klipper docs/Kinematics.md ("Look-ahead", "Junction speed"); S. Jeon 2011, junction deviation. Cost:
-/// O(moves).
+/// corner is bounded by jerk per axis (Marlin, RepRapFirmware: moves also begin and end at what jerk allows), by
+/// junction deviation where machine_junction_deviation is set, or by Klipper's square corner velocity
+/// (machine_max_jerk) and minimum cruise ratio (of each move on its own, which is near Klipper's smoothed look-ahead).
+/// Source: Marlin planner.cpp; Klipper docs/Kinematics.md ("Look-ahead", "Junction speed"); S. Jeon 2011, junction
+/// deviation. Cost: O(moves).
 void seconds_of(const MachineSettings& machine, const std::vector<Move>& moves, const Slowdown& slowdown,
                 std::vector<double>& seconds);
 
