@@ -34,6 +34,14 @@ std::vector<Sample> samples_of(const Beads& beads, const std::vector<std::uint32
   return samples;
 }
 
+/// A single wall of each inset: they lie in each other.
+bool one_contour(const Beads& beads, const std::vector<std::uint32_t>& walls) {
+  for (std::size_t i = 0; i < walls.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (beads[walls[i]].inset == beads[walls[k]].inset) return false;
+  return true;
+}
+
 }  // namespace
 
 std::vector<Block> blocks_of(const LayerInput& input) {
@@ -65,6 +73,10 @@ std::vector<Block> blocks_of(const LayerInput& input) {
 
 std::vector<Touch> touching_walls(const Beads& beads, const std::vector<std::uint32_t>& walls) {
   std::vector<Touch> touches;
+  if (one_contour(beads, walls)) {
+    for (std::uint32_t w = 1; w < walls.size(); ++w) touches.push_back({w - 1, w});
+    return touches;
+  }
   const auto samples = samples_of(beads, walls);
   if (samples.empty()) return touches;
   Box box;
