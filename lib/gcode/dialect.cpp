@@ -21,6 +21,15 @@ std::string cut(std::string text, std::size_t most) {
   return text;
 }
 
+/// Firmware needs to know about where an object is: at most some 60 corners of its outline.
+Ring thinned(const Ring& ring) {
+  constexpr std::size_t most = 60;
+  const std::size_t every = (ring.size() + most - 1) / most;
+  Ring out;
+  for (std::size_t i = 0; i < ring.size(); i += every) out.push_back(ring[i]);
+  return out;
+}
+
 std::string one_word(const std::string& name) {
   std::string out = name.empty() ? "object" : name;
   for (char& c : out) {
@@ -61,10 +70,11 @@ void Dialect::define_objects(Text& out, const std::vector<ObjectLabel>& objects,
         out << "EXCLUDE_OBJECT_DEFINE NAME=" << names[i] << " CENTER=";
         point(out, objects[i].centre);
         out << " POLYGON=[";
-        for (std::size_t k = 0; k < objects[i].outline.size(); ++k) {
-          out << (k == 0 ? "[" : ",[");
-          point(out, objects[i].outline[k]);
+        for (const char* before = "["; const Point p : thinned(objects[i].outline)) {
+          out << before;
+          point(out, p);
           out << ']';
+          before = ",[";
         }
         out << "]\n";
         break;

@@ -194,4 +194,11 @@ std::string write(const Job& job) {
   return out;
 }
 
+void check_custom_code(const Settings& settings) {
+  PrintPlan one_layer;
+  one_layer.layers.resize(1);
+  const Statistics nothing;
+  Writer({settings, one_layer, nothing, {}, {}});
+}
+
 }  // namespace weft::gcode

@@ -62,6 +62,10 @@ class Writer {
 /// The whole file.
 std::string write(const Job& job);
 
+/// Expands all custom G-code for an empty print: what is wrong with it is known before the first model is read.
+/// @throws Error{settings} as Writer does
+void check_custom_code(const Settings& settings);
+
 /// The header line that the audit replaces by its verdict.
 inline constexpr std::string_view audit_pending = "; weft_audit = pending\n";
 

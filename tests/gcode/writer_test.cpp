@@ -334,6 +334,16 @@ TEST_CASE("gcode: custom G-code is expanded for each layer, around the move to i
   CHECK_THAT(sample.message(), Contains("layer_gcode:1:6: unknown placeholder 'layer_nun'"));
 }
 
+TEST_CASE("gcode: custom G-code can be checked before there is anything to print") {
+  Settings s;
+  CHECK_NOTHROW(check_custom_code(s));
+  s.gcode.layer_gcode = "; {layer_z} of {max_layer_z}";
+  CHECK_NOTHROW(check_custom_code(s));
+  s.gcode.machine_end_gcode = "[nozle_diameter]";
+  CHECK_THROWS_WITH(check_custom_code(s),
+                    Contains("machine_end_gcode:1:1") && Contains("did you mean 'nozzle_diameter'?"));
+}
+
 TEST_CASE("gcode: print variables come from the plan") {
   Sample sample;
   sample.settings.gcode.machine_start_gcode =
