@@ -127,7 +127,7 @@ Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, cons
     kinds.solid = inside;
   } else {
     const Mask wanted = solid_cells(window, object.layers, index, reach);
-    kinds.solid = wanted.opened(cells(0.15 * line, grid));
+    kinds.solid = wanted.opened(cells(0.3 * line, grid));
     if (seen_above.any() || air_below.any()) kinds.solid |= (seen_above | air_below).grown(cells(line, grid)) & inside;
     Mask sparse = inside - kinds.solid;
     if (kinds.solid.any()) sparse = sparse.opened(cells(0.75 * line, grid)) & sparse;

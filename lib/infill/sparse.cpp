@@ -1,6 +1,9 @@
 #include "infill/sparse.h"
 
 #include "geometry/offset.h"
+#include "geometry/simplify.h"
+#include "geometry/spatial_index.h"
+#include "infill/gyroid.h"
 #include "infill/scan.h"
 
 #include <algorithm>
@@ -33,10 +36,27 @@ double norm(Place a) {
   return std::hypot(a.x, a.y);
 }
 
-/// A straight piece of the pattern between two edges of the region; its ends are `2i` and `2i + 1`.
+/// A piece of the pattern between two edges of the region; its ends are `2i` and `2i + 1`.
 struct Line {
-  Place from, to;
+  std::vector<Place> places;
+  double length = 0;
 };
+
+double length_of(const std::vector<Place>& places) {
+  double way = 0;
+  for (std::size_t i = 1; i < places.size(); ++i) way += norm(places[i] - places[i - 1]);
+  return way;
+}
+
+/// Shortens a way at its end, or prolongs it when `by` is negative. Pre: by < its length.
+void shorten(std::vector<Place>& places, double by) {
+  while (places.size() > 2 && norm(places.back() - places[places.size() - 2]) <= by) {
+    by -= norm(places.back() - places[places.size() - 2]);
+    places.pop_back();
+  }
+  const Place before = places[places.size() - 2], end = places.back();
+  places.back() = end + (by / std::max(norm(before - end), 1e-9)) * (before - end);
+}
 
 /// An end of a line on the region's edge.
 struct End {
@@ -66,7 +86,7 @@ class Web {
     for (const Interval& i : turned.cut(lines)) {
       const double y = lines.y(i.line);
       const Turned a = turn(i.from, y, angle_rad), b = turn(i.to, y, angle_rad);
-      lines_.push_back({{a.x, a.y}, {b.x, b.y}});
+      lines_.push_back({{{a.x, a.y}, {b.x, b.y}}, i.to - i.from});
       for (const std::uint32_t edge : {i.from_edge, i.to_edge}) {
         const Turned p = turned.points()[edge], q = turned.points()[turned.next(edge)];
         ends_.push_back({edge, (y - p.y) / (q.y - p.y), std::abs(q.y - p.y) / std::hypot(q.x - p.x, q.y - p.y)});
@@ -74,7 +94,35 @@ class Web {
     }
   }
 
-  void emit(double spacing, Beads& beads) {
+  /// Cuts curves with the region. Pre: they begin and end outside of it.
+  void add_curves(const Region& region, const std::vector<Polyline>& curves) {
+    const geometry::SegmentIndex edges(Regions{region});
+    std::vector<geometry::SegmentIndex::Crossing> met;
+    for (const Polyline& curve : curves) {
+      std::vector<Place> piece;
+      for (std::size_t i = 1; i < curve.size(); ++i) {
+        const Point a = curve[i - 1], b = curve[i];
+        met.clear();
+        edges.crossings(a, b, met);
+        for (const auto& m : met) {
+          const Place p = relative(a) + m.along * (relative(b) - relative(a));
+          if (m.enters)
+            piece.assign(1, p), ends_.push_back(end_of(edges, m, a, b));
+          else if (!piece.empty()) {
+            piece.push_back(p), ends_.push_back(end_of(edges, m, a, b));
+            const double way = infill::length_of(piece);
+            lines_.push_back({std::move(piece), way});
+            piece.clear();
+          }
+        }
+        if (!piece.empty()) piece.push_back(relative(b));
+      }
+      if (!piece.empty()) ends_.pop_back();  // never left: an outline that is not closed
+    }
+  }
+
+  void emit(double spacing, Um band, Beads& beads) {
+    band_ = band;
     joint_.assign(ends_.size(), nobody);
     set_.resize(lines_.size());
     for (std::uint32_t i = 0; i < set_.size(); ++i) set_[i] = i;
@@ -91,12 +139,33 @@ class Web {
     return {x * c - y * s, x * s + y * c};
   }
   Place place(std::uint32_t i) const { return {outline_.points()[i].x, outline_.points()[i].y}; }
-  Place at(std::uint32_t end) const { return end % 2 == 0 ? lines_[end / 2].from : lines_[end / 2].to; }
-  double length(std::uint32_t line) const { return norm(lines_[line].to - lines_[line].from); }
-  /// Where the line ends after it was shortened (or prolonged).
+  Place relative(Point p) const {
+    return {static_cast<double>(p.x) - style_.origin.x, static_cast<double>(p.y) - style_.origin.y};
+  }
+  double length(std::uint32_t line) const { return lines_[line].length; }
+  static End end_of(const geometry::SegmentIndex& edges, const geometry::SegmentIndex::Crossing& met, Point a,
+                    Point b) {
+    const geometry::Segment& s = edges.segments()[met.segment];
+    const double ex = s.b.x - s.a.x, ey = s.b.y - s.a.y, dx = b.x - a.x, dy = b.y - a.y;
+    const double px = a.x + met.along * dx - s.a.x, py = a.y + met.along * dy - s.a.y, l2 = ex * ex + ey * ey;
+    return {static_cast<std::uint32_t>(met.segment), std::clamp((px * ex + py * ey) / l2, 0.0, 1.0),
+            std::abs(ex * dy - ey * dx) / std::sqrt(l2 * (dx * dx + dy * dy))};
+  }
+  /// The line, walked from that end, as it is after both ends were shortened or prolonged.
+  std::vector<Place> walked_from(std::uint32_t end) const {
+    std::vector<Place> places = lines_[end / 2].places;
+    shorten(places, pull_[end | 1U]);
+    std::reverse(places.begin(), places.end());
+    shorten(places, pull_[end & ~1U]);
+    if (end % 2 == 0) std::reverse(places.begin(), places.end());
+    return places;
+  }
+  /// Where the line ends after it was shortened.
   Place pulled(std::uint32_t end) const {
-    const Place here = at(end), other = at(end ^ 1U);
-    return here + (pull_[end] / std::max(norm(other - here), 1e-9)) * (other - here);
+    std::vector<Place> places = lines_[end / 2].places;
+    if (end % 2 == 0) std::reverse(places.begin(), places.end());
+    shorten(places, pull_[end]);
+    return places.back();
   }
   std::uint32_t set_of(std::uint32_t line) {
     while (set_[line] != line) line = set_[line] = set_[set_[line]];
@@ -126,7 +195,7 @@ class Web {
   void try_join(std::uint32_t a, std::uint32_t b, double spacing) {
     if (a == b || set_of(a / 2) == set_of(b / 2)) return;
     if (ends_[a].sine < shallowest || ends_[b].sine < shallowest) return;
-    const double inset = style_.band / 2.0 - style_.overlap_um;
+    const double inset = band_ / 2.0 - style_.overlap_um;
     const auto room = [&](std::uint32_t e) {
       return inset / ends_[e].sine + std::max(pull_[e ^ 1U], 0.0) < length(e / 2);
     };
@@ -161,7 +230,8 @@ class Web {
       const Place step = p - last, forward = {n.y, -n.x};
       if (step.x * forward.x + step.y * forward.y > 0) {  // else the edge is shorter than the inset eats up
         way += norm(step);
-        arc.push_back(p);
+        // steps of the grid that areas were found on need not be followed
+        if (arc.empty() || norm(p - arc.back()) > band_ / 2.0) arc.push_back(p);
         last = p;
       }
       if (way > longest) return std::nullopt;
@@ -184,7 +254,8 @@ class Web {
       std::vector<Place> path;
       for (std::uint32_t e = start;;) {
         done[e / 2] = true;
-        path.push_back(pulled(e)), path.push_back(pulled(e ^ 1U));
+        const std::vector<Place> line = walked_from(e);
+        path.insert(path.end(), line.begin(), line.end());
         const std::uint32_t a = e ^ 1U, b = joint_[a];
         if (b == nobody) break;
         if (arc[a] != nullptr)
@@ -193,14 +264,13 @@ class Web {
           path.insert(path.end(), arc[b]->rbegin(), arc[b]->rend());
         e = b;
       }
-      double way = 0;
-      for (std::size_t i = 1; i < path.size(); ++i) way += norm(path[i] - path[i - 1]);
+      const double way = infill::length_of(path);
       if (way < style_.band) continue;  // a blob
       laid += way;
       paths.push_back(std::move(path));
     }
     if (laid <= 0) return;
-    const Um width = std::max(1, rounded(style_.band * std::clamp(raw / laid, least_narrowing, 1.0)));
+    const Um width = std::max(1, rounded(band_ * std::clamp(raw / laid, least_narrowing, 1.0)));
     for (const std::vector<Place>& path : paths) {
       Bead bead;
       bead.role = Role::infill, bead.part = style_.part;
@@ -218,6 +288,7 @@ class Web {
   std::vector<Line> lines_;
   std::vector<End> ends_;
   std::vector<std::uint32_t> joint_, set_;
+  Um band_ = 0;
   std::vector<double> pull_;  // how far each end is drawn back along its line
   std::vector<std::pair<std::uint32_t, std::vector<Place>>> arc_from_;
 };
@@ -248,24 +319,49 @@ void fill_concentric(const Region& region, const SparseStyle& style, Beads& bead
   }
 }
 
+/// Follows the pattern's direction; its curves cross the whole region.
+void fill_gyroid(const Region& region, const SparseStyle& style, Beads& beads) {
+  const double period = gyroid_period(style.band, style.density);
+  const Frame frame(style.angle_rad, style.origin);
+  Span2 area{{1e300, 1e300}, {-1e300, -1e300}};
+  for (const Point p : region.outer) {
+    const Turned t = frame.into(p);
+    area.min = {std::min(area.min.x, t.x), std::min(area.min.y, t.y)};
+    area.max = {std::max(area.max.x, t.x), std::max(area.max.y, t.y)};
+  }
+  constexpr Um chord = 10;  // how far a simplified curve may stand off
+  std::vector<Polyline> curves;
+  for (const std::vector<Turned>& curve : gyroid_curves(area, period, style.z)) {
+    Polyline line;
+    line.reserve(curve.size());
+    for (const Turned t : curve) line.push_back(frame.back(t));
+    curves.push_back(geometry::simplified_line(line, chord));
+  }
+  Web web(region, style);
+  web.add_curves(region, curves);
+  // at heights where the curves are long they are thin, so that each layer has the density
+  web.emit(period / 2, std::max(1, rounded(style.band / gyroid_length_ratio(period, style.z))), beads);
+}
+
 }  // namespace
 
 void fill_sparse(const Region& region, const SparseStyle& style, Beads& beads) {
   if (style.band <= 0 || style.density <= 0 || region.outer.size() < 3) return;
   if (style.pattern == InfillPattern::concentric) return fill_concentric(region, style, beads);
+  if (style.pattern == InfillPattern::gyroid) return fill_gyroid(region, style, beads);
   const double apart = style.band / style.density;  // of lines in one direction only
   Web web(region, style);
   switch (style.pattern) {
     case InfillPattern::grid:
       for (const double turn : {0.0, 0.5}) web.add_lines(region, style.angle_rad + turn * std::numbers::pi, 2 * apart);
-      return web.emit(2 * apart, beads);
+      return web.emit(2 * apart, style.band, beads);
     case InfillPattern::triangles:
       for (const double turn : {0.0, 1.0 / 3, 2.0 / 3})
         web.add_lines(region, style.angle_rad + turn * std::numbers::pi, 3 * apart);
-      return web.emit(3 * apart, beads);
+      return web.emit(3 * apart, style.band, beads);
     default:
       web.add_lines(region, style.angle_rad + (style.turned_layer ? std::numbers::pi / 2 : 0), apart);
-      return web.emit(apart, beads);
+      return web.emit(apart, style.band, beads);
   }
 }
 
