@@ -14,11 +14,14 @@ namespace {
 using namespace weft::literals;
 
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
-constexpr double short_lines = 1.5;      // lines shorter than this many bands cannot turn: their strip gets one bead
-constexpr double longest_turn = 4;       // bands; edges shallower than asin(1/4) are not turned along
-constexpr double most_lean = 4;          // bands that a narrow strip may lean from line to line and still be one strip
-constexpr double deepest_bump = 0.25;    // bands that the edge may stand into a turn
-constexpr double shortest_bead_um = 50;  // less than that is a blob
+constexpr double short_lines = 1.5;       // bands; shorter lines cannot turn
+constexpr double widest_strip = 2.4;      // bands across; wider strips are filled line by line
+constexpr double widest_strand = 1.6;     // bands, of a bead along a strip
+constexpr double narrowest_strand = 0.6;  // bands, of one of two
+constexpr double longest_turn = 4;        // bands; edges shallower than asin(1/4) are not turned along
+constexpr double most_lean = 4;           // bands that a narrow strip may lean from line to line and still be one strip
+constexpr double deepest_bump = 0.25;     // bands that the edge may stand into a turn
+constexpr double shortest_bead_um = 50;   // less than that is a blob
 
 /// Lines of a region in chains: intervals that lie over each other with no fork between them.
 struct Chains {
@@ -108,7 +111,6 @@ class Filler {
  private:
   double length(std::uint32_t i) const { return all_[i].to - all_[i].from; }
   double y(std::uint32_t i) const { return lines_.y(all_[i].line); }
-  bool is_short(std::uint32_t i) const { return length(i) < short_lines * lines_.spacing; }
 
   /// How far a line is prolonged along itself to reach `overlap` beyond its edge.
   double over(std::uint32_t edge) const {
@@ -132,21 +134,44 @@ class Filler {
     return best;
   }
 
+  /// Strips of up to two lines' width are filled along, the rest line by line.
   void emit(const std::vector<std::uint32_t>& chain) {
+    const std::span<const std::uint32_t> all(chain);
+    std::size_t lines_from = 0;
     for (std::size_t i = 0; i < chain.size();) {
-      std::size_t j = i;
-      while (j < chain.size() && is_short(chain[j])) ++j;
-      if (j - i >= 2)
-        emit_spine({chain.begin() + static_cast<std::ptrdiff_t>(i), chain.begin() + static_cast<std::ptrdiff_t>(j)});
-      else
-        j = i;
-      // lines up to the next strip of short ones
-      std::size_t k = j;
-      while (k < chain.size() && !(is_short(chain[k]) && k + 1 < chain.size() && is_short(chain[k + 1]))) ++k;
-      if (k > j)
-        emit_lines({chain.begin() + static_cast<std::ptrdiff_t>(j), chain.begin() + static_cast<std::ptrdiff_t>(k)});
-      i = k;
+      const auto [count, strands] = strip_at(all, i);
+      if (count == 0) {
+        ++i;
+        continue;
+      }
+      if (i > lines_from) emit_lines(all.subspan(lines_from, i - lines_from));
+      emit_strip(all.subspan(i, count), strands);
+      i += count, lines_from = i;
     }
+    if (lines_from < chain.size()) emit_lines(all.subspan(lines_from));
+  }
+
+  /// Width of the strip that a chain runs along, across its middle line.
+  double across(std::span<const std::uint32_t> chain, std::size_t i) const {
+    const Turned a = middle(chain[i == 0 ? 0 : i - 1]), b = middle(chain[std::min(i + 1, chain.size() - 1)]);
+    const double way = std::hypot(b.x - a.x, b.y - a.y);
+    return way > 0 ? length(chain[i]) * (b.y - a.y) / way : length(chain[i]);
+  }
+
+  /// How many lines from i on cross a strip of that many strands; none when the place is not a strip.
+  std::pair<std::size_t, int> strip_at(std::span<const std::uint32_t> chain, std::size_t i) const {
+    const double lines = across(chain, i) / lines_.spacing;
+    if (lines > widest_strip) return {0, 0};
+    const int strands = lines < 1.5 ? 1 : 2;
+    bool turns = false;  // one of the lines is long enough to turn at
+    std::size_t end = i;
+    for (; end < chain.size(); ++end) {
+      const double width = across(chain, end) / lines_.spacing / strands;
+      if (width > widest_strand || (strands > 1 && width < narrowest_strand)) break;
+      turns |= length(chain[end]) >= short_lines * lines_.spacing;
+    }
+    const std::size_t least = turns ? 4 : 2;
+    return end - i < least ? std::pair<std::size_t, int>{0, 0} : std::pair{end - i, strands};
   }
 
   /// There and back: each line a bead, or joined with the last one by a turn.
@@ -204,24 +229,30 @@ class Filler {
     return bump && *bump <= deepest_bump * lines_.spacing ? length : 0;
   }
 
-  /// One bead along the middle of a strip, as wide as the strip is across.
-  void emit_spine(std::span<const std::uint32_t> strip) {
-    std::vector<Turned> path;
-    std::vector<Um> widths;
-    const auto middle = [&](std::uint32_t i) { return Turned{(all_[i].from + all_[i].to) / 2, y(i)}; };
-    // the strip reaches half a line beyond its first and its last line
-    const Turned first = middle(strip[0]), second = middle(strip[1]);
-    const Turned last = middle(strip.back()), before = middle(strip[strip.size() - 2]);
-    path.push_back({first.x - (second.x - first.x) / 2, first.y - lines_.spacing / 2});
-    for (const std::uint32_t i : strip) path.push_back(middle(i));
-    path.push_back({last.x + (last.x - before.x) / 2, last.y + lines_.spacing / 2});
-    for (std::size_t i = 0; i < path.size(); ++i) {
-      const Turned a = path[i == 0 ? 0 : i - 1], b = path[std::min(i + 1, path.size() - 1)];
-      const double across = (b.y - a.y) / std::hypot(b.x - a.x, b.y - a.y);
-      const std::uint32_t line = strip[std::clamp<std::size_t>(i, 1, strip.size()) - 1];
-      widths.push_back(std::max(1, rounded(length(line) * across)));
+  Turned middle(std::uint32_t i) const { return {(all_[i].from + all_[i].to) / 2, y(i)}; }
+
+  /// Beads along a strip, side by side, together as wide as the strip is across.
+  void emit_strip(std::span<const std::uint32_t> strip, int strands) {
+    const Role role = strands == 1 ? Role::gap_fill : style_.role;
+    for (int k = 0; k < strands; ++k) {
+      const double share = (k + 0.5) / strands;
+      const auto at = [&](std::uint32_t i) { return Turned{all_[i].from + share * length(i), y(i)}; };
+      std::vector<Turned> path;
+      std::vector<Um> widths;
+      // the strip reaches half a line beyond its first and its last line
+      const Turned first = at(strip[0]), second = at(strip[1]), last = at(strip.back()),
+                   before = at(strip[strip.size() - 2]);
+      path.push_back({first.x - (second.x - first.x) / 2, first.y - lines_.spacing / 2});
+      for (const std::uint32_t i : strip) path.push_back(at(i));
+      path.push_back({last.x + (last.x - before.x) / 2, last.y + lines_.spacing / 2});
+      for (std::size_t i = 0; i < path.size(); ++i)
+        widths.push_back(
+            std::max(1, rounded(across(strip, std::clamp<std::size_t>(i, 1, strip.size()) - 1) / strands)));
+      const bool turned = started_ && std::hypot(path.back().x - at_.x, path.back().y - at_.y) <
+                                          std::hypot(path.front().x - at_.x, path.front().y - at_.y);
+      if (turned) std::reverse(path.begin(), path.end()), std::reverse(widths.begin(), widths.end());
+      add(path, role, widths);
     }
-    add(path, Role::gap_fill, widths);
   }
 
   void add(const std::vector<Turned>& path, Role role, const std::vector<Um>& widths) {

@@ -16,8 +16,8 @@ namespace weft::infill {
 namespace {
 
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
-constexpr double least_narrowing = 0.7;  // of the band, for the joints' sake
-constexpr double shallowest = 0.3;       // sine of the angle between line and edge below which they are not joined
+constexpr double least_narrowing = 0.75;  // of the band, for the joints' sake
+constexpr double shallowest = 0.3;        // sine of the angle between line and edge below which they are not joined
 
 /// A place in the layer, fractional microns.
 struct Place {
@@ -123,14 +123,18 @@ class Web {
 
   void emit(double spacing, Um band, Beads& beads) {
     band_ = band;
-    joint_.assign(ends_.size(), nobody);
-    set_.resize(lines_.size());
-    for (std::uint32_t i = 0; i < set_.size(); ++i) set_[i] = i;
-    pull_.assign(ends_.size(), 0.0);
-    for (std::uint32_t e = 0; e < ends_.size(); ++e)
-      pull_[e] = -style_.overlap_um / std::max(ends_[e].sine, shallowest);
-    if (style_.connect) join(spacing);
-    write(beads);
+    double raw = 0;
+    for (const Line& line : lines_) raw += line.length;
+    // joints that make up much of a small area's plastic are not worth it: shorter ones, or none
+    for (const double longest : {1.5 * spacing, 0.75 * spacing, 0.4 * spacing, 0.0}) {
+      join(style_.connect ? longest : 0.0);
+      const std::vector<std::vector<Place>> paths = joined_paths();
+      double laid = 0;
+      for (const std::vector<Place>& path : paths) laid += infill::length_of(path);
+      if (laid <= 0) return;
+      if (style_.connect && longest > 0 && raw < least_narrowing * laid) continue;
+      return write(paths, std::max(1, rounded(band * std::clamp(raw / laid, least_narrowing, 1.0))), beads);
+    }
   }
 
  private:
@@ -173,7 +177,15 @@ class Web {
   }
 
   /// Joins ends that are neighbours along an edge, going around each ring once. Paths never close.
-  void join(double spacing) {
+  void join(double longest) {
+    joint_.assign(ends_.size(), nobody);
+    arc_from_.clear();
+    set_.resize(lines_.size());
+    for (std::uint32_t i = 0; i < set_.size(); ++i) set_[i] = i;
+    pull_.resize(ends_.size());
+    for (std::uint32_t e = 0; e < ends_.size(); ++e)
+      pull_[e] = -style_.overlap_um / std::max(ends_[e].sine, shallowest);
+    if (longest <= 0) return;
     std::vector<std::uint32_t> order(ends_.size());
     for (std::uint32_t e = 0; e < order.size(); ++e) order[e] = e;
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -186,13 +198,13 @@ class Web {
       while (last < order.size() && outline_.ring_of(ends_[order[last]].edge) == ring) ++last;
       for (std::size_t k = i; k < last; ++k) {
         const std::uint32_t a = order[k], b = order[k + 1 < last ? k + 1 : i];
-        if (joint_[a] == nobody && joint_[b] == nobody) try_join(a, b, spacing);
+        if (joint_[a] == nobody && joint_[b] == nobody) try_join(a, b, longest);
       }
       i = last;
     }
   }
 
-  void try_join(std::uint32_t a, std::uint32_t b, double spacing) {
+  void try_join(std::uint32_t a, std::uint32_t b, double longest) {
     if (a == b || set_of(a / 2) == set_of(b / 2)) return;
     if (ends_[a].sine < shallowest || ends_[b].sine < shallowest) return;
     const double inset = band_ / 2.0 - style_.overlap_um;
@@ -202,7 +214,7 @@ class Web {
     if (!room(a) || !room(b)) return;
     const double before_a = pull_[a], before_b = pull_[b];
     pull_[a] = inset / ends_[a].sine, pull_[b] = inset / ends_[b].sine;
-    std::optional<std::vector<Place>> arc = arc_between(a, b, inset, 1.5 * spacing);
+    std::optional<std::vector<Place>> arc = arc_between(a, b, inset, longest);
     if (!arc) {
       pull_[a] = before_a, pull_[b] = before_b;
       return;
@@ -242,13 +254,11 @@ class Web {
     return arc;
   }
 
-  void write(Beads& beads) {
+  std::vector<std::vector<Place>> joined_paths() const {
     std::vector<const std::vector<Place>*> arc(ends_.size(), nullptr);
     for (const auto& [end, places] : arc_from_) arc[end] = &places;
     std::vector<std::vector<Place>> paths;
     std::vector<bool> done(lines_.size(), false);
-    double raw = 0, laid = 0;
-    for (std::uint32_t l = 0; l < lines_.size(); ++l) raw += length(l);
     for (std::uint32_t start = 0; start < ends_.size(); ++start) {
       if (joint_[start] != nobody || done[start / 2]) continue;
       std::vector<Place> path;
@@ -264,16 +274,16 @@ class Web {
           path.insert(path.end(), arc[b]->rbegin(), arc[b]->rend());
         e = b;
       }
-      const double way = infill::length_of(path);
-      if (way < style_.band) continue;  // a blob
-      laid += way;
-      paths.push_back(std::move(path));
+      if (infill::length_of(path) >= style_.band) paths.push_back(std::move(path));  // shorter is a blob
     }
-    if (laid <= 0) return;
-    const Um width = std::max(1, rounded(band_ * std::clamp(raw / laid, least_narrowing, 1.0)));
+    return paths;
+  }
+
+  void write(const std::vector<std::vector<Place>>& paths, Um width, Beads& beads) const {
     for (const std::vector<Place>& path : paths) {
       Bead bead;
       bead.role = Role::infill, bead.part = style_.part;
+      bead.path.reserve(path.size());
       for (const Place& p : path) {
         const Junction j{{style_.origin.x + rounded(p.x), style_.origin.y + rounded(p.y)}, width, 1.F};
         if (bead.path.empty() || bead.path.back().at != j.at) bead.path.push_back(j);
