@@ -29,6 +29,12 @@ int run(Words words) {
   if (words[0] == "--version" || words[0] == "-V") return fmt::print("weft {}\n", version), 0;
   if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") return fmt::print("{}", overview()), 0;
   if (const auto* verb = find_verb(words[0])) return verb->run({words.begin() + 1, words.end()});
+  // Hands used to PrusaSlicer: `weft -g part.stl` is `weft slice part.stl`.
+  const auto is_export = [](const std::string& w) { return w == "-g" || w == "--export-gcode" || w == "--gcode"; };
+  if (std::any_of(words.begin(), words.end(), is_export)) {
+    std::erase_if(words, is_export);
+    return slice(words);
+  }
   throw Error{Error::Kind::usage, "is not a verb", fmt::format("'{}'", words[0]), "see weft --help"};
 }
 

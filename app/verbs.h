@@ -9,9 +9,11 @@ namespace weft::app {
 using Words = std::vector<std::string>;
 
 // A verb takes the words behind its name and returns the exit status; it throws Error for what the user can mend.
-int settings(const Words& words);
+int slice(const Words& words);
 int preview(const Words& words);
+int inspect(const Words& words);
 int profile(const Words& words);
+int settings(const Words& words);
 
 struct Verb {
   std::string_view name;
@@ -19,8 +21,9 @@ struct Verb {
   std::string_view usage, purpose;
 };
 inline constexpr std::array verbs{
-    
+    Verb{"slice", slice, "MODEL... -p PROFILE [-s KEY=VALUE]... -o OUT.gcode", "turn models into audited G-code"},
     Verb{"preview", preview, "FILE.gcode -o OUT.(html|svg|png)", "look at toolpaths"},
+    Verb{"inspect", inspect, "MODEL...", "mesh facts and what a repair would do"},
     Verb{"profile", profile, "check|show FILE...", "validate, print resolved"},
     Verb{"settings", settings, "[--format text|json|markdown] [KEY...]", "every setting: type, unit, default, range, meaning"},
 };

@@ -65,6 +65,7 @@ std::string_view type_name(Unit unit) {
   else if constexpr (std::is_same_v<T, LengthOrShare>) return "length or %";
   else if constexpr (std::is_same_v<T, SpeedOrShare>) return "speed or %";
   else if constexpr (std::is_same_v<T, Ring>) return "points";
+  else if constexpr (std::is_same_v<T, PictureSizes>) return "sizes";
   else return "polygons";
 }
 

@@ -22,6 +22,7 @@ struct GcodeSettings {
   ObjectLabels gcode_label_objects = ObjectLabels::firmware;
   bool gcode_progress = true;
   bool gcode_flow_comments = false;
+  PictureSizes thumbnails = {{32, 32}, {300, 300}};
 };
 
 inline constexpr std::tuple gcode_schema{
@@ -39,6 +40,7 @@ inline constexpr std::tuple gcode_schema{
             "Objects are named in the file: firmware (EXCLUDE_OBJECT for Klipper, M486 for others), comments, or none.", "gcode_label_objects"),
     setting("gcode_progress", &GcodeSettings::gcode_progress, "Progress and remaining time are written as M73."),
     setting("gcode_flow_comments", &GcodeSettings::gcode_flow_comments, "Moves of beads with flow compensation carry their ratio as a comment."),
+    setting("thumbnails", &GcodeSettings::thumbnails, "Sizes of the pictures of the plate in the head of the file, PNG; empty: none.", "thumbnails"),
 };
 static_assert(complete<GcodeSettings>(gcode_schema));
 

@@ -168,6 +168,25 @@ void parse(std::string_view text, Unit unit, std::vector<Ring>& out) {
   });
 }
 
+void parse(std::string_view text, Unit, PictureSizes& out) {
+  out.clear();
+  const auto whole = trimmed(text);
+  if (whole.empty()) return;
+  constexpr std::string_view what = "a list of picture sizes such as 32x32, 220x124 (1 … 4096 pixels)";
+  for_each_part(whole, ',', [&](std::string_view part) {
+    const auto x = part.find('x');
+    if (x == std::string_view::npos) refuse(whole, what);
+    const auto pixels = [&](std::string_view t) {
+      t = trimmed(t);
+      int n = 0;
+      const auto [end, error] = std::from_chars(t.data(), t.data() + t.size(), n);
+      if (error != std::errc{} || end != t.data() + t.size() || n < 1 || n > 4096) refuse(whole, what);
+      return n;
+    };
+    out.push_back({pixels(part.substr(0, x)), pixels(part.substr(x + 1))});
+  });
+}
+
 std::size_t parse_choice(std::string_view text, const std::vector<std::string_view>& names) {
   const auto t = trimmed(text);
   for (std::size_t i = 0; i < names.size(); ++i)
@@ -220,6 +239,12 @@ std::string print(const std::vector<Ring>& v, Unit unit) {
     if (!out.empty()) out += "; ";
     out += print(ring, unit);
   }
+  return out;
+}
+
+std::string print(const PictureSizes& v, Unit) {
+  std::string out;
+  for (const auto size : v) out += fmt::format("{}{}x{}", out.empty() ? "" : ", ", size.width, size.height);
   return out;
 }
 

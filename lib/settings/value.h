@@ -30,6 +30,13 @@ struct SpeedOrShare {
   friend bool operator==(const SpeedOrShare&, const SpeedOrShare&) = default;
 };
 
+/// Size of a picture, pixels: `220x124`.
+struct PictureSize {
+  int width = 0, height = 0;
+  friend bool operator==(PictureSize, PictureSize) = default;
+};
+using PictureSizes = std::vector<PictureSize>;
+
 /// One choice of an enumeration; the enumeration's `choices_of(E)` returns an array of them, row i for value i.
 template <class E>
 struct Choice {
@@ -47,6 +54,7 @@ void parse(std::string_view text, Unit unit, LengthOrShare& out);
 void parse(std::string_view text, Unit unit, SpeedOrShare& out);
 void parse(std::string_view text, Unit unit, Ring& out);                  ///< `0x0, 220x0, 220x220, 0x220`, mm
 void parse(std::string_view text, Unit unit, std::vector<Ring>& out);     ///< rings separated by `;`
+void parse(std::string_view text, Unit unit, PictureSizes& out);          ///< `32x32, 220x124`, 1 … 4096 pixels each way
 /// Index of the choice, without regard to case.
 std::size_t parse_choice(std::string_view text, const std::vector<std::string_view>& names);
 
@@ -58,6 +66,7 @@ std::string print(const LengthOrShare& v, Unit unit);
 std::string print(const SpeedOrShare& v, Unit unit);
 std::string print(const Ring& v, Unit unit);
 std::string print(const std::vector<Ring>& v, Unit unit);
+std::string print(const PictureSizes& v, Unit unit);
 
 /// A number as short as it can be, without locale: 0.45, 220, -1.5.
 std::string number(double v, int decimals = 6);

@@ -1,0 +1,142 @@
+#include <fmt/format.h>
+
+#include <atomic>
+#include <csignal>
+#include <cmath>
+#include <sstream>
+
+#include "command.h"
+#include "core/hash.h"
+#include "pipeline/pipeline.h"
+#include "pipeline/write_file.h"
+#include "verbs.h"
+
+namespace po = boost::program_options;
+
+namespace weft::app {
+namespace {
+
+po::options_description slice_options() {
+  po::options_description out("Options of weft slice");
+  out.add_options()
+    ("center", po::value<std::string>()->value_name("X,Y"), "put the centre of the models' bounding box there (default: centre of the bed)")
+    ("keep-position", po::bool_switch(), "keep the coordinates of the file")
+    ("scale", po::value<std::string>()->value_name("F"), "uniform scale: 2, 0.5, 25.4 or 50%")
+    ("rotate", po::value<double>()->value_name("DEG")->default_value(0.0, "0"), "rotation about Z, counter-clockwise")
+    ("copies", po::value<int>()->value_name("N")->default_value(1), "N copies, arranged on the bed")
+    ("spacing", po::value<double>()->value_name("MM")->default_value(6.0, "6"), "between copies, and between models")
+    ("duplicate", po::value<int>()->value_name("N"), "the same")
+    ("audit", po::value<std::string>()->value_name("reject|annotate")->default_value("reject"),
+     "what the boundary audit does with a move outside the build volume. It cannot be turned off")
+    ("preview", po::value<std::string>()->value_name("FILE"), "also write a preview (html, svg or png)");
+  return out;
+}
+
+double parse_scale(std::string text) {
+  const bool percent = !text.empty() && text.back() == '%';
+  if (percent) text.pop_back();
+  double factor = 0;
+  try {
+    value::parse(text, Unit::none, factor);
+  } catch (const std::invalid_argument&) {
+    factor = 0;
+  }
+  if (percent) factor /= 100;
+  if (!(factor >= 1e-6 && factor <= 1e6))
+    throw Error{Error::Kind::usage, fmt::format("'{}' is not a factor above 0", text), "--scale", "as in --scale 2 or --scale 50%"};
+  return factor;
+}
+
+Placement placement_of(const po::variables_map& o) {
+  Placement p;
+  if (o.count("center")) p.centre = parse_point(o["center"].as<std::string>(), "--center");
+  p.keep_position = o["keep-position"].as<bool>();
+  if (p.keep_position && p.centre) throw Error{Error::Kind::usage, "contradicts --center", "--keep-position", "give one of the two"};
+  if (o.count("scale")) p.scale = parse_scale(o["scale"].as<std::string>());
+  p.rotate_deg = o["rotate"].as<double>();
+  if (!(std::abs(p.rotate_deg) <= 36000)) throw Error{Error::Kind::usage, "must be an angle in degrees", "--rotate"};
+  p.copies = o.count("duplicate") ? o["duplicate"].as<int>() : o["copies"].as<int>();
+  if (p.copies < 1 || p.copies > 10000) throw Error{Error::Kind::usage, fmt::format("{} is outside 1 … 10000", p.copies), "--copies"};
+  const double spacing_mm = o["spacing"].as<double>();
+  if (!(spacing_mm >= 0 && spacing_mm <= 1000)) throw Error{Error::Kind::usage, "must be 0 … 1000 mm", "--spacing"};
+  p.spacing = from_mm(spacing_mm);
+  if (p.copies > 1 && p.keep_position) throw Error{Error::Kind::usage, "contradicts --copies", "--keep-position", "copies are arranged on the bed"};
+  return p;
+}
+
+Job job_of(const Command& command, const Settings& settings) {
+  Job job;
+  job.models = command.inputs;
+  job.settings = settings;
+  job.placement = placement_of(command.options);
+  job.threads = command.threads;
+  const auto mode = command.options["audit"].as<std::string>();
+  if (mode != "reject" && mode != "annotate")
+    throw Error{Error::Kind::usage, fmt::format("'{}' is not one of reject, annotate", mode), "--audit", "the audit cannot be turned off"};
+  job.audit = mode == "reject" ? audit::Mode::reject : audit::Mode::annotate;
+  return job;
+}
+
+std::atomic<bool> interrupted = false;
+extern "C" void note_interrupt(int) { interrupted = true; }
+
+std::string duration(double seconds) {
+  const auto s = static_cast<long long>(seconds + 0.5);
+  return s < 3600 ? fmt::format("{}m {}s", s / 60, s % 60) : fmt::format("{}h {}m", s / 3600, s / 60 % 60);
+}
+
+std::string summary(const Report& r) {
+  return fmt::format("{} layers, {:.2f} mm high, {} to print, {:.2f} m of filament ({:.1f} g); audit: {}, {} moves checked", r.layers, r.height_mm,
+                     duration(r.print_time_s), r.filament_mm / 1000, r.filament_g, r.audit.verdict, r.audit.checked_moves);
+}
+
+}  // namespace
+
+int slice(const Words& words) {
+  const auto options = slice_options();
+  const auto command = parse_command(words, options);
+  if (command.help) {
+    std::ostringstream out;
+    out << "weft slice MODEL... -p PROFILE [-s KEY=VALUE]... -o OUT.gcode\n\n" << options << "\n" << common_help();
+    return fmt::print("{}", out.str()), 0;
+  }
+  if (command.inputs.empty()) throw Error{Error::Kind::usage, "no model was given", "weft slice", "as in weft slice part.stl -p printer.ini -o part.gcode"};
+  if (!command.output) throw Error{Error::Kind::usage, "where should the G-code go?", "weft slice", "add -o OUT.gcode, or -o - for standard output"};
+  if (command.output == "-" && command.report == "-")
+    throw Error{Error::Kind::usage, "G-code and report cannot both go to standard output", "--report", "name a file for one of them"};
+
+  Console console(command.console);
+  std::signal(SIGINT, note_interrupt);
+  std::signal(SIGTERM, note_interrupt);
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of writing, told as one
+
+  Report report;
+  const auto finish = [&] {
+    report.peak_memory_mb = peak_memory_mb();
+    if (command.report) write_output(*command.report, to_json(report));
+  };
+  try {
+    const auto profile = resolve(command);
+    for (const auto& notice : profile.notices) console.warning(notice);
+    report.warnings = profile.notices;
+    Watch watch;
+    watch.progress = [&](std::string_view stage, double share) { console.progress(stage, share); };
+    watch.cancelled = [] { return interrupted.load(); };
+    const auto gcode = run(job_of(command, profile.settings), watch, report);
+    for (std::size_t i = profile.notices.size(); i < report.warnings.size(); ++i) console.warning(report.warnings[i]);
+    if (gcode) write_output(*command.output, gcode->gcode());
+    finish();
+    if (!gcode) throw Error{Error::Kind::audit, report.error, {}, {}};
+    console.info(summary(report));
+    return 0;
+  } catch (const Error& error) {
+    if (report.status != Report::Status::rejected) {
+      report.status = Report::Status::failed;
+      report.error = error.what();
+      finish();
+    }
+    throw;
+  }
+}
+
+}  // namespace weft::app

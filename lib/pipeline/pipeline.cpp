@@ -1,0 +1,132 @@
+#include "pipeline/pipeline.h"
+
+#include "core/error.h"
+#include "core/hash.h"
+#include "core/version.h"
+#include "gcode/writer.h"
+#include "motion/motion.h"
+#include "pipeline/parallel.h"
+#include "pipeline/plate.h"
+#include "pipeline/stages.h"
+#include "pipeline/stopwatch.h"
+#include "preview/thumbnail.h"
+#include "settings/catalogue.h"
+
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace weft {
+namespace {
+using namespace pipeline;
+
+/// Speeds, cooling and time, layer by layer.
+Statistics plan_motion(const Settings& settings, PrintPlan& plan, const Watch& watch, Report& report) {
+  const Stopwatch stopwatch(report.timings_ms.travel);
+  const auto rules = motion::rules_of(settings);
+  std::vector<std::optional<Point3>> starts(plan.layers.size());
+  for (std::size_t i = 1; i < plan.layers.size(); ++i) starts[i] = end_of(plan.layers[i - 1], starts[i - 1].value_or(Point3{}));
+  auto planned = parallel_map(plan.layers.size(), [&](std::size_t i) {
+    stop_if_cancelled(watch);
+    return motion::plan_layer(rules, std::move(plan.layers[i]), i, starts[i]);
+  });
+  Statistics statistics;
+  for (std::size_t i = 0; i < planned.size(); ++i) {
+    plan.layers[i] = std::move(planned[i].plan);
+    statistics.append(planned[i].statistics);
+  }
+  return statistics;
+}
+
+/// The text of the file, layers side by side.
+std::string write_gcode(const gcode::Job& job, Report& report) {
+  const Stopwatch stopwatch(report.timings_ms.gcode);
+  const gcode::Writer writer(job);
+  const auto blocks = parallel_map(job.plan.layers.size(), [&](std::size_t i) { return writer.layer(i); });
+  std::string text = writer.head();
+  const std::string tail = writer.tail();
+  std::size_t size = text.size() + tail.size();
+  for (const auto& block : blocks) size += block.size();
+  text.reserve(size);
+  for (const auto& block : blocks) text += block;
+  return text += tail;
+}
+
+void note_statistics(const Statistics& s, Report& report) {
+  report.print_time_s = s.print_time_s;
+  report.filament_mm = s.filament_mm;
+  report.filament_mm3 = s.filament_mm3;
+  report.filament_g = s.filament_g;
+  for (std::size_t i = 0; i < s.features.size(); ++i) report.features[i] = {s.features[i].mm, s.features[i].mm3, s.features[i].s};
+  report.walls = {static_cast<std::size_t>(s.walls.beads), s.walls.variable_width_mm, s.walls.flow_compensated_mm, s.walls.min_flow_ratio,
+                  s.walls.min_width == max_coord ? 0.0 : to_mm(s.walls.min_width)};
+  report.travel = {s.travel.mm, static_cast<std::size_t>(s.travel.moves), static_cast<std::size_t>(s.travel.retractions),
+                   static_cast<std::size_t>(s.travel.wall_crossings)};
+}
+
+void note_audit(const audit::Report& a, Report& report) {
+  auto& out = report.audit;
+  out.verdict = audit::name_of(a.verdict);
+  out.checked_moves = static_cast<std::size_t>(a.checked_moves);
+  out.not_audited = static_cast<std::size_t>(a.unaudited_moves);
+  out.violation_count = static_cast<std::size_t>(a.violation_count);
+  for (const auto& f : a.findings)
+    out.violations.push_back({std::string(audit::name_of(f.move)), f.feature, std::string(audit::name_of(f.side)), f.object, f.text,
+                              {to_mm(f.at.x), to_mm(f.at.y), to_mm(f.at.z)}, to_mm(f.outside), f.layer, static_cast<std::size_t>(f.line)});
+  report.warnings.insert(report.warnings.end(), a.notices.begin(), a.notices.end());
+}
+
+std::optional<audit::Passed> audit_gcode(const Job& job, std::string text, Report& report) {
+  const Stopwatch stopwatch(report.timings_ms.audit);
+  const auto& s = job.settings;
+  try {
+    auto passed = audit::check(s.machine, s.material, s.audit, std::move(text), job.audit);
+    note_audit(passed.report(), report);
+    report.status = Report::Status::ok;
+    report.gcode_sha256 = sha256(passed.gcode());
+    return passed;
+  } catch (const audit::Rejected& rejected) {
+    note_audit(rejected.report(), report);
+    report.status = Report::Status::rejected;
+    report.error = rejected.what();
+    return std::nullopt;
+  }
+}
+
+/// The program.
+std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Report& report) {
+  const Stopwatch stopwatch(report.timings_ms.total);
+  report.settings_sha256 = sha256(as_text(job.settings));
+  const auto objects = place_models(job, report);
+  watch.progress("slicing", 0.05);
+  std::vector<PrintedLayers> layers;
+  for (const auto& object : objects) layers.push_back(print_object(job.settings, object, watch, report));
+  watch.progress("travel", 0.65);
+  PrintPlan plan = plan_plate(job.settings, objects, layers, watch, report);
+  layers.clear();
+  watch.progress("motion", 0.8);
+  const Statistics statistics = plan_motion(job.settings, plan, watch, report);
+  note_statistics(statistics, report);
+  report.layers = plan.layers.size();
+  report.height_mm = plan.layers.empty() ? 0.0 : to_mm(plan.layers.back().z);
+  report.warnings.insert(report.warnings.end(), plan.notices.begin(), plan.notices.end());
+  watch.progress("G-code", 0.85);
+  auto text = write_gcode({job.settings, plan, statistics, std::string(version), std::filesystem::path(job.models.front()).stem().string(),
+                           thumbnails_of(job.settings, objects)},
+                          report);
+  watch.progress("audit", 0.95);
+  auto passed = audit_gcode(job, std::move(text), report);
+  watch.progress("done", 1.0);
+  return passed;
+}
+
+}  // namespace
+
+std::optional<audit::Passed> run(const Job& job, const Watch& watch, Report& report) {
+  if (job.threads == 0) return run_stages(job, watch, report);
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, job.threads);
+  return run_stages(job, watch, report);
+}
+
+}  // namespace weft

@@ -1,0 +1,45 @@
+#pragma once
+#include "audit/audit.h"
+#include "mesh/mesh.h"
+#include "pipeline/report.h"
+#include "settings/settings.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace weft {
+
+/// Where the models go on the bed.
+struct Placement {
+  std::optional<Point> centre;  ///< of the models' common box; absent: the centre of the bed
+  bool keep_position = false;   ///< the file's coordinates stay
+  double scale = 1.0;
+  double rotate_deg = 0.0;  ///< about Z, counter-clockwise
+  int copies = 1;
+  Um spacing = 6000;  ///< between copies and models
+};
+
+/// Everything a slice depends on: two equal jobs give equal bytes.
+struct Job {
+  std::vector<std::string> models;  ///< paths as typed
+  Settings settings;
+  Placement placement;
+  audit::Mode audit = audit::Mode::reject;
+  unsigned threads = 0;  ///< 0: all cores. The result does not depend on it
+};
+
+/// How a caller watches a job and stops it.
+struct Watch {
+  std::function<void(std::string_view stage, double share)> progress = [](std::string_view, double) {};
+  std::function<bool()> cancelled = [] { return false; };  ///< asked between layers, from any thread
+};
+
+/// The whole program: reads, places, slices, plans, writes and audits.
+/// @param report  is filled as the job goes on, so that a caller has what was known when an Error ended it
+/// @return the G-code, or nothing when the audit rejected it; report.status and report.error say so
+/// @throws Error of any other kind
+std::optional<audit::Passed> run(const Job& job, const Watch& watch, Report& report);
+
+}  // namespace weft

@@ -1,0 +1,104 @@
+#include "pipeline/parallel.h"
+#include "pipeline/stages.h"
+#include "pipeline/stopwatch.h"
+
+#include "adhesion/adhesion.h"
+#include "geometry/convex_hull.h"
+#include "travel/travel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+namespace weft::pipeline {
+namespace {
+
+Beads moved(Beads beads, Point by) {
+  for (auto& bead : beads)
+    for (auto& junction : bead.path) junction.at = junction.at + by;
+  return beads;
+}
+
+/// What firmware is told of each copy.
+std::vector<ObjectLabel> labels_of(const std::vector<PlacedObject>& objects) {
+  std::vector<ObjectLabel> out;
+  for (const auto& object : objects) {
+    std::vector<Point> corners;
+    corners.reserve(object.mesh.vertices.size());
+    for (const auto& v : object.mesh.vertices) corners.push_back(flat(v));
+    const Ring hull = convex_hull(std::move(corners));
+    for (std::size_t copy = 0; copy < object.offsets.size(); ++copy) {
+      Ring outline = hull;
+      for (auto& p : outline) p = p + object.offsets[copy];
+      const Point centre = box_of(outline).centre();
+      out.push_back({object.offsets.size() == 1 ? object.name : fmt::format("{}_{}", object.name, copy + 1), centre, std::move(outline)});
+    }
+  }
+  return out;
+}
+
+/// All copies of all objects at one height. Objects end at different heights; layers are those of the tallest.
+travel::LayerInput plate_layer(const std::vector<PlacedObject>& objects, const std::vector<PrintedLayers>& layers, std::size_t index) {
+  travel::LayerInput input;
+  input.index = index;
+  std::uint32_t label = 0;
+  for (std::size_t o = 0; o < objects.size(); ++o) {
+    for (const Point offset : objects[o].offsets) {
+      const auto object = label++;
+      if (index >= layers[o].size()) continue;
+      const auto& layer = layers[o][index];
+      input.z = layer.z;
+      input.height = layer.height;
+      input.objects.push_back({object, moved(layer.beads, offset), weft::moved(layer.outline, offset), weft::moved(layer.skin, offset)});
+    }
+  }
+  return input;
+}
+
+/// Skirt and brim around everything, put before the other beads of their layers.
+void add_adhesion(const Settings& settings, std::vector<travel::LayerInput>& layers, Notices& notices) {
+  const std::size_t count = std::min(layers.size(), adhesion::layers_needed(settings.adhesion));
+  std::vector<adhesion::PlateLayer> plate(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    plate[i].height = layers[i].height;
+    for (const auto& object : layers[i].objects) plate[i].outlines.insert(plate[i].outlines.end(), object.outline.begin(), object.outline.end());
+  }
+  const Ring surface = print_surface(settings.machine);
+  auto built = adhesion::build(settings.adhesion, {.layers = plate, .nozzle = settings.machine.nozzle_diameter, .print_surface = &surface});
+  for (std::size_t i = 0; i < built.layers.size(); ++i) layers[i].adhesion = std::move(built.layers[i]);
+  std::move(built.notices.begin(), built.notices.end(), std::back_inserter(notices));
+}
+
+}  // namespace
+
+PrintPlan plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects, const std::vector<PrintedLayers>& layers, const Watch& watch,
+                     Report& report) {
+  const Stopwatch stopwatch(report.timings_ms.travel);
+  std::size_t count = 0;
+  for (const auto& object : layers) count = std::max(count, object.size());
+  auto inputs = parallel_map(count, [&](std::size_t i) { return plate_layer(objects, layers, i); });
+
+  PrintPlan plan;
+  plan.objects = labels_of(objects);
+  add_adhesion(settings, inputs, plan.notices);
+
+  const auto prepared = parallel_map(count, [&](std::size_t i) {
+    stop_if_cancelled(watch);
+    return travel::prepare(settings.travel, std::move(inputs[i]));
+  });
+  const auto linked = travel::link(settings.travel, prepared);
+  const auto ordered = parallel_map(count, [&](std::size_t i) {
+    stop_if_cancelled(watch);
+    return travel::order(settings.travel, prepared[i], linked[i]);
+  });
+  std::vector<std::optional<Point>> from(count);
+  for (std::size_t i = 1; i < count; ++i) from[i] = ordered[i - 1].end ? ordered[i - 1].end : from[i - 1];
+  plan.layers = parallel_map(count, [&](std::size_t i) {
+    stop_if_cancelled(watch);
+    return travel::route(settings.travel, settings.retraction, prepared[i], ordered[i], from[i]);
+  });
+  return plan;
+}
+
+}  // namespace weft::pipeline

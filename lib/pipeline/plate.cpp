@@ -1,0 +1,78 @@
+#include "pipeline/plate.h"
+
+#include "mesh/placement.h"
+#include "mesh/read.h"
+#include "pipeline/parallel.h"
+#include "pipeline/stopwatch.h"
+#include "preview/thumbnail.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iterator>
+
+namespace weft::pipeline {
+namespace {
+
+std::string name_of(const mesh::Loaded& model, std::size_t object) {
+  const auto& own = model.objects[object].name;
+  if (!own.empty()) return own;
+  const auto stem = std::filesystem::path(model.path).stem().string();
+  return model.objects.size() == 1 ? stem : fmt::format("{}_{}", stem, object + 1);
+}
+
+void note_model(const mesh::Loaded& model, Report& report) {
+  Report::Model out{model.path, model.sha256, 0, 0.0, {}};
+  for (std::size_t i = 0; i < model.objects.size(); ++i) {
+    const auto& object = model.objects[i];
+    out.triangles += object.mesh.triangles.size();
+    out.volume_mm3 += volume_mm3(object.mesh);
+    for (auto& notice : mesh::notices_of(object.repairs, name_of(model, i))) {
+      out.repairs.push_back(notice.message);
+      report.warnings.push_back(std::move(notice));
+    }
+  }
+  report.models.push_back(std::move(out));
+}
+
+}  // namespace
+
+std::vector<PlacedObject> place_models(const Job& job, Report& report) {
+  const Stopwatch stopwatch(report.timings_ms.read);
+  const auto loaded = parallel_map(job.models.size(), [&](std::size_t i) { return mesh::read_file(job.models[i], {.scale = job.placement.scale}); });
+  for (const auto& model : loaded) note_model(model, report);
+
+  const auto& machine = job.settings.machine;
+  const mesh::Plate plate{print_surface(machine), machine.bed_exclude_areas, machine.machine_height};
+  auto placed = mesh::place(loaded,
+                            {.rotate_deg = job.placement.rotate_deg, .keep_position = job.placement.keep_position, .center = job.placement.centre,
+                             .copies = job.placement.copies, .spacing = job.placement.spacing},
+                            plate);
+  // What does not fit is told before an hour of slicing; to annotate, the audit must see it.
+  if (job.audit == audit::Mode::reject) mesh::check_fits(placed, plate, job.settings.audit.audit_tolerance);
+
+  std::vector<PlacedObject> out;
+  for (std::size_t m = 0; m < placed.size(); ++m)
+    for (std::size_t i = 0; i < placed[m].objects.size(); ++i)
+      out.push_back({name_of(loaded[m], i), std::move(placed[m].objects[i]), placed[m].instances});
+  return out;
+}
+
+std::vector<gcode::Thumbnail> thumbnails_of(const Settings& settings, const std::vector<PlacedObject>& objects) {
+  const auto& sizes = settings.gcode.thumbnails;
+  if (sizes.empty() || objects.empty()) return {};
+  Mesh plate;
+  for (const auto& object : objects) {
+    const auto base = static_cast<std::uint32_t>(plate.vertices.size());
+    const Point at = object.offsets.front();
+    for (const auto& v : object.mesh.vertices) plate.vertices.push_back({v.x + at.x, v.y + at.y, v.z});
+    for (const auto& t : object.mesh.triangles) plate.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
+  }
+  return parallel_map(sizes.size(), [&](std::size_t i) {
+    const auto size = sizes[i];
+    const auto png = preview::thumbnail(plate, {size.width, size.height});
+    return gcode::Thumbnail{size.width, size.height, std::string(png.begin(), png.end())};
+  });
+}
+
+}  // namespace weft::pipeline

@@ -1,0 +1,93 @@
+#include "pipeline/parallel.h"
+#include "pipeline/stages.h"
+#include "pipeline/stopwatch.h"
+
+#include "core/error.h"
+#include "infill/infill.h"
+#include "infill/shells.h"
+#include "slice/slice.h"
+#include "walls/walls.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace weft::pipeline {
+namespace {
+
+void append(Notices& to, Notices from) { std::move(from.begin(), from.end(), std::back_inserter(to)); }
+
+std::vector<SlicedLayer> slice_object(const Settings& settings, const PlacedObject& object, const Watch& watch, Report& report) {
+  const Stopwatch stopwatch(report.timings_ms.slice);
+  const slice::Cutter cutter(object.mesh, slice::planes(settings.layers, box_of(object.mesh).max.z));
+  auto cuts = parallel_map(cutter.size(), [&](std::size_t i) {
+    stop_if_cancelled(watch);
+    return cutter.cut(i, settings.layers.resolution);
+  });
+  append(report.warnings, slice::notices_of(cuts, object.name));
+  std::vector<SlicedLayer> layers;
+  layers.reserve(cuts.size());
+  for (auto& cut : cuts) layers.push_back(std::move(cut.layer));
+  return layers;
+}
+
+std::vector<WallLayer> build_walls(const Settings& settings, const std::vector<SlicedLayer>& layers, const Watch& watch, Report& report) {
+  const Stopwatch stopwatch(report.timings_ms.walls);
+  auto walls = parallel_map(layers.size(), [&](std::size_t i) {
+    stop_if_cancelled(watch);
+    return walls::build(settings.walls, {.layer = layers[i], .index = i, .nozzle_diameter = settings.machine.nozzle_diameter});
+  });
+  for (auto& layer : walls) append(report.warnings, std::move(layer.notices));
+  return walls;
+}
+
+/// What fills the inside of each layer. Layers are taken in runs, so that the skin's neighbours are looked at once a run.
+std::vector<infill::LayerAreas> find_areas(const Settings& settings, const std::vector<SlicedLayer>& layers, const std::vector<WallLayer>& walls) {
+  std::vector<infill::ShellLayer> seen(layers.size());
+  for (std::size_t i = 0; i < layers.size(); ++i) seen[i] = {layers[i].z, layers[i].height, &layers[i].regions, &walls[i].inside};
+  const infill::ShellObject object{seen, infill::box_of(seen), settings.machine.nozzle_diameter};
+  constexpr std::size_t run = 16;
+  auto runs = parallel_map((layers.size() + run - 1) / run, [&](std::size_t r) {
+    return infill::find_areas(settings.shells, settings.infill, object, r * run, std::min(run, layers.size() - r * run));
+  });
+  std::vector<infill::LayerAreas> areas;
+  areas.reserve(layers.size());
+  for (auto& part : runs) std::move(part.begin(), part.end(), std::back_inserter(areas));
+  return areas;
+}
+
+}  // namespace
+
+PrintedLayers print_object(const Settings& settings, const PlacedObject& object, const Watch& watch, Report& report) {
+  auto layers = slice_object(settings, object, watch, report);
+  watch.progress("walls", 0.15);
+  auto walls = build_walls(settings, layers, watch, report);
+  watch.progress("infill", 0.5);
+
+  const Stopwatch stopwatch(report.timings_ms.infill);
+  const auto areas = find_areas(settings, layers, walls);
+  auto fills = parallel_map(layers.size(), [&](std::size_t i) {
+    stop_if_cancelled(watch);
+    return infill::fill(settings.infill, settings.shells, {.areas = areas[i], .index = i, .z = layers[i].z, .height = layers[i].height,
+                                                           .nozzle = settings.machine.nozzle_diameter});
+  });
+  PrintedLayers out(layers.size());
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    out[i].z = layers[i].z;
+    out[i].height = layers[i].height;
+    out[i].outline = std::move(layers[i].regions);
+    for (const auto& part : areas[i]) {
+      out[i].skin.insert(out[i].skin.end(), part.top.begin(), part.top.end());
+      out[i].skin.insert(out[i].skin.end(), part.solid.begin(), part.solid.end());
+    }
+    out[i].beads = std::move(walls[i].beads);
+    std::move(fills[i].beads.begin(), fills[i].beads.end(), std::back_inserter(out[i].beads));
+    append(report.warnings, std::move(fills[i].notices));
+  }
+  return out;
+}
+
+void stop_if_cancelled(const Watch& watch) {
+  if (watch.cancelled()) throw Error{Error::Kind::interrupted, "interrupted", {}, "nothing was written"};
+}
+
+}  // namespace weft::pipeline

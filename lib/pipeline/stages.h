@@ -1,0 +1,40 @@
+#pragma once
+#include "core/polygon.h"
+#include "mesh/mesh.h"
+#include "model/layer.h"
+#include "model/plan.h"
+#include "pipeline/pipeline.h"
+
+#include <string>
+#include <vector>
+
+/// The stages run over all layers of a plate: this folder alone knows about threads.
+namespace weft::pipeline {
+
+/// A model on the bed: sliced once, printed at each offset.
+struct PlacedObject {
+  std::string name;
+  Mesh mesh;                   ///< where its first copy stands, on z = 0
+  std::vector<Point> offsets;  ///< one a copy, the first is usually {0, 0}
+};
+
+/// One layer of one object, in the coordinates of its first copy.
+struct PrintedLayer {
+  Um z = 0, height = 0;
+  Regions outline;  ///< of the slice
+  Regions skin;     ///< top and bottom surfaces
+  Beads beads;      ///< walls of each part in the order they are printed, then fills
+};
+using PrintedLayers = std::vector<PrintedLayer>;
+
+/// Slice, walls, shells and infill of one object.
+PrintedLayers print_object(const Settings& settings, const PlacedObject& object, const Watch& watch, Report& report);
+
+/// The whole plate as steps: copies put in their places, adhesion around them, order, seams and travels.
+PrintPlan plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects, const std::vector<PrintedLayers>& layers, const Watch& watch,
+                     Report& report);
+
+/// @throws Error{interrupted} when the watch says so
+void stop_if_cancelled(const Watch& watch);
+
+}  // namespace weft::pipeline

@@ -1,0 +1,77 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+
+TEST_CASE("command line: help and version are answers on standard output") {
+  for (const auto& words : {std::vector<std::string>{"--help"}, {"slice", "--help"}, {"settings", "-h"}, {"inspect", "--help"}}) {
+    const auto run = weft(words);
+    CHECK(run.status == 0);
+    CHECK_THAT(run.out, Contains("--profile"));
+    CHECK(run.err.empty());
+  }
+  CHECK_THAT(weft({"--version"}).out, StartsWith("weft "));
+}
+
+TEST_CASE("command line: wrong use is status 2 and one line that names the option") {
+  struct Case {
+    std::vector<std::string> words;
+    std::string said;
+  };
+  const std::vector<Case> cases{
+      {{}, "no verb"},
+      {{"slize", "part.stl"}, "'slize'"},
+      {{"slice"}, "no model was given"},
+      {{"slice", "part.stl"}, "-o OUT.gcode"},
+      {{"slice", "part.stl", "-o", "x", "--layer-heigth", "0.2"}, "did you mean --layer-height?"},
+      {{"slice", "part.stl", "-o", "x", "--audit", "off"}, "cannot be turned off"},
+      {{"slice", "part.stl", "-o", "x", "--center", "1"}, "X,Y"},
+      {{"slice", "part.stl", "-o", "x", "--scale", "0"}, "--scale"},
+      {{"slice", "part.stl", "-o", "x", "--copies", "0"}, "--copies"},
+      {{"slice", "part.stl", "-o", "x", "--center", "1,1", "--keep-position"}, "--keep-position"},
+      {{"slice", "part.stl", "-o", "x", "-s", "layer_height"}, "KEY=VALUE"},
+      {{"slice", "part.stl", "-o", "x", "-j", "0"}, "--threads"},
+      {{"settings", "--format", "xml"}, "--format"},
+      {{"settings", "--log-format", "yaml"}, "--log-format"},
+  };
+  for (const auto& c : cases) {
+    const auto run = weft(c.words);
+    INFO(run.err);
+    CHECK(run.status == 2);
+    CHECK(run.out.empty());
+    CHECK_THAT(run.err, StartsWith("weft: error: ") && Contains(c.said));
+    CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
+  }
+}
+
+TEST_CASE("command line: every setting is listed with type, range and meaning") {
+  const auto run = weft({"settings", "--format", "json"});
+  REQUIRE(run.status == 0);
+  const auto rows = nlohmann::json::parse(run.out);
+  CHECK(rows.size() > 40);
+  for (const auto& row : rows) {
+    CHECK_FALSE(row["meaning"].get<std::string>().empty());
+    CHECK_FALSE(row["type"].get<std::string>().empty());
+  }
+  CHECK_THAT(weft({"settings", "layer_height"}).out, Contains("0.02 … 2 mm"));
+  CHECK(weft({"settings", "layer_hight"}).status == 3);
+}
+
+TEST_CASE("command line: --explain says where a value comes from and what it shadows") {
+  Scratch scratch;
+  scratch.write("a.ini", "layer_height = 0.3\n");
+  scratch.write("b.ini", "inherits = a.ini\nlayer_height = 0.25\n");
+  const auto run = weft({"profile", "show", "b.ini", "-s", "layer_height=0.1", "--explain", "layer_height"}, scratch.path());
+  CHECK(run.status == 0);
+  CHECK_THAT(run.out, Contains("layer_height = 0.1 mm") && Contains("b.ini:2 = 0.25") && Contains("a.ini:1 = 0.3"));
+}
+
+TEST_CASE("command line: with --log-format json every message is an object on a line") {
+  const auto run = weft({"profile", "check", "/nonexistent.ini", "--log-format", "json"});
+  CHECK(run.status == 6);
+  const auto line = nlohmann::json::parse(run.err);
+  CHECK(line["level"] == "error");
+}
