@@ -2,7 +2,6 @@
 
 #include "core/error.h"
 #include "core/hash.h"
-#include "core/version.h"
 #include "gcode/writer.h"
 #include "motion/motion.h"
 #include "pipeline/parallel.h"
@@ -112,7 +111,7 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
   report.height_mm = plan.layers.empty() ? 0.0 : to_mm(plan.layers.back().z);
   report.warnings.insert(report.warnings.end(), plan.notices.begin(), plan.notices.end());
   watch.progress("G-code", 0.85);
-  auto text = write_gcode({job.settings, plan, statistics, std::string(version), std::filesystem::path(job.models.front()).stem().string(),
+  auto text = write_gcode({job.settings, plan, statistics, std::filesystem::path(job.models.front()).stem().string(),
                            thumbnails_of(job.settings, objects)},
                           report);
   watch.progress("audit", 0.95);
