@@ -61,9 +61,9 @@ constexpr std::int64_t distance2(Point a, Point b) {
 /// Distance in fractional microns.
 inline double distance(Point a, Point b) { return std::sqrt(static_cast<double>(distance2(a, b))); }
 
-/// The point at fraction t of a->b, to the nearest micron.
+/// The point at fraction t of a->b, to the nearest micron; ties away from a, so that a moved line gives the moved point.
 inline Point lerp(Point a, Point b, double t) {
-  return {rounded(a.x + t * (static_cast<double>(b.x) - a.x)), rounded(a.y + t * (static_cast<double>(b.y) - a.y))};
+  return {a.x + rounded(t * (static_cast<double>(b.x) - a.x)), a.y + rounded(t * (static_cast<double>(b.y) - a.y))};
 }
 
 }  // namespace weft

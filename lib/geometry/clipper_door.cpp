@@ -1,8 +1,10 @@
 #include "geometry/clipper_door.h"
 
-#include "core/tolerances.h"
+#include "geometry/nesting.h"
 #include "geometry/simplify.h"
+#include "geometry/spatial_index.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <polyclipping/clipper.hpp>
@@ -55,36 +57,26 @@ bool add(ClipperLib::Clipper& sweep, const FineRings& rings, ClipperLib::PolyTyp
   return added;
 }
 
-/// The contour on the lattice; empty when it is a sliver or the rounding turned it over.
-Ring settled(const ClipperLib::Path& contour, std::int64_t coarser, Point origin, bool hole) {
-  Ring ring;
-  ring.reserve(contour.size());
-  for (const auto& p : contour)
-    ring.push_back(origin + Point{static_cast<Um>(nearest_quotient(p.X * coarser, steps)),
-                                  static_cast<Um>(nearest_quotient(p.Y * coarser, steps))});
-  drop_collinear(ring);
-  const std::int64_t twice = hole ? -double_area(ring) : double_area(ring);
-  if (static_cast<double>(twice) < 2 * tolerances::sliver_area_um2) ring.clear();
-  return ring;
-}
-
-Regions regions_of(const ClipperLib::PolyTree& tree, std::int64_t coarser, Point origin) {
-  Regions out;
-  for (const auto* node = tree.GetFirst(); node != nullptr; node = node->GetNext()) {
-    if (node->IsHole()) continue;
-    Region region{settled(node->Contour, coarser, origin, false), {}};
-    if (region.outer.empty()) continue;
-    for (const auto* child : node->Childs) {
-      Ring hole = settled(child->Contour, coarser, origin, true);
-      if (!hole.empty()) region.holes.push_back(std::move(hole));
-    }
-    out.push_back(std::move(region));
+/// The contours on the lattice, without those that the rounding left no area.
+std::vector<Ring> settled(const ClipperLib::Paths& contours, std::int64_t coarser, Point origin) {
+  std::vector<Ring> out;
+  out.reserve(contours.size());
+  for (const auto& contour : contours) {
+    Ring ring;
+    ring.reserve(contour.size());
+    for (const auto& p : contour)
+      ring.push_back(origin + Point{static_cast<Um>(nearest_quotient(p.X * coarser, steps)),
+                                    static_cast<Um>(nearest_quotient(p.Y * coarser, steps))});
+    drop_collinear(ring);
+    if (!ring.empty()) out.push_back(std::move(ring));
   }
   return out;
 }
-}  // namespace
 
-Regions run(Operation operation, WindingRule rule, const FineRings& subject, const FineRings& clip, Point origin) {
+/// Outers counter-clockwise, holes clockwise. Not as Clipper's tree: the time to build that grows with the square of
+/// the number of crossings.
+std::vector<Ring> swept(Operation operation, WindingRule rule, const FineRings& subject, const FineRings& clip,
+                        Point origin) {
   // Clipper gives up when rounding contradicts its sweep order: very rare, and another grid has other roundings.
   for (const std::int64_t coarser : {1, 3, 16, 160}) {
     try {
@@ -92,13 +84,63 @@ Regions run(Operation operation, WindingRule rule, const FineRings& subject, con
       const bool any_subject = add(sweep, subject, ClipperLib::ptSubject, coarser);
       const bool any_clip = add(sweep, clip, ClipperLib::ptClip, coarser);
       if (!any_subject && !any_clip) return {};
-      ClipperLib::PolyTree tree;
-      if (sweep.Execute(type_of(operation), tree, fill_of(rule), fill_of(rule)))
-        return regions_of(tree, coarser, origin);
+      ClipperLib::Paths contours;
+      if (sweep.Execute(type_of(operation), contours, fill_of(rule), fill_of(rule)))
+        return settled(contours, coarser, origin);
     } catch (const ClipperLib::clipperException&) {
     }
   }
   throw std::logic_error("geometry: a polygon Boolean failed on every grid");
+}
+
+/// The rings, with a corner at each crossing (to the nearest micron) on both edges that cross there.
+FineRings split(const SegmentIndex& index, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs,
+                Point origin) {
+  struct Corner {
+    std::uint32_t segment;
+    double along;
+    Point at;
+  };
+  std::vector<Corner> corners;
+  const auto segments = index.segments();
+  for (const auto& [i, j] : pairs) {
+    const Segment &s = segments[i], &t = segments[j];
+    const auto share = [](const Segment& of, const Segment& by) {
+      const auto a = static_cast<double>(orient(by.a, by.b, of.a)), b = static_cast<double>(orient(by.a, by.b, of.b));
+      return a / (a - b);
+    };
+    const Point at = lerp(s.a, s.b, share(s, t));
+    corners.push_back({i, share(s, t), at});
+    corners.push_back({j, share(t, s), at});
+  }
+  std::sort(corners.begin(), corners.end(), [](const Corner& l, const Corner& r) {
+    return l.segment != r.segment ? l.segment < r.segment : l.along < r.along;
+  });
+  const auto fine = [&](Point p) {
+    return FinePoint{(std::int64_t{p.x} - origin.x) * steps, (std::int64_t{p.y} - origin.y) * steps};
+  };
+  FineRings out;
+  auto next = corners.begin();
+  for (std::uint32_t i = 0; i < segments.size(); ++i) {
+    if (index.origin(i).edge == 0) out.emplace_back();
+    out.back().push_back(fine(segments[i].a));
+    for (; next != corners.end() && next->segment == i; ++next) out.back().push_back(fine(next->at));
+  }
+  return out;
+}
+}  // namespace
+
+Regions run(Operation operation, WindingRule rule, const FineRings& subject, const FineRings& clip, Point origin) {
+  std::vector<Ring> rings = swept(operation, rule, subject, clip, origin);
+  // Rounding to whole microns can push a corner through an edge close by. Then both get a corner where they cross, and
+  // what that turned over is united away. Nearly always once is enough.
+  constexpr int most_rounds = 4;
+  for (int round = 0;; ++round) {
+    const SegmentIndex index(rings);
+    const auto pairs = index.crossing_pairs();
+    if (pairs.empty() || round == most_rounds) return nested_by_orientation(rings, index);
+    rings = swept(Operation::unite, WindingRule::positive, split(index, pairs, origin), {}, origin);
+  }
 }
 
 }  // namespace weft::geometry::clipper

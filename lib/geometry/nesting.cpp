@@ -1,9 +1,9 @@
 #include "geometry/nesting.h"
 
 #include "core/tolerances.h"
-#include "geometry/spatial_index.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace weft::geometry {
@@ -23,39 +23,42 @@ bool solid(int winding, WindingRule rule) {
 
 /// A ring among the others.
 struct Place {
+  std::int64_t double_area = 0;
   std::vector<std::uint32_t> around;  ///< the rings that it lies inside of
+  int outside = 0;                    ///< winding number around it
   enum class Kind { nothing, outer, hole } kind = Kind::nothing;
+  bool sliver() const { return std::abs(static_cast<double>(double_area)) < 2 * tolerances::sliver_area_um2; }
 };
-}  // namespace
 
-std::optional<Regions> nested(std::span<const Ring> rings, WindingRule rule) {
-  const SegmentIndex index(rings);
-  if (!index.simple()) return std::nullopt;
-  std::vector<std::int64_t> areas(rings.size());
-  for (std::size_t r = 0; r < rings.size(); ++r) areas[r] = double_area(rings[r]);
-
+/// Any point of a ring tells what is around it, as long as no other ring touches it there.
+std::vector<Place> places_of(std::span<const Ring> rings, const SegmentIndex& index) {
   std::vector<Place> places(rings.size());
   std::vector<SegmentIndex::RingWinding> windings;
   for (std::size_t r = 0; r < rings.size(); ++r) {
-    if (std::abs(static_cast<double>(areas[r])) < 2 * tolerances::sliver_area_um2) continue;
-    index.windings(*std::min_element(rings[r].begin(), rings[r].end()), windings);
-    int outside = 0;
-    for (const auto& other : windings) {
-      outside += other.winding;
-      if (other.winding != 0) places[r].around.push_back(other.ring);
+    places[r].double_area = double_area(rings[r]);
+    if (places[r].sliver()) continue;
+    for (const Point p : rings[r]) {
+      index.windings(p, windings);
+      const auto touching = [&](const auto& w) { return w.on && w.ring != r; };
+      if (std::none_of(windings.begin(), windings.end(), touching)) break;
     }
-    const int inside = outside + (areas[r] > 0 ? 1 : -1);
-    if (solid(outside, rule) != solid(inside, rule))
-      places[r].kind = solid(inside, rule) ? Place::Kind::outer : Place::Kind::hole;
+    for (const auto& other : windings) {
+      if (other.ring == r || other.winding == 0) continue;
+      places[r].outside += other.winding;
+      places[r].around.push_back(other.ring);
+    }
   }
+  return places;
+}
 
+Regions assembled(std::span<const Ring> rings, const std::vector<Place>& places) {
   Regions out;
   std::vector<std::size_t> region_of(rings.size());
   for (std::size_t r = 0; r < rings.size(); ++r) {
     if (places[r].kind != Place::Kind::outer) continue;
     region_of[r] = out.size();
     out.push_back({rings[r], {}});
-    if (areas[r] < 0) std::reverse(out.back().outer.begin(), out.back().outer.end());
+    if (places[r].double_area < 0) std::reverse(out.back().outer.begin(), out.back().outer.end());
   }
   for (std::size_t r = 0; r < rings.size(); ++r) {
     if (places[r].kind != Place::Kind::hole) continue;
@@ -67,9 +70,30 @@ std::optional<Regions> nested(std::span<const Ring> rings, WindingRule rule) {
     if (!parent) continue;  // it was a hole of a sliver
     auto& holes = out[region_of[*parent]].holes;
     holes.push_back(rings[r]);
-    if (areas[r] > 0) std::reverse(holes.back().begin(), holes.back().end());
+    if (places[r].double_area > 0) std::reverse(holes.back().begin(), holes.back().end());
   }
   return out;
+}
+}  // namespace
+
+std::optional<Regions> nested(std::span<const Ring> rings, WindingRule rule) {
+  const SegmentIndex index(rings);
+  if (!index.simple()) return std::nullopt;
+  auto places = places_of(rings, index);
+  for (auto& place : places) {
+    if (place.sliver()) continue;
+    const int inside = place.outside + (place.double_area > 0 ? 1 : -1);
+    if (solid(place.outside, rule) != solid(inside, rule))
+      place.kind = solid(inside, rule) ? Place::Kind::outer : Place::Kind::hole;
+  }
+  return assembled(rings, places);
+}
+
+Regions nested_by_orientation(std::span<const Ring> rings, const SegmentIndex& index) {
+  auto places = places_of(rings, index);
+  for (auto& place : places)
+    if (!place.sliver()) place.kind = place.double_area > 0 ? Place::Kind::outer : Place::Kind::hole;
+  return assembled(rings, places);
 }
 
 }  // namespace weft::geometry

@@ -1,5 +1,7 @@
 #include "geometry/simplify.h"
 
+#include "geometry/spatial_index.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -106,6 +108,30 @@ Ring simplified(const Ring& ring, Um bound) {
   const std::int64_t before = double_area(ring), after = double_area(out);
   const bool collapsed = out.size() < 3 || after == 0 || (after > 0) != (before > 0);
   return collapsed ? ring : out;
+}
+
+Regions simplified(const Regions& regions, Um bound) {
+  Regions out = regions;
+  for (auto& region : out) {
+    region.outer = simplified(region.outer, bound);
+    for (auto& hole : region.holes) hole = simplified(hole, bound);
+  }
+  // Each round gives a ring its points back; when all have theirs, nothing crosses.
+  for (bool crossed = true; crossed;) {
+    crossed = false;
+    const SegmentIndex index(out);
+    for (const auto& [i, j] : index.crossing_pairs())
+      for (const auto& origin : {index.origin(i), index.origin(j)}) {
+        const Region& was = regions[origin.region];
+        Region& is = out[origin.region];
+        Ring& ring = origin.ring == 0 ? is.outer : is.holes[origin.ring - 1];
+        const Ring& original = origin.ring == 0 ? was.outer : was.holes[origin.ring - 1];
+        if (ring.size() == original.size()) continue;
+        ring = original;
+        crossed = true;
+      }
+  }
+  return out;
 }
 
 }  // namespace weft::geometry

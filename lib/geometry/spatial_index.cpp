@@ -230,16 +230,16 @@ std::optional<int> SegmentIndex::winding(Point p) const {
 
 void SegmentIndex::windings(Point p, std::vector<RingWinding>& found) const {
   found.clear();
-  for_each_left_of(p, [&](std::uint32_t i, int step) {
-    if (step != 0) found.push_back({origins_[i].region, step});
-  });
+  for_each_left_of(p, [&](std::uint32_t i, int step) { found.push_back({origins_[i].region, step, step == 0}); });
   std::sort(found.begin(), found.end(), [](const RingWinding& l, const RingWinding& r) { return l.ring < r.ring; });
   std::size_t kept = 0;
   for (const RingWinding& w : found) {
-    if (kept > 0 && found[kept - 1].ring == w.ring)
+    if (kept > 0 && found[kept - 1].ring == w.ring) {
       found[kept - 1].winding += w.winding;
-    else
+      found[kept - 1].on |= w.on;
+    } else {
       found[kept++] = w;
+    }
   }
   found.resize(kept);
 }
@@ -252,13 +252,29 @@ std::optional<std::size_t> SegmentIndex::region_at(Point p) const {
   if (on) return on;
   std::vector<RingWinding> found;
   windings(p, found);
-  for (const auto& [region, winding] : found)
-    if (winding != 0) return region;
+  for (const auto& w : found)
+    if (w.winding != 0) return w.ring;
   return std::nullopt;
 }
 
 bool SegmentIndex::neighbours(std::uint32_t i, std::uint32_t j) const {
   return next_[i] == j || next_[j] == i;
+}
+
+std::vector<std::pair<std::uint32_t, std::uint32_t>> SegmentIndex::crossing_pairs() const {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
+  for (std::size_t k = 0; k + 1 < starts_.size(); ++k) {
+    const auto here = cell(k);
+    for (std::size_t x = 0; x < here.size(); ++x)
+      for (std::size_t y = x + 1; y < here.size(); ++y) {
+        const Segment &s = segments_[here[x]], &t = segments_[here[y]];
+        if (segments_touch(s.a, s.b, t.a, t.b) && segments_cross(s.a, s.b, t.a, t.b))
+          out.emplace_back(here[x], here[y]);
+      }
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());  // they met in several cells
+  return out;
 }
 
 bool SegmentIndex::simple() const {

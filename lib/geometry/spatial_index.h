@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace weft::geometry {
@@ -69,16 +70,20 @@ class SegmentIndex {
   /// How often the segments, taken as closed rings, wind around p; nothing when p is on one of them. Exact.
   std::optional<int> winding(Point p) const;
 
-  /// The same for each ring whose segments a ray from p to the left meets, by number. A ring that p is on counts only
-  /// where it goes on further left. Pre: made from rings. Exact.
+  /// The same for each ring that p is on or that a ray from p to the left meets, by number. Of a ring that p is on, the
+  /// winding counts what the ray meets further left. Pre: made from rings. Exact.
   struct RingWinding {
     std::uint32_t ring = 0;
     int winding = 0;
+    bool on = false;  ///< p is on that ring
   };
   void windings(Point p, std::vector<RingWinding>& found) const;
 
   /// The region that p is inside of or on the edge of, the lowest of several. Pre: made from regions.
   std::optional<std::size_t> region_at(Point p) const;
+
+  /// The pairs of segments that cross properly, ascending. Exact.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> crossing_pairs() const;
 
   /// Whether no two segments have a point in common, but for neighbours in a ring their common end. Exact.
   /// Pre: made from rings or regions.

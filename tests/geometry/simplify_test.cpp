@@ -1,5 +1,6 @@
 #include "geometry/simplify.h"
 
+#include "geometry/spatial_index.h"
 #include "shapes.h"
 
 #include <algorithm>
@@ -71,4 +72,20 @@ TEST_CASE("geometry: collinear points, repeated points and spikes are dropped ex
   Polyline back_and_forth{{0, 0}, {0, 0}, {500, 0}, {1000, 0}, {200, 0}};
   drop_collinear_of_line(back_and_forth);
   CHECK(back_and_forth == Polyline{{0, 0}, {1000, 0}, {200, 0}});
+}
+
+TEST_CASE("geometry: simplified regions do not cross where they are narrower than the bound", "[law]") {
+  shapes::Dice dice(51);
+  for (int round = 0; round < 40; ++round) {
+    // Two walls run side by side, 15 µm apart, waving by 30 µm.
+    Ring lower{{0, -5000}, {20000, -5000}}, upper;
+    for (int i = 40; i >= 0; --i) lower.push_back({i * 500, dice.between(-30, 30)});
+    for (int i = 40; i >= 0; --i) upper.push_back(lower[static_cast<std::size_t>(i) + 2] + Point{0, 15});
+    std::reverse(upper.begin(), upper.end());
+    upper.insert(upper.end(), {{0, 5000}, {20000, 5000}});
+    if (double_area(upper) < 0) std::reverse(upper.begin(), upper.end());
+    const Regions regions{{lower, {}}, {upper, {}}};
+    REQUIRE(SegmentIndex(regions).crossing_pairs().empty());
+    CHECK(SegmentIndex(simplified(regions, 40)).crossing_pairs().empty());
+  }
 }
