@@ -1,4 +1,4 @@
-#include "preview/preview.h"
+#include "preview_kind.h"
 
 #include <fmt/format.h>
 
@@ -75,15 +75,12 @@ preview::Overlay overlay_of(const Profile& profile, std::string_view gcode, Cons
   return overlay;
 }
 
-std::string drawn(const std::string& kind, const preview::Toolpaths& paths, const preview::View& view,
-                  const std::optional<preview::Overlay>& overlay) {
-  if (kind == ".svg") return preview::svg(paths, view, overlay);
-  if (kind == ".html") return preview::html(paths, view, overlay);
-  const auto bytes = preview::png(paths, view, overlay);
-  return {bytes.begin(), bytes.end()};
-}
-
 }  // namespace
+
+preview::Kind preview_kind(const std::string& destination) {
+  if (const auto kind = preview::kind_of(destination)) return *kind;
+  throw Error{Error::Kind::usage, "is neither .html nor .svg nor .png", destination, "the extension tells the kind of picture"};
+}
 
 int preview(const Words& words) {
   const auto options = preview_options();
@@ -98,9 +95,7 @@ int preview(const Words& words) {
   if (command.inputs.size() != 1)
     throw Error{Error::Kind::usage, fmt::format("takes one G-code file, not {}", command.inputs.size()), "weft preview"};
   if (!command.output) throw Error{Error::Kind::usage, "no output was given", "weft preview", "as in -o layer.png"};
-  const std::string kind = std::filesystem::path(*command.output).extension().string();
-  if (kind != ".svg" && kind != ".png" && kind != ".html")
-    throw Error{Error::Kind::usage, "is neither .html nor .svg nor .png", *command.output, "the extension tells the kind of picture"};
+  const auto kind = preview_kind(*command.output);
 
   Console console(command.console);
   const Profile profile = resolve(command);
@@ -118,7 +113,7 @@ int preview(const Words& words) {
   view.title = std::filesystem::path(command.inputs[0]).filename().string();
   std::optional<preview::Overlay> overlay;
   if (command.options["audit"].as<bool>()) overlay = overlay_of(profile, gcode, console);
-  write_output(*command.output, drawn(kind, paths, view, overlay));
+  write_output(*command.output, preview::draw(kind, paths, view, overlay));
   return 0;
 }
 

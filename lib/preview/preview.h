@@ -38,4 +38,12 @@ std::vector<std::uint8_t> png(const Toolpaths& paths, const View& view, const st
 /// Pre: paths has a layer.
 std::string html(const Toolpaths& paths, const View& view, const std::optional<Overlay>& overlay = {});
 
+enum class Kind : std::uint8_t { svg, png, html };
+
+/// The kind that a file's name asks for by its extension; nullopt for another one.
+std::optional<Kind> kind_of(std::string_view file_name);
+
+/// The bytes of a preview of that kind. Pre: as of that kind.
+std::string draw(Kind kind, const Toolpaths& paths, const View& view, const std::optional<Overlay>& overlay = {});
+
 }  // namespace weft::preview
