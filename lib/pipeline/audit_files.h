@@ -1,0 +1,29 @@
+#pragma once
+#include "audit/audit.h"
+#include "settings/settings.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace weft {
+
+/// A file to be held against a machine.
+struct AuditJob {
+  std::filesystem::path file;
+  const Settings* settings = nullptr;
+};
+
+/// What came of it: a report, or why there is none.
+struct AuditOutcome {
+  std::optional<audit::Report> report;
+  std::optional<Error> error;
+};
+
+/// Audits files of any slicer, several at a time, in constant memory each. Outcomes are in the order of the jobs; one
+/// that cannot be read does not keep the others from being audited.
+/// @param threads 0: all cores
+std::vector<AuditOutcome> audit_files(const std::vector<AuditJob>& jobs, unsigned threads);
+
+}  // namespace weft
