@@ -51,6 +51,20 @@ void thin_out(std::vector<Vertex>& path) {
   path = std::move(out);
 }
 
+/// The first segment of an open bead is at least half as long as the bead is wide: a bend right at its start would
+/// swell back beyond it.
+void steady_start(std::vector<Vertex>& path) {
+  while (path.size() > 2) {
+    const double d = distance(path[0].at, path[1].at);
+    if (d >= path[0].width / 2) return;
+    const double e = distance(path[1].at, path[2].at), whole = distance(path[0].at, path[2].at);
+    if (whole < 1) return;
+    const double volume = d * (path[0].width + path[1].width) + e * (path[1].width + path[2].width);
+    path[0].width = std::max(1.0, volume / whole - path[2].width);
+    path.erase(path.begin() + 1);
+  }
+}
+
 void limit_steps(std::vector<Vertex>& path) {
   std::vector<Vertex> out;
   out.reserve(path.size());
@@ -138,6 +152,7 @@ void finish(Line line, const FinishOptions& o, Beads& out, double& dropped_mm) {
     if (stretch.front().width > stretch.back().width) std::reverse(stretch.begin(), stretch.end());
     thin_out(stretch);
     limit_steps(stretch);
+    steady_start(stretch);
     emit(stretch, false, line.inset, o, out);
   }
   dropped_mm += (whole - kept) / 1000;

@@ -75,7 +75,7 @@ class Planner {
       const std::uint32_t m = s_.to(h);
       const double rise = s_.nodes[m].clearance - s_.nodes[n].clearance;
       double flat = shallow[n];
-      if (!steep_[h / 2] || rise < 0) flat += s_.length(h / 2);
+      if (slope(h / 2) <= o_.corner || rise < 0) flat += s_.length(h / 2);
       if (flat > stub_share * s_.nodes[m].clearance) continue;
       core_[h / 2] = 0;
       --degree[n];

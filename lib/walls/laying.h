@@ -30,7 +30,8 @@ struct Laying {
 };
 
 struct LayingOptions {
-  double steep = 0.5;             ///< |d clearance / d length| above which an edge may run into a corner
+  double steep = 0.26;            ///< |d clearance / d length| above which no middles but a single one are laid
+  double corner = 0.5;            ///< … above which an edge may run into a corner
   double ramp = 400;              ///< length of a transition, µm
   double filter = 1000;           ///< a change of count undone within this length is left out, µm
   double filter_deviation = 100;  ///< … where the thickness is no further than this from the change, µm

@@ -52,15 +52,6 @@ Piece pair_piece(const Skeleton& s, const Laying& laying, std::uint32_t h, std::
   return p;
 }
 
-/// A chain of pieces in the making: widths of two pieces that meet are averaged.
-void append(std::vector<Vertex>& path, const Piece& p) {
-  if (!path.empty() && distance(path.back().at, p.start.at) < same_um)
-    path.back().width = (path.back().width + p.start.width) / 2;
-  else
-    path.push_back(p.start);
-  path.push_back(p.end);
-}
-
 double length_of(const std::vector<Vertex>& path) {
   double sum = 0;
   for (std::size_t i = 1; i < path.size(); ++i) sum += distance(path[i - 1].at, path[i].at);
@@ -88,17 +79,34 @@ struct Chain {
   double before = 0, after = 0;  ///< how far the turn at its start (end) lies beyond the node where the count changes
 };
 
+/// Width at a distance from the end of a path.
+double width_before_end(const std::vector<Vertex>& path, double d) {
+  for (std::size_t i = path.size() - 1; i > 0; --i) {
+    const double length = distance(path[i].at, path[i - 1].at);
+    if (length >= d) return path[i].width + d / std::max(length, 1e-9) * (path[i - 1].width - path[i].width);
+    d -= length;
+  }
+  return path.front().width;
+}
+
+/// How much to take from the end of a path so that a turn there, half as wide again, ends `beyond` before the end.
+double turning_room(const std::vector<Vertex>& path, double beyond) {
+  double d = 0;
+  for (int round = 0; round < 4; ++round) d = std::max(0.0, width_before_end(path, d) / 2 + beyond);
+  return d;
+}
+
 /// Where a wall turns back in the middle of a part, its turn lies half its width inside its own stretch: the bead on
 /// the axis begins behind it.
 void set_back(Chain& chain) {
   auto& path = chain.path;
-  const double head = std::max(0.0, path.front().width / 2 + chain.before);
-  const double tail = std::max(0.0, path.back().width / 2 + chain.after), length = length_of(path);
-  const double scale = std::min(1.0, 0.9 * length / std::max(1.0, head + tail));
-  shorten(path, tail * scale);
+  const double tail = turning_room(path, chain.after);
   std::reverse(path.begin(), path.end());
+  const double head = turning_room(path, chain.before);
+  const double scale = std::min(1.0, 0.9 * length_of(path) / std::max(1.0, head + tail));
   shorten(path, head * scale);
   std::reverse(path.begin(), path.end());
+  shorten(path, tail * scale);
 }
 
 struct Loop {
@@ -124,6 +132,18 @@ Line joined(Loop& loop, int inset) {
 
 }  // namespace
 
+void append(std::vector<Vertex>& path, Vertex start, const Vertex& end) {
+  if (path.empty() || distance(path.back().at, start.at) >= same_um) {
+    path.push_back(start);
+  } else if (std::abs(path.back().width - start.width) <= 4) {
+    path.back().width = (path.back().width + start.width) / 2;
+  } else {  // the step stays where it is, or it would be spread over the length of the pieces
+    const double length = distance(start.at, end.at), t = std::min(0.5, 20 / std::max(1.0, length));
+    path.push_back({lerp(start.at, end.at, t), start.width + t * (end.width - start.width)});
+  }
+  path.push_back(end);
+}
+
 std::vector<Line> trace_pairs(const Skeleton& s, const Laying& laying) {
   std::vector<Line> out;
   const auto halves = static_cast<std::uint32_t>(s.halves.size());
@@ -142,7 +162,7 @@ std::vector<Line> trace_pairs(const Skeleton& s, const Laying& laying) {
       do {
         seen[first[h] + k] = 1;
         const Piece piece = pair_piece(s, laying, h, k);
-        append(loop.chains.back().path, piece);
+        append(loop.chains.back().path, piece.start, piece.end);
         std::uint32_t g = s.halves[h].next;
         while (laying.spans[g / 2].pairs <= i) g = s.halves[Skeleton::twin(g)].next;
         turned_last = false;

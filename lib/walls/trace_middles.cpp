@@ -82,6 +82,16 @@ class Tracer {
 
   Vertex vertex(Place at, double width) const { return {at, width}; }
 
+  /// Where the part widens abruptly: the area between the ribs, as a share of the bead's.
+  double fit(std::uint32_t h, double a, double b, double bead) const {
+    const auto &p = s_.start(h), &q = s_.end(h);
+    const std::uint32_t t = Skeleton::twin(h);
+    a = std::min(a, p.clearance), b = std::min(b, q.clearance);
+    const double area = quad_area(s_.on_start_rib(h, a), s_.on_end_rib(h, b), q.at, p.at) +
+                        quad_area(s_.on_start_rib(t, b), s_.on_end_rib(t, a), p.at, q.at);
+    return bead > 1 ? std::clamp(area / bead, 0.5, 1.1) : 1.0;
+  }
+
   void follow(std::uint32_t h, bool closed, std::vector<std::uint8_t>& seen) {
     Line line;
     line.closed = closed;
@@ -93,22 +103,12 @@ class Tracer {
       const auto k = static_cast<std::size_t>(laying_.spans[h / 2].pairs);
       const double a = laying_.start(h)[k], b = laying_.end(h)[k];
       const auto &p = s_.start(h), &q = s_.end(h);
-      const std::uint32_t t = Skeleton::twin(h);
       double wa = 2 * std::max(0.0, p.clearance - a), wb = 2 * std::max(0.0, q.clearance - b);
-      const double length = distance(p.at, q.at), mean = (wa + wb) / 2;
-      if (length >= 1 && mean >= 1) {
-        const double area = quad_area(s_.on_start_rib(h, std::min(a, p.clearance)),
-                                      s_.on_end_rib(h, std::min(b, q.clearance)), q.at, p.at) +
-                            quad_area(s_.on_start_rib(t, std::min(b, q.clearance)),
-                                      s_.on_end_rib(t, std::min(a, p.clearance)), p.at, q.at);
-        const double f = std::clamp(area / (mean * length), 0.5, 1.6);
-        wa *= f, wb *= f;
-      }
-      if (line.path.empty())
-        line.path.push_back({p.at, wa});
-      else
-        line.path.back().width = (line.path.back().width + wa) / 2;
-      line.path.push_back({q.at, wb});
+      // The ribs lean against the axis by the angle at which the part tapers; the bead is measured across the axis.
+      const double length = distance(p.at, q.at), lean = std::abs(q.clearance - p.clearance) / std::max(1.0, length);
+      const double f = lean < 0.35 ? 1 / std::sqrt(1 - lean * lean) : fit(h, a, b, (wa + wb) / 2 * length);
+      wa *= f, wb *= f;
+      append(line.path, {p.at, wa}, {q.at, wb});
       last = h;
       h = onward_[h];
     }
@@ -203,15 +203,18 @@ class Tracer {
       const double length = distance(ring[i], ring[(i + 1) % ring.size()]);
       if (length > longest) longest = length, d = unit(ring[i], ring[(i + 1) % ring.size()]);
     }
-    Line line;
-    double most = 0;
     const Place centre = s_.start(start).at;
-    for (const Place p : ring) most = std::max(most, -((p.x - centre.x) * d.x + (p.y - centre.y) * d.y));
-    const Place from{centre.x - most * d.x, centre.y - most * d.y};
-    line.path.push_back({from, 0});
-    slice(ring, from, d, line.path);
-    if (line.path.size() < 2) return;
-    line.path.front().width *= 2;
+    double behind = 0, ahead = 0, area = 0;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const double at = (ring[i].x - centre.x) * d.x + (ring[i].y - centre.y) * d.y;
+      behind = std::min(behind, at), ahead = std::max(ahead, at);
+      area += cross(centre, ring[i], ring[(i + 1) % ring.size()]) / 2;
+    }
+    if (ahead - behind < 1) return;
+    const double width = area / (ahead - behind);
+    Line line;
+    line.path.push_back({{centre.x + behind * d.x, centre.y + behind * d.y}, width});
+    line.path.push_back({{centre.x + ahead * d.x, centre.y + ahead * d.y}, width});
     out_.push_back(std::move(line));
   }
 

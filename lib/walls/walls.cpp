@@ -8,12 +8,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+
+#include <fmt/format.h>
 
 namespace weft::walls {
 namespace {
 
-constexpr double chord_um = 4;  // how far a chord may stand off a bead that bends around a corner
+constexpr double corner_deg = 60;  // walls are led into the tip of a sharper corner
+constexpr double chord_um = 4;     // how far a chord may stand off a bead that bends around a corner
 
 void add_rings(const Regions& at, Um width, std::uint16_t inset, std::uint32_t part, Beads& out) {
   auto add = [&](const Ring& ring) {
@@ -65,7 +69,8 @@ struct Part {
   bool valid = true;
 };
 
-Part build_part(const WallSettings& settings, const Widths& widths, const Region& region, std::uint32_t index) {
+Part build_part(const WallSettings& settings, const Widths& widths, const Region& region, Um nozzle,
+                std::uint32_t index) {
   Part out;
   const auto axis = geometry::medial_axis(region);
   if (!axis.valid) {
@@ -76,7 +81,8 @@ Part build_part(const WallSettings& settings, const Widths& widths, const Region
   Skeleton skeleton = skeleton_of(axis, chord_um);
   LayingOptions options;
   options.steep = std::sin(settings.wall_transition_angle / 2 * std::numbers::pi / 180);
-  options.ramp = settings.wall_transition_length.of(400);
+  options.corner = std::max(options.steep, std::sin(corner_deg / 2 * std::numbers::pi / 180));
+  options.ramp = settings.wall_transition_length.of(nozzle);
   options.filter = settings.wall_transition_filter_distance;
   const Laying laying = lay(skeleton, widths, options);
   FinishOptions finishing;
@@ -95,22 +101,71 @@ Part build_part(const WallSettings& settings, const Widths& widths, const Region
   return out;
 }
 
+/// The regions with their outlines moved by the xy offsets.
+Regions offset_outlines(const WallSettings& settings, const Regions& regions, std::size_t layer) {
+  const Um by = settings.xy_offset + (layer == 0 ? settings.xy_offset_layer_0 : 0);
+  const Um holes_by = settings.hole_xy_offset - by;
+  if (by == 0 && holes_by == 0) return regions;
+  Regions solid, holes;
+  for (const Region& region : regions) {
+    solid.push_back({region.outer, {}});
+    for (const Ring& hole : region.holes) holes.push_back({Ring(hole.rbegin(), hole.rend()), {}});
+  }
+  if (by != 0) solid = geometry::offset(solid, {.by = by});
+  if (holes_by != 0) holes = geometry::offset(holes, {.by = holes_by});
+  return geometry::subtract(solid, holes);
+}
+
+bool inside(const Regions& regions, Point p) {
+  return std::any_of(regions.begin(), regions.end(), [&](const Region& region) {
+    return side_of(region.outer, p) == Side::inside &&
+           std::none_of(region.holes.begin(), region.holes.end(),
+                        [&](const Ring& hole) { return side_of(hole, p) == Side::inside; });
+  });
+}
+
+/// Over air there is nothing to press a bead against: it keeps the width the nozzle gives it.
+void steady_over_air(const Regions& over_air, const Widths& widths, Beads& beads) {
+  const Box box = box_of(over_air);
+  if (box.empty()) return;
+  for (Bead& bead : beads)
+    for (Junction& j : bead.path)
+      if (j.flow == 1.F && box.contains(j.at) && inside(over_air, j.at))
+        j.width = rounded(bead.inset == 0 ? widths.outer : widths.inner);
+}
+
+std::string place_of(const WallInput& input, const Region& region) {
+  const Point at = box_of(region.outer).centre();
+  return fmt::format("layer {} (z {:.3f}), around {:.2f}, {:.2f}", input.index, to_mm(input.layer.z), to_mm(at.x),
+                     to_mm(at.y));
+}
+
 }  // namespace
 
 WallLayer build(const WallSettings& settings, const WallInput& input) {
+  constexpr double worth_a_notice_mm = 0.5;  // the last bit of every tip is thinner than any bead
   WallLayer out;
   const Widths widths = widths_of(settings, input.nozzle_diameter, input.layer.height, input.index);
+  const Regions regions = offset_outlines(settings, input.layer.regions, input.index);
   if (widths.walls == 0) {
-    out.inside = input.layer.regions;
+    out.inside = regions;
     return out;
   }
-  for (std::uint32_t i = 0; i < input.layer.regions.size(); ++i) {
-    Part part = build_part(settings, widths, input.layer.regions[i], i);
+  for (std::uint32_t i = 0; i < regions.size(); ++i) {
+    Part part = build_part(settings, widths, regions[i], input.nozzle_diameter, i);
+    if (input.over_air != nullptr) steady_over_air(*input.over_air, widths, part.beads);
     put_in_order(part.beads, settings.wall_order);
-    out.beads.insert(out.beads.end(), std::make_move_iterator(part.beads.begin()),
-                     std::make_move_iterator(part.beads.end()));
-    out.inside.insert(out.inside.end(), std::make_move_iterator(part.inside.begin()),
-                      std::make_move_iterator(part.inside.end()));
+    if (!part.valid)
+      out.notices.push_back({"walls_without_medial_axis",
+                             place_of(input, regions[i]) +
+                                 ": the outline crosses itself; its walls are concentric and thin places stay empty"});
+    if (part.dropped_mm > worth_a_notice_mm || (part.beads.empty() && part.inside.empty()))
+      out.notices.push_back(
+          {"thin_feature_dropped",
+           fmt::format("{}: {:.2f} mm of a part thinner than {:.3f} mm are left out", place_of(input, regions[i]),
+                       part.dropped_mm, to_mm(settings.min_feature_size))});
+    std::move(part.beads.begin(), part.beads.end(), std::back_inserter(out.beads));
+    std::move(part.inside.begin(), part.inside.end(), std::back_inserter(out.inside));
   }
   return out;
 }

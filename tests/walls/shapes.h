@@ -1,0 +1,48 @@
+#pragma once
+#include "core/polygon.h"
+#include "walls/walls.h"
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace weft::test {
+
+inline Ring rectangle(Um x, Um y, Um width, Um depth) {
+  return {{x, y}, {x + width, y}, {x + width, y + depth}, {x, y + depth}};
+}
+
+inline Ring circle(Point centre, Um radius, int corners, bool hole = false) {
+  Ring ring;
+  for (int i = 0; i < corners; ++i) {
+    const double a = 2 * std::numbers::pi * (hole ? -i : i) / corners;
+    ring.push_back({centre.x + rounded(radius * std::cos(a)), centre.y + rounded(radius * std::sin(a))});
+  }
+  return ring;
+}
+
+/// A star-shaped polygon with random corners: convex and reflex, thick and thin.
+inline Ring random_ring(std::mt19937& random) {
+  const int corners = 3 + static_cast<int>(random() % 14);
+  const double size = 400 + static_cast<double>(random() % 6000);
+  Ring ring;
+  for (int i = 0; i < corners; ++i) {
+    const double share = 0.25 + 0.75 * static_cast<double>(random() % 1000) / 1000;
+    const double a = 2 * std::numbers::pi * (i + 0.6 * static_cast<double>(random() % 1000) / 1000) / corners;
+    ring.push_back({rounded(size * share * std::cos(a)), rounded(size * share * std::sin(a))});
+  }
+  return ring;
+}
+
+inline SlicedLayer layer_of(Regions regions) {
+  return {0.2_mm, 0.2_mm, std::move(regions)};
+}
+
+/// Area of the bands of all beads, mm².
+inline double bead_area_mm2(const WallLayer& walls) {
+  double sum = 0;
+  for (const Bead& bead : walls.beads) sum += volume_mm3(bead, 1_mm);
+  return sum;
+}
+
+}  // namespace weft::test

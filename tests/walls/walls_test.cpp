@@ -1,0 +1,107 @@
+#include "walls/walls.h"
+
+#include "model/flow.h"
+#include "walls/shapes.h"
+
+#include <catch2/catch.hpp>
+
+using namespace weft;
+using namespace weft::test;
+
+namespace {
+WallLayer walls_of(const Regions& regions, const WallSettings& settings = {}, Um nozzle = 0.4_mm) {
+  const SlicedLayer layer = layer_of(regions);
+  return walls::build(settings, {.layer = layer, .index = 1, .nozzle_diameter = nozzle});
+}
+}  // namespace
+
+TEST_CASE("walls: a strip narrower than one bead gets a single centred bead from end to end", "[walls]") {
+  const auto walls = walls_of({{rectangle(0, 0, 10_mm, 0.4_mm), {}}});
+  REQUIRE(walls.beads.size() == 1);
+  const Bead& bead = walls.beads[0];
+  CHECK_FALSE(bead.closed);
+  CHECK(length_mm(bead) == Approx(10.0).margin(0.01));
+  for (const Junction& j : bead.path) {
+    CHECK(j.at.y == Approx(200).margin(1));
+    CHECK(j.width == Approx(400).margin(2));
+  }
+}
+
+TEST_CASE("walls: flow compensation plans a thin rib at a stable width with less flow", "[walls]") {
+  struct Row {
+    Um rib, width;
+    double flow;
+  };
+  const auto row = GENERATE(Row{50, 200, 0.25}, Row{100, 200, 0.5}, Row{200, 200, 1.0}, Row{400, 400, 1.0});
+  CAPTURE(row.rib);
+  const auto walls = walls_of({{rectangle(0, 0, 10_mm, row.rib), {}}}, {}, 0.8_mm);
+  REQUIRE(walls.beads.size() == 1);
+  for (const Junction& j : walls.beads[0].path) {
+    CHECK(j.width == Approx(row.width).margin(2));
+    CHECK(j.flow == Approx(row.flow).margin(0.01));
+  }
+}
+
+TEST_CASE("walls: a rib thinner than min_feature_size is left out and named", "[walls]") {
+  const auto walls = walls_of({{rectangle(0, 0, 10_mm, 0.04_mm), {}}});
+  CHECK(walls.beads.empty());
+  REQUIRE(walls.notices.size() == 1);
+  CHECK(walls.notices[0].code == "thin_feature_dropped");
+}
+
+TEST_CASE("walls: a wide part has wall_line_count closed walls of nominal width and leaves the rest inside",
+          "[walls]") {
+  const auto walls = walls_of({{rectangle(0, 0, 20_mm, 20_mm), {}}});
+  REQUIRE(walls.beads.size() == 3);
+  for (const Bead& bead : walls.beads) CHECK(bead.closed);
+  CHECK(walls.beads[0].inset == 2);
+  CHECK(walls.beads[2].role == Role::outer_wall);
+  CHECK(area_mm2(walls.inside) + bead_area_mm2(walls) == Approx(400).epsilon(1e-4));
+}
+
+TEST_CASE("walls: the order setting decides which wall comes first", "[walls]") {
+  WallSettings settings;
+  settings.wall_order = WallOrder::outside_in;
+  CHECK(walls_of({{rectangle(0, 0, 20_mm, 20_mm), {}}}, settings).beads[0].inset == 0);
+}
+
+TEST_CASE("walls: alternate_extra_wall adds a wall on odd layers", "[walls]") {
+  WallSettings settings;
+  settings.alternate_extra_wall = true;
+  CHECK(walls_of({{rectangle(0, 0, 20_mm, 20_mm), {}}}, settings).beads.size() == 4);
+}
+
+TEST_CASE("walls: xy offsets move outlines and holes", "[walls]") {
+  WallSettings settings;
+  settings.xy_offset = 0.1_mm;
+  settings.hole_xy_offset = 0.3_mm;
+  const Ring hole = circle({10_mm, 10_mm}, 3_mm, 60, true);
+  const auto walls = walls_of({{rectangle(0, 0, 20_mm, 20_mm), {hole}}}, settings);
+  const double expected = 20.2 * 20.2 - std::numbers::pi * 3.2 * 3.2;
+  CHECK(area_mm2(walls.inside) + bead_area_mm2(walls) == Approx(expected).epsilon(0.003));
+}
+
+TEST_CASE("walls: no bead is wider than max_wall_line_width allows", "[walls]") {
+  const Um thickness = GENERATE(600, 900, 1200, 1500, 2100, 2700);
+  const auto walls = walls_of({{rectangle(0, 0, 10_mm, thickness), {}}});
+  for (const Bead& bead : walls.beads)
+    for (const Junction& j : bead.path) CHECK(j.width <= 0.9_mm);
+}
+
+TEST_CASE("walls: a wedge is filled to its tip", "[walls]") {
+  const Regions wedge{{{{0, 0}, {60_mm, 1.5_mm}, {0, 3_mm}}, {}}};
+  WallSettings settings;
+  settings.wall_line_count = 10;
+  const auto walls = walls_of(wedge, settings);
+  CHECK(bead_area_mm2(walls) == Approx(area_mm2(wedge)).epsilon(0.01));
+  Um reach = 0;
+  for (const Bead& bead : walls.beads)
+    for (const Junction& j : bead.path) reach = std::max(reach, j.at.x);
+  CHECK(reach > 58.9_mm);  // there it is 0.05 mm thick
+}
+
+TEST_CASE("walls: twice the same layer gives the same beads", "[walls]") {
+  std::mt19937 random(7);
+  const Regions regions{{random_ring(random), {}}};
+  CHECK(walls_of(regions).beads == walls_of(regions).beads);
+}
