@@ -1,7 +1,10 @@
 #include "gcode/placeholders.h"
 
 #include "core/error.h"
+#include "gcode/writer.h"
+#include "settings/profile.h"
 
+#include <filesystem>
 #include <functional>
 
 #include <catch2/catch.hpp>
@@ -65,4 +68,16 @@ TEST_CASE("gcode: no name smuggles a command in") {
   Settings s;
   s.material.material_type = "PLA\nM104 S300";
   CHECK(expand("; {material_type}", variables_of(s), "x").text.find('\n') == std::string::npos);
+}
+
+TEST_CASE("gcode: the custom G-code of every profile expands") {
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(WEFT_SOURCE_DIR) + "/profiles/printers")) {
+    INFO(entry.path().filename());
+    Profile profile;
+    apply_file(profile, entry.path());
+    CHECK_NOTHROW(check_custom_code(profile.settings));
+    ++count;
+  }
+  CHECK(count >= 5);
 }
