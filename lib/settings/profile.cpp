@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "settings/catalogue.h"
 #include "settings/ini.h"
+#include "settings/prusaslicer.h"
 
 namespace weft {
 namespace {
@@ -21,8 +22,21 @@ std::string contents_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+/// Lays a PrusaSlicer config.ini over `profile`, and says what of it has no effect.
+void apply_prusaslicer(Profile& profile, const std::vector<IniEntry>& entries, const std::string& path) {
+  const auto translated = prusaslicer::translate(entries, path);
+  for (const auto& a : translated.assignments) apply_value(profile, a.key, a.text, fmt::format("{}:{}", path, a.line));
+  const auto note = [&](const char* code, const prusaslicer::Remark& r, std::string_view what) {
+    profile.notices.push_back({code, fmt::format("{}:{}: {} = {}: {}{}{}", path, r.line, r.key, r.text.substr(0, 40), what, r.why.empty() ? "" : ": ", r.why)});
+  };
+  for (const auto& r : translated.approximated) note("prusaslicer_key_approximated", r, "is translated to the nearest");
+  for (const auto& r : translated.unsupported) note("prusaslicer_key_unsupported", r, "has no effect here");
+  for (const auto& r : translated.unknown) note("prusaslicer_key_unknown", r, "is not one of PrusaSlicer's keys and has no effect");
+}
+
 void apply_file(Profile& profile, const std::filesystem::path& path, std::vector<std::filesystem::path>& chain) {
-  const auto entries = parse_ini(contents_of(path), path.string());
+  const auto text = contents_of(path);
+  const auto entries = parse_ini(text, path.string());
   std::map<std::string, int> seen;
   for (const auto& e : entries) {
     const auto [first, is_new] = seen.emplace(e.key, e.line);
@@ -30,6 +44,7 @@ void apply_file(Profile& profile, const std::filesystem::path& path, std::vector
       throw Error{Error::Kind::settings, fmt::format("'{}' was already given on line {}", e.key, first->second),
                   fmt::format("{}:{}", path.string(), e.line), "keep one of the two"};
   }
+  if (prusaslicer::recognises(text, entries)) return apply_prusaslicer(profile, entries, path.string());
   chain.push_back(std::filesystem::weakly_canonical(path));
   for (const auto& e : entries) {
     if (e.key != "inherits") continue;

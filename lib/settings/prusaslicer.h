@@ -1,0 +1,40 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "settings/ini.h"
+
+/// PrusaSlicer's flat config.ini (and SuperSlicer's and Slic3r's, as far as the keys agree) in weft's words.
+/// Source: the grammar and the conversions of old spellings as PrusaSlicer 2.9 documents and shows them in its exports.
+namespace weft::prusaslicer {
+
+/// Is this ini one of PrusaSlicer's family? Told by content: its first comment, or keys that only that family has.
+bool recognises(std::string_view text, const std::vector<IniEntry>& entries);
+
+/// One of weft's settings, and the line it comes from.
+struct Assignment {
+  std::string key, text;
+  int line = 0;
+};
+
+/// A line that does not say all of what it would say to PrusaSlicer.
+struct Remark {
+  std::string key, text;
+  int line = 0;
+  std::string why;
+};
+
+/// The fate of every line of a config.ini.
+struct Translation {
+  std::vector<Assignment> assignments;  ///< in the order of the table; lines of the same key later win
+  std::vector<Remark> not_needed;       ///< without effect here, and why that is no loss
+  std::vector<Remark> approximated;     ///< translated to the nearest that weft has
+  std::vector<Remark> unsupported;      ///< set to a value that would change the print, and not supported
+  std::vector<Remark> unknown;          ///< keys of nobody's table
+};
+
+/// @throws Error{settings} with path:line for a value that does not parse whole
+Translation translate(const std::vector<IniEntry>& entries, const std::string& path);
+
+}  // namespace weft::prusaslicer
