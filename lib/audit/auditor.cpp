@@ -25,6 +25,13 @@ double disc_area_mm2(Um diameter) {
   return std::numbers::pi * to_mm(diameter) * to_mm(diameter) / 4;
 }
 
+/// A bead of stated width is a rectangle with half-round ends, or round where it is narrower than high; its band is the
+/// rectangle of the same height and volume. Source: Slic3r manual, "flow math".
+double band_mm(double width_mm, double height_mm) {
+  constexpr double quarter_pi = std::numbers::pi / 4;
+  return width_mm >= height_mm ? width_mm - height_mm * (1 - quarter_pi) : quarter_pi * width_mm * width_mm / height_mm;
+}
+
 }  // namespace
 
 Volumes::Volumes(const MachineSettings& machine, const AuditSettings& audit)
@@ -175,7 +182,8 @@ void Auditor::judge_half_known(const Motion& m) {
   if (m.y_known) beyond(reach.min.y - m.path.to.y, Side::minus_y), beyond(m.path.to.y - reach.max.y, Side::plus_y);
 }
 
-/// Half the width of the bead that the motion lays: as its slicer states it, else what its volume spreads to at least.
+/// Half the width of the bead that the motion lays: of the band of equal volume, by the width that the slicer states,
+/// else by what the filament spreads to at least.
 double Auditor::half_bead_mm(const Motion& m) {
   const Context& context = reader_.context();
   constexpr double thickest_layer_mm = 3;
@@ -183,9 +191,10 @@ double Auditor::half_bead_mm(const Motion& m) {
     if (const double step = m.z_to - layer_z_mm_; step > 0 && step < thickest_layer_mm) layer_height_mm_ = step;
     layer_z_mm_ = m.z_to;
   }
-  if (context.width_mm() > 0) return context.width_mm() / 2;
+  const double width_mm = context.width_mm();
   const double height_mm = context.height_mm() > 0 ? context.height_mm() : layer_height_mm_;
-  if (height_mm <= 0) return 0;
+  if (height_mm <= 0) return width_mm / 2;
+  if (width_mm > 0) return band_mm(width_mm, height_mm) / 2;
   // E is written to 5 decimals and lengths to 3: on very short moves rounding alone would fake a wide bead.
   constexpr double e_rounding_mm = 1e-5, length_rounding_mm = 2e-3, widest_mm = 10;
   const double volume_mm3 = m.volumetric ? m.e_mm : (m.e_mm - e_rounding_mm) * filament_area_mm2_;

@@ -139,6 +139,9 @@ void Context::read(std::string_view c) {
     case 'l':
       if (c.starts_with("layer ") && c.find(", Z =") != std::string_view::npos) next_layer(layer_ + 1);  // Simplify3D
       break;
+    case 'b':
+      if (c == "brim") set_feature(c);  // weft, below PrusaSlicer's "Skirt/Brim"
+      break;
     case 'C':
       if (c.starts_with("CHANGE_LAYER")) next_layer(layer_ + 1);  // Bambu
       break;

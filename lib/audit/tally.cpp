@@ -16,6 +16,7 @@ Um clamped(double mm) {
 
 std::string shown(std::string_view line) {
   constexpr std::size_t most = 120;
+  if (line.ends_with('\r')) line.remove_suffix(1);
   std::string out(line.substr(0, most));
   for (char& c : out)
     if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = c == '\t' ? ' ' : '?';

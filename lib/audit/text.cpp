@@ -27,6 +27,10 @@ std::string extent_of(const Finding& f) {
   return fmt::format("{:.3f} mm beyond {} of {}", to_mm(f.outside), name_of(f.side), volume_of(f.kind));
 }
 
+constexpr const char* plural(std::int64_t n) {
+  return n == 1 ? "" : "s";
+}
+
 std::string who(const Finding& f) {
   std::string out = f.feature;
   if (!out.empty()) out += ", ";
@@ -60,7 +64,6 @@ std::string describe(const Finding& f) {
 std::string summary(const Report& r) {
   if (r.clean()) return fmt::format("{} moves checked, {} not audited", r.checked_moves, r.unaudited_moves);
   const auto outside = r.violation_count - r.damaged_count;
-  const auto plural = [](std::int64_t n) { return n == 1 ? "" : "s"; };
   std::string out;
   const Finding* const worst = worst_of(r);
   if (outside > 0) {
@@ -102,9 +105,9 @@ std::string remedy(const Report& r) {
 std::string header_value(const Report& r) {
   if (r.clean()) return fmt::format("pass, {}", summary(r));
   const auto outside = r.violation_count - r.damaged_count;
-  std::string out =
-      fmt::format("{}: {} moves outside, worst {:.3f} mm", name_of(r.verdict), outside, to_mm(r.worst_outside));
-  if (r.damaged_count > 0) out += fmt::format(", {} damaged lines", r.damaged_count);
+  std::string out = fmt::format("{}: {} move{} outside, worst {:.3f} mm", name_of(r.verdict), outside, plural(outside),
+                                to_mm(r.worst_outside));
+  if (r.damaged_count > 0) out += fmt::format(", {} damaged line{}", r.damaged_count, plural(r.damaged_count));
   return out;
 }
 

@@ -86,7 +86,7 @@ TEST_CASE("audit: features, layers and objects are read in the dialects of Prusa
       "Sparse infill\n; LINE_WIDTH: 0.5\n");
   CHECK(bambu.feature == "infill");
   CHECK(bambu.object == "15");
-  CHECK(bambu.outside == 1250);
+  CHECK(bambu.outside == 1229);
   const auto cura = finding(";LAYER_COUNT:3\n;LAYER:2\n;MESH:part.stl\n;TYPE:WALL-INNER\n");
   CHECK(cura.feature == "inner_wall");
   CHECK(cura.object == "part.stl");
