@@ -8,7 +8,7 @@ target_compile_options(weft_options INTERFACE
   -ffp-contract=off
   $<$<BOOL:${WEFT_WERROR}>:-Werror>)
 
-# -O3 pays in the medial axis and the raster loops; asserts stay on, they guard the lattice and cost nothing measurable.
+# -O3 pays in the medial axis and the raster loops.
 string(REPLACE "-O2" "-O3" CMAKE_CXX_FLAGS_RELWITHDEBINFO "${CMAKE_CXX_FLAGS_RELWITHDEBINFO}")
 set(CMAKE_CXX_FLAGS_RELEASE "-O3")
 
