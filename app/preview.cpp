@@ -1,16 +1,15 @@
-#include "preview_kind.h"
-
-#include <fmt/format.h>
+#include "audit/audit.h"
+#include "command.h"
+#include "mesh/file_bytes.h"
+#include "preview_file.h"
+#include "settings/value.h"
+#include "verbs.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <sstream>
 
-#include "audit/audit.h"
-#include "command.h"
-#include "mesh/file_bytes.h"
-#include "settings/value.h"
-#include "verbs.h"
+#include <fmt/format.h>
 
 namespace po = boost::program_options;
 
@@ -19,13 +18,17 @@ namespace {
 
 po::options_description preview_options() {
   po::options_description out("Options of weft preview");
-  out.add_options()
-    ("layer", po::value<int>()->value_name("N"), "the layer to show, from 0; -1 is the last (default: the middle one; of a page: the last)")
-    ("colour,color", po::value<std::string>()->value_name("WHAT")->default_value("feature"), "what colours tell: feature, width, speed or flow")
-    ("travels", po::bool_switch(), "show moves that do not extrude")
-    ("window", po::value<std::string>()->value_name("X1xY1,X2xY2"), "two opposite corners, in mm, of what a picture shows (default: all of the layer)")
-    ("size", po::value<int>()->value_name("PIXELS")->default_value(1600), "longer side of a picture, without its legend")
-    ("audit", po::bool_switch(), "show the machine of the profile, its no-go areas and reach, and in red every move that the audit finds outside");
+  out.add_options()("layer", po::value<int>()->value_name("N"),
+                    "the layer to show, from 0; -1 is the last (default: the middle one; of a page: the last)")(
+      "colour,color", po::value<std::string>()->value_name("WHAT")->default_value("feature"),
+      "what colours tell: feature, width, speed or flow")("travels", po::bool_switch(),
+                                                          "show moves that do not extrude")(
+      "window", po::value<std::string>()->value_name("X1xY1,X2xY2"),
+      "two opposite corners, in mm, of what a picture shows (default: all of the layer)")(
+      "size", po::value<int>()->value_name("PIXELS")->default_value(1600),
+      "longer side of a picture, without its legend")(
+      "audit", po::bool_switch(),
+      "show the machine of the profile, its no-go areas and reach, and in red every move that the audit finds outside");
   return out;
 }
 
@@ -44,7 +47,8 @@ std::optional<std::size_t> layer_of(const Command& command, std::size_t layers) 
   const int typed = command.options["layer"].as<int>(), count = static_cast<int>(layers);
   const int index = typed < 0 ? count + typed : typed;
   if (index < 0 || index >= count)
-    throw Error{Error::Kind::usage, fmt::format("there is no layer {}", typed), "--layer", fmt::format("the file has layers 0 … {}", count - 1)};
+    throw Error{Error::Kind::usage, fmt::format("there is no layer {}", typed), "--layer",
+                fmt::format("the file has layers 0 … {}", count - 1)};
   return static_cast<std::size_t>(index);
 }
 
@@ -59,7 +63,8 @@ std::optional<Box> window_of(const Command& command) {
   }
   const Box box = box_of(corners);
   if (corners.size() != 2 || box.size().x <= 0 || box.size().y <= 0)
-    throw Error{Error::Kind::usage, fmt::format("'{}' is not two corners in mm", typed), "--window", "as in --window 90x90,130x120"};
+    throw Error{Error::Kind::usage, fmt::format("'{}' is not two corners in mm", typed), "--window",
+                "as in --window 90x90,130x120"};
   return box;
 }
 
@@ -69,7 +74,8 @@ preview::Overlay overlay_of(const Profile& profile, std::string_view gcode, Cons
   listed.audit_max_findings = 1'000'000;  // every one is drawn
   const auto report = audit::examine_text(settings.machine, settings.material, listed, gcode);
   console.info(audit::summary(report));
-  preview::Overlay overlay{print_surface(settings.machine), settings.machine.bed_exclude_areas, reach_area(settings.machine), {}};
+  preview::Overlay overlay{
+      print_surface(settings.machine), settings.machine.bed_exclude_areas, reach_area(settings.machine), {}};
   for (const auto& finding : report.findings) overlay.lines.push_back(static_cast<std::uint32_t>(finding.line));
   std::sort(overlay.lines.begin(), overlay.lines.end());
   return overlay;
@@ -79,7 +85,16 @@ preview::Overlay overlay_of(const Profile& profile, std::string_view gcode, Cons
 
 preview::Kind preview_kind(const std::string& destination) {
   if (const auto kind = preview::kind_of(destination)) return *kind;
-  throw Error{Error::Kind::usage, "is neither .html nor .svg nor .png", destination, "the extension tells the kind of picture"};
+  throw Error{Error::Kind::usage, "is neither .html nor .svg nor .png", destination,
+              "the extension tells the kind of picture"};
+}
+
+void write_preview(const std::string& destination, std::string_view gcode, Um filament_diameter,
+                   const std::string& title) {
+  const auto kind = preview_kind(destination);
+  const auto paths = preview::read(gcode, filament_diameter);
+  if (paths.layers.empty()) throw Error{Error::Kind::file, "there is no motion to draw", destination};
+  write_output(destination, preview::draw(kind, paths, {.title = title}));
 }
 
 int preview(const Words& words) {
@@ -89,11 +104,13 @@ int preview(const Words& words) {
     std::ostringstream out;
     out << "weft preview FILE.gcode -o OUT.(html|svg|png)    look at toolpaths\n\n"
            "svg and png show one layer, html all of them; beads are drawn as wide as their filament makes them.\n\n"
-        << options << "\n" << common_help();
+        << options << "\n"
+        << common_help();
     return fmt::print("{}", out.str()), 0;
   }
   if (command.inputs.size() != 1)
-    throw Error{Error::Kind::usage, fmt::format("takes one G-code file, not {}", command.inputs.size()), "weft preview"};
+    throw Error{Error::Kind::usage, fmt::format("takes one G-code file, not {}", command.inputs.size()),
+                "weft preview"};
   if (!command.output) throw Error{Error::Kind::usage, "no output was given", "weft preview", "as in -o layer.png"};
   const auto kind = preview_kind(*command.output);
 
@@ -102,7 +119,8 @@ int preview(const Words& words) {
   const mesh::FileBytes file(command.inputs[0]);
   const std::string_view gcode = file.view();
   const auto paths = preview::read(gcode, profile.settings.material.filament_diameter);
-  if (paths.layers.empty()) throw Error{Error::Kind::file, "holds no motion that could be drawn", command.inputs[0], "is it G-code?"};
+  if (paths.layers.empty())
+    throw Error{Error::Kind::file, "holds no motion that could be drawn", command.inputs[0], "is it G-code?"};
   preview::View view;
   view.colour = colour_of(command.options["colour"].as<std::string>());
   view.travels = command.options["travels"].as<bool>();

@@ -9,6 +9,7 @@
 #include "core/hash.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/write_file.h"
+#include "preview_file.h"
 #include "verbs.h"
 
 namespace po = boost::program_options;
@@ -105,6 +106,9 @@ int slice(const Words& words) {
   if (command.output == "-" && command.report == "-")
     throw Error{Error::Kind::usage, "G-code and report cannot both go to standard output", "--report", "name a file for one of them"};
 
+  const auto preview = command.options.count("preview") ? command.options["preview"].as<std::string>() : std::string();
+  if (!preview.empty()) (void)preview_kind(preview);  // refused before the work, not after it
+
   Console console(command.console);
   std::signal(SIGINT, note_interrupt);
   std::signal(SIGTERM, note_interrupt);
@@ -124,6 +128,9 @@ int slice(const Words& words) {
     watch.cancelled = [] { return interrupted.load(); };
     const auto gcode = run(job_of(command, profile.settings), watch, report);
     for (std::size_t i = profile.notices.size(); i < report.warnings.size(); ++i) console.warning(report.warnings[i]);
+    if (gcode && !preview.empty())
+      write_preview(preview, gcode->gcode(), profile.settings.material.filament_diameter,
+                    std::filesystem::path(command.inputs.front()).filename().string());
     if (gcode) write_output(*command.output, gcode->gcode());
     finish();
     if (!gcode) throw Error{Error::Kind::audit, report.error, {}, {}};

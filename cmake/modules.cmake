@@ -20,6 +20,7 @@ function(weft_module name)
   target_include_directories(weft_${name} ${scope}
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/weft>)
   target_link_libraries(weft_${name} ${scope} ${used} ${arg_PUBLIC})
+  target_compile_features(weft_${name} ${scope} cxx_std_20)  # also of programs that embed it
   set_property(GLOBAL APPEND PROPERTY WEFT_MODULES ${name})
   file(APPEND ${CMAKE_BINARY_DIR}/modules.txt "${name}:${arg_USES}\n")
 endfunction()

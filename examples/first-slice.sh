@@ -13,10 +13,10 @@ weft=build/release/app/weft
 
 mkdir -p "$out"
 "$weft" slice examples/bracket.stl -p "$printer" -p profiles/materials/pla.ini -p profiles/quality/standard.ini -o "$out/bracket.gcode"
-"$weft" preview "$out/bracket.gcode" --layer 10 -o "$out/bracket-layer-10.png"
+"$weft" preview "$out/bracket.gcode" --layer 30 --colour width -o "$out/bracket-layer-30.png"
 "$weft" preview "$out/bracket.gcode" -o "$out/bracket.html"
 
 echo
 echo "G-code, audited:       $out/bracket.gcode"
-echo "a layer as a picture:  $out/bracket-layer-10.png"
+echo "a layer as a picture:  $out/bracket-layer-30.png"
 echo "all layers:            $out/bracket.html   (open it in a browser)"

@@ -11,5 +11,4 @@
 /// Everything else below this folder may change without notice.
 
 #include "pipeline/pipeline.h"
-#include "pipeline/write_file.h"
 #include "settings/profile.h"

@@ -2,6 +2,7 @@
 #include "audit/audit.h"
 #include "mesh/mesh.h"
 #include "pipeline/report.h"
+#include "pipeline/write_file.h"
 #include "settings/settings.h"
 
 #include <functional>
@@ -41,5 +42,10 @@ struct Watch {
 /// @return the G-code, or nothing when the audit rejected it; report.status and report.error say so
 /// @throws Error of any other kind
 std::optional<audit::Passed> run(const Job& job, const Watch& watch, Report& report);
+
+/// Writes G-code that has passed the audit; nothing else has this type. @throws Error{file}
+inline void write_gcode(const std::filesystem::path& destination, const audit::Passed& gcode) {
+  write_file(destination, gcode.gcode());
+}
 
 }  // namespace weft

@@ -18,6 +18,7 @@ Rgb darker(Rgb colour);
 std::string css(Rgb colour);  ///< "#e8722e"
 
 inline constexpr Rgb travel_colour{110, 150, 200};
+inline constexpr Rgb compensated_colour{235, 0, 190};
 inline constexpr Rgb offending_colour{230, 0, 30};
 inline constexpr Rgb no_go_colour{200, 90, 90};
 inline constexpr Rgb bed_colour{120, 120, 130};

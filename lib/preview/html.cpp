@@ -159,10 +159,10 @@ std::string html(const Toolpaths& paths, const View& view, const std::optional<O
   fmt::format_to(
       std::back_inserter(out),
       "const page={{title:{},features:[{}],ramp:[{}],overlay:{},colour:\"{}\",travels:{},layer:{},layers:{},grain:{},\n"
-      "colours:{{travel:\"{}\",outside:\"{}\",noGo:\"{}\",bed:\"{}\",reach:\"{}\"}},\ndata:\"",
+      "colours:{{reduced:\"{}\",travel:\"{}\",outside:\"{}\",noGo:\"{}\",bed:\"{}\",reach:\"{}\"}},\ndata:\"",
       quoted(view.title), features, ramps, overlay_json(overlay), name_of(view.colour), view.travels,
-      std::min(view.layer.value_or(last), last), paths.layers.size(), grain / 1000.0, css(travel_colour),
-      css(offending_colour), css(no_go_colour), css(bed_colour), css(reach_colour));
+      std::min(view.layer.value_or(last), last), paths.layers.size(), grain / 1000.0, css(compensated_colour),
+      css(travel_colour), css(offending_colour), css(no_go_colour), css(bed_colour), css(reach_colour));
   out += packed.base64();
   out += "\"};\n";
   out += page_script;

@@ -70,7 +70,7 @@ std::vector<std::uint8_t> png(const Toolpaths& paths, const View& view, const st
   for (const Line& line : scene.beads) painter.line(line, painter.pixels(line.width), darker(line.colour));
   for (const Line& line : scene.beads)
     painter.line(line, painter.pixels(std::max(line.width - 2 * edge, line.width / 2)), line.colour);
-  for (const Line& line : scene.marks) painter.line(line, 1.5, line.colour);
+  for (const Line& line : scene.marks) painter.line(line, 1, line.colour);
   for (const Line& line : scene.travels) painter.line(line, 1, line.colour);
   for (const Line& line : scene.offending) painter.line(line, 3, line.colour);
   draw_legend(image, scene, frame.width);

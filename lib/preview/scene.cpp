@@ -58,7 +58,7 @@ void add_legend(Scene& scene, const Toolpaths& paths, const View& view, const Pa
           {ramp(share), fmt::format("{:.{}f} {}", value, view.colour == Colour::speed ? 0 : 2, unit_of(view.colour))});
     }
   }
-  if (!scene.marks.empty()) scene.legend.push_back({{255, 255, 255}, "flow reduced"});
+  if (!scene.marks.empty()) scene.legend.push_back({compensated_colour, "flow reduced"});
   if (!scene.travels.empty()) scene.legend.push_back({travel_colour, "travel"});
   if (!scene.offending.empty()) scene.legend.push_back({offending_colour, "outside"});
   if (!scene.no_go.empty()) scene.legend.push_back({no_go_colour, "no-go area"});
@@ -90,7 +90,7 @@ Scene scene_of(const Toolpaths& paths, const View& view, const std::optional<Ove
     const Rgb colour =
         by_feature ? colour_of(paths.features[stroke.feature]) : ramp(range.share(measure(stroke, view.colour)));
     append(scene.beads, stroke, stroke.width, colour);
-    if (stroke.compensated) append(scene.marks, stroke, 0, {255, 255, 255});
+    if (stroke.compensated) append(scene.marks, stroke, 0, compensated_colour);
   }
   scene.box = view.window.value_or(scene.box.grown(margin));
   if (!view.title.empty()) scene.title.push_back(view.title);

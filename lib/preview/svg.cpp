@@ -107,7 +107,7 @@ std::string svg(const Toolpaths& paths, const View& view, const std::optional<Ov
   for (const Ring& area : scene.no_go) write_outline(out, area, no_go_colour, 0.25);
   write_beads(out, scene.beads, true);
   write_beads(out, scene.beads, false);
-  write_hairlines(out, scene.marks, 1.5);
+  write_hairlines(out, scene.marks, 1);
   write_hairlines(out, scene.travels, 1);
   write_hairlines(out, scene.offending, 3);
   out += "</g></svg>\n<g font-family=\"sans-serif\" font-size=\"15\" fill=\"#222\">\n";

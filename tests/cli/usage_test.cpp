@@ -7,7 +7,7 @@ using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 
 TEST_CASE("command line: help and version are answers on standard output") {
-  for (const auto& words : {std::vector<std::string>{"--help"}, {"slice", "--help"}, {"settings", "-h"}, {"inspect", "--help"}}) {
+  for (const auto& words : {std::vector<std::string>{"--help"}, {"slice", "--help"}, {"settings", "-h"}, {"inspect", "--help"}, {"preview", "--help"}}) {
     const auto run = weft(words);
     CHECK(run.status == 0);
     CHECK_THAT(run.out, Contains("--profile"));
