@@ -3,6 +3,7 @@
 #include <atomic>
 #include <csignal>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "command.h"
@@ -81,6 +82,16 @@ Job job_of(const Command& command, const Settings& settings) {
 std::atomic<bool> interrupted = false;
 extern "C" void note_interrupt(int) { interrupted = true; }
 
+/// The first `most` of each kind, and how many more there are: thousands of layers must not bury what matters. The report
+/// has them all.
+void warn(Console& console, const Notices& notices, std::size_t most) {
+  std::map<std::string, std::size_t> said;
+  for (const auto& notice : notices)
+    if (++said[notice.code] <= most) console.warning(notice);
+  for (const auto& [code, count] : said)
+    if (count > most) console.warning({code, fmt::format("{} more of the kind {}; -v shows them, --report lists them", count - most, code)});
+}
+
 std::string duration(double seconds) {
   const auto s = static_cast<long long>(seconds + 0.5);
   return s < 3600 ? fmt::format("{}m {}s", s / 60, s % 60) : fmt::format("{}h {}m", s / 3600, s / 60 % 60);
@@ -116,18 +127,17 @@ int slice(const Words& words) {
 
   Report report;
   const auto finish = [&] {
+    warn(console, report.warnings, command.console.verbosity == Verbosity::detail ? report.warnings.size() : 3);
     report.peak_memory_mb = peak_memory_mb();
     if (command.report) write_output(*command.report, to_json(report));
   };
   try {
     const auto profile = resolve(command);
-    for (const auto& notice : profile.notices) console.warning(notice);
     report.warnings = profile.notices;
     Watch watch;
     watch.progress = [&](std::string_view stage, double share) { console.progress(stage, share); };
     watch.cancelled = [] { return interrupted.load(); };
     const auto gcode = run(job_of(command, profile.settings), watch, report);
-    for (std::size_t i = profile.notices.size(); i < report.warnings.size(); ++i) console.warning(report.warnings[i]);
     if (gcode && !preview.empty())
       write_preview(preview, gcode->gcode(), profile.settings.material.filament_diameter,
                     std::filesystem::path(command.inputs.front()).filename().string());
