@@ -14,11 +14,14 @@ inline constexpr double sliver_area_um2 = 400;
 /// How far a chord may stand off a round corner made by an offset. geometry/offset.
 inline constexpr Um arc = 5_um;
 
+/// How far a bead's path may be moved to be printed with fewer moves. motion/resample.
+inline constexpr Um path = 5_um;
+
 /// A segment along which a bead's band changes by more than this is cut, because firmware extrudes evenly along a segment.
-/// motion/speeds.
+/// motion/resample.
 inline constexpr Um band_step = 20_um;
 
-/// No piece of such a cut is shorter: firmware would choke on the moves, and plastic does not follow. motion/speeds.
+/// No piece of such a cut is shorter: firmware would choke on the moves, and plastic does not follow. motion/resample.
 inline constexpr Um shortest_piece = 0.2_mm;
 
 }  // namespace weft::tolerances

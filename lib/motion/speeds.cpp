@@ -1,7 +1,7 @@
 #include "motion/speeds.h"
 
-#include "core/tolerances.h"
 #include "model/flow.h"
+#include "motion/resample.h"
 
 #include <algorithm>
 #include <cmath>
@@ -168,32 +168,6 @@ double travel_acceleration_mm_s2(const Rules& rules) {
                    rules.machine.machine_max_acceleration_x, rules.machine.machine_max_acceleration_y});
 }
 
-void cut_where_width_changes(std::vector<Junction>& path) {
-  const auto pieces_of = [](const Junction& a, const Junction& b) {
-    const double change_um = std::abs(a.width * static_cast<double>(a.flow) - b.width * static_cast<double>(b.flow));
-    if (change_um <= tolerances::band_step) return 1;
-    return std::max(1, static_cast<int>(std::min(std::ceil(change_um / tolerances::band_step),
-                                                 distance(a.at, b.at) / tolerances::shortest_piece)));
-  };
-  std::size_t count = path.empty() ? 0 : 1;
-  for (std::size_t i = 1; i < path.size(); ++i) count += static_cast<std::size_t>(pieces_of(path[i - 1], path[i]));
-  if (count == path.size()) return;
-  std::vector<Junction> out;
-  out.reserve(count);
-  out.push_back(path.front());
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    const auto &a = path[i - 1], &b = path[i];
-    const int pieces = pieces_of(a, b);
-    for (int k = 1; k < pieces; ++k) {
-      const double t = static_cast<double>(k) / pieces;
-      out.push_back({lerp(a.at, b.at, t), rounded(a.width + t * (b.width - a.width)),
-                     static_cast<float>(a.flow + t * static_cast<double>(b.flow - a.flow))});
-    }
-    out.push_back(b);
-  }
-  path = std::move(out);
-}
-
 void set_bead_speed(const Rules& rules, Extrude& bead, bool first_layer) {
   const double speed = with_small_perimeter(rules, bead, feature_speed_mm_s(rules, bead.role, first_layer));
   const double height_mm = to_mm(bead.height), share = rules.material.material_flow / 100.0;
@@ -249,7 +223,7 @@ void set_speeds(const Rules& rules, LayerPlan& layer, bool first_layer, std::opt
         set_travel(travel);
         steps.emplace_back(std::move(travel));
       }
-      cut_where_width_changes(bead->path);
+      resample(bead->path);
       set_bead_speed(rules, *bead, first_layer);
       bead->acceleration_mm_s2 = write_accelerations ? feature_acceleration_mm_s2(rules, bead->role, first_layer) : 0;
       at = Point3{bead->path.back().at.x, bead->path.back().at.y, layer.z};

@@ -12,15 +12,12 @@ double feature_speed_mm_s(const Rules& rules, Role role, bool first_layer);
 double feature_acceleration_mm_s2(const Rules& rules, Role role, bool first_layer);
 double travel_acceleration_mm_s2(const Rules& rules);
 
-/// Cuts segments along which the band times flow changes by more than tolerances::band_step.
-void cut_where_width_changes(std::vector<Junction>& path);
-
 /// Sets the speed of a bead, one a segment where its width asks for it: mm³/s stay below material_max_volumetric_speed
 /// at every junction and change no faster than max_extrusion_rate_slope between them. Neighbouring segments whose
 /// speeds differ by less than 5 % share the lower one. Pre: the path has been cut.
 void set_bead_speed(const Rules& rules, Extrude& bead, bool first_layer);
 
-/// Speeds, accelerations and cuts for every step; a Travel is put in where a bead begins away from the nozzle.
+/// Speeds, accelerations and resampling for every step; a Travel is put in where a bead begins away from the nozzle.
 void set_speeds(const Rules& rules, LayerPlan& layer, bool first_layer, std::optional<Point3> start);
 
 }  // namespace weft::motion

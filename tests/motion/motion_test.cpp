@@ -3,6 +3,7 @@
 #include "model/flow.h"
 #include "motion/cooling.h"
 #include "motion/kinematics.h"
+#include "motion/resample.h"
 #include "motion/speeds.h"
 
 #include <cmath>
@@ -176,6 +177,55 @@ TEST_CASE("motion: a bead whose width changes is cut so that each piece may be o
   auto even = line({{0, 400}, {20'000, 400}});
   cut_where_width_changes(even.path);
   CHECK(even.path.size() == 2);
+}
+
+TEST_CASE("motion: a path sampled finely is printed with few moves, in place, in width and in volume what it was") {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> noise(-1, 1);
+  for (int n = 0; n < 50; ++n) {
+    Bead fine{{}, Role::inner_wall};
+    const double radius = 3'000 + 200 * n, wave = 1 + n % 7;
+    for (double a = 0; a < 5; a += 0.004)
+      fine.path.push_back(
+          {{rounded(radius * std::cos(a) + noise(random)), rounded(radius * std::sin(a) + noise(random))},
+           rounded(400 + 150 * std::sin(wave * a)),
+           n % 3 == 0 ? static_cast<float>(0.75 + 0.25 * std::cos(a)) : 1.F});
+    Bead thin = fine;
+    resample(thin.path);
+    CHECK(thin.path.size() < fine.path.size() / 3);
+    CHECK(volume_mm3(thin, 200) == Approx(volume_mm3(fine, 200)).epsilon(0.006));
+    CHECK(length_mm(thin) == Approx(length_mm(fine)).epsilon(0.004));  // less the noise
+    CHECK(thin.path.front() == fine.path.front());
+    CHECK(thin.path.back() == fine.path.back());
+    for (const auto& j : fine.path) {  // the nearest place on the thin path is near, and as wide
+      double nearest = 1e9, change = 1e9;
+      for (std::size_t i = 1; i < thin.path.size(); ++i) {
+        const auto &a = thin.path[i - 1], &b = thin.path[i];
+        const double x = b.at.x - a.at.x, y = b.at.y - a.at.y, px = j.at.x - a.at.x, py = j.at.y - a.at.y;
+        const double t = std::clamp((px * x + py * y) / (x * x + y * y), 0.0, 1.0),
+                     d = std::hypot(px - t * x, py - t * y);
+        const double qa = a.width * static_cast<double>(a.flow), qb = b.width * static_cast<double>(b.flow);
+        if (d < nearest) nearest = d, change = std::abs(qa + t * (qb - qa) - j.width * static_cast<double>(j.flow));
+      }
+      REQUIRE(nearest <= 6.5);  // the tolerance, and rounding of cuts to the lattice
+      REQUIRE(change <= 14);
+    }
+  }
+}
+
+TEST_CASE("motion: thinning keeps corners, steps of width, and closed paths of two points and more") {
+  auto corner = square(10'000).path;
+  thin_out(corner);
+  CHECK(corner.size() == 5);
+  auto step = line({{0, 300}, {5'000, 300}, {5'020, 500}, {5'040, 500}, {10'000, 500}}).path;
+  thin_out(step);
+  CHECK(step.size() == 4);
+  auto there_and_back = line({{0, 300}, {5'000, 300}, {0, 300}}).path;
+  thin_out(there_and_back);
+  CHECK(there_and_back.size() == 3);
+  auto nothing = line({{0, 300}, {0, 300}, {0, 300}}).path;
+  thin_out(nothing);
+  CHECK(nothing.size() == 2);
 }
 
 TEST_CASE("motion: F does not change at every segment of a bead that widens") {

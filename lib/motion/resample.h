@@ -1,0 +1,25 @@
+#pragma once
+#include "model/bead.h"
+
+#include <vector>
+
+/// Firmware takes a limited number of moves a second and extrudes evenly along each. So beads get as few moves as their
+/// shape allows, and as many as their change of width needs.
+namespace weft::motion {
+
+/// Drops junctions that tell nothing: the path stays within tolerances::path, band times flow within half of
+/// tolerances::band_step of what they were, and the volume of what a segment replaces within 0.5 %. Ends stay.
+/// Source: Douglas & Peucker 1973, with the width as a third coordinate. Cost: O(n log n) where the path turns evenly.
+void thin_out(std::vector<Junction>& path);
+
+/// Cuts segments along which band times flow changes by more than tolerances::band_step, into pieces of at least
+/// tolerances::shortest_piece. The volume stays.
+void cut_where_width_changes(std::vector<Junction>& path);
+
+/// Both.
+inline void resample(std::vector<Junction>& path) {
+  thin_out(path);
+  cut_where_width_changes(path);
+}
+
+}  // namespace weft::motion
