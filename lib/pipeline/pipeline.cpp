@@ -13,6 +13,8 @@
 
 #include <tbb/global_control.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 
@@ -93,6 +95,18 @@ std::optional<audit::Passed> audit_gcode(const Job& job, std::string text, Repor
   }
 }
 
+/// A job that prints nothing is not done: a model in metres, or thinner than a layer, would pass every check.
+void refuse_emptiness(const Job& job, const std::vector<PlacedObject>& objects, const std::vector<PrintedLayers>& layers) {
+  for (const auto& object : layers)
+    for (const auto& layer : object)
+      if (!layer.beads.empty()) return;
+  Box3 box;
+  for (const auto& object : objects) box.add(box_of(object.mesh));
+  const auto size = box.size();
+  throw Error{Error::Kind::model, fmt::format("holds nothing to print: it is {:.3f} × {:.3f} × {:.3f} mm", to_mm(size.x), to_mm(size.y), to_mm(size.z)),
+              job.models.front(), "is it drawn in metres or inches? --scale 1000 or --scale 25.4; else look at layer_height and wall_line_count"};
+}
+
 /// The program.
 std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Report& report) {
   const Stopwatch stopwatch(report.timings_ms.total);
@@ -101,6 +115,7 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
   watch.progress("slicing", 0.05);
   std::vector<PrintedLayers> layers;
   for (const auto& object : objects) layers.push_back(print_object(job.settings, object, watch, report));
+  refuse_emptiness(job, objects, layers);
   watch.progress("travel", 0.65);
   PrintPlan plan = plan_plate(job.settings, objects, layers, watch, report);
   layers.clear();

@@ -111,6 +111,7 @@ TEST_CASE("slice: what is wrong with the input is told with place and status, an
       {{"cube.stl", "-s", "infill_pattern=spaghetti"}, 3, "one of"},
       {{"cube.stl", "-s", "machine_start_gcode={no_such_thing}"}, 3, "no_such_thing"},
       {{"cube.stl", "--scale", "0.0001"}, 4, "cube.stl"},
+      {{"cube.stl", "--scale", "0.01"}, 4, "holds nothing to print"},
   };
   const auto before = scratch.names();
   for (const auto& c : cases) {
