@@ -41,6 +41,9 @@ struct TravelSettings {
   PathOrder path_order = PathOrder::optimized;
   SeamType z_seam_type = SeamType::sharpest_corner;
   SeamCorner z_seam_corner = SeamCorner::weighted;
+  double z_seam_visibility_weight = 0.2;
+  double z_seam_corner_weight = 1;
+  double z_seam_overhang_weight = 0.5;
   Um z_seam_x = 0_mm;
   Um z_seam_y = 0_mm;
   Combing retraction_combing = Combing::all;
@@ -58,6 +61,11 @@ inline constexpr std::tuple travel_schema{
             "Order of the paths of a layer: nearest takes the nearest next one, optimized improves that order by local search."),
     setting("z_seam_type", &TravelSettings::z_seam_type, "Where outer walls begin and end."),
     setting("z_seam_corner", &TravelSettings::z_seam_corner, "Which corners attract a seam; weighted prefers inner ones to outer ones."),
+    setting("z_seam_visibility_weight", &TravelSettings::z_seam_visibility_weight, Unit::none, 0, 10,
+            "How much it counts against a seam that its place is seen from many sides."),
+    setting("z_seam_corner_weight", &TravelSettings::z_seam_corner_weight, Unit::none, 0, 10, "How much a sharp corner attracts a seam."),
+    setting("z_seam_overhang_weight", &TravelSettings::z_seam_overhang_weight, Unit::none, 0, 10,
+            "How much it counts against a seam that nothing lies below its place."),
     setting("z_seam_x", &TravelSettings::z_seam_x, Unit::mm, -10000_mm, 10000_mm, "X on the bed that seams are drawn to when z_seam_type is user."),
     setting("z_seam_y", &TravelSettings::z_seam_y, Unit::mm, -10000_mm, 10000_mm, "Y on the bed that seams are drawn to when z_seam_type is user."),
     setting("retraction_combing", &TravelSettings::retraction_combing,

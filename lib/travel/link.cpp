@@ -16,13 +16,14 @@ std::span<const Point> near(const std::vector<Point>& sorted, const Bead& bead) 
   return {first, last};
 }
 
-std::vector<Start> choose_seams(const TravelSettings& settings, const Prepared& layer, std::vector<Point>& below) {
+std::vector<Start> choose_seams(const TravelSettings& settings, const Prepared& layer, const Comb* outline_below,
+                                std::vector<Point>& below) {
   std::vector<Start> starts;
   for (std::size_t s = 0; s < layer.seams.size(); ++s) {
     const auto& seam = layer.seams[s];
     const Bead& bead = beads_of(layer.input, layer.blocks[seam.block])[seam.bead];
     const std::uint64_t seed = (std::uint64_t{layer.input.index} << 32) + s;
-    starts.push_back(choose_seam(settings, bead, seam.corners, near(below, bead), seed));
+    starts.push_back(choose_seam(settings, bead, seam.corners, {near(below, bead), outline_below}, seed));
   }
   if (!starts.empty()) {  // a layer without outer walls does not end the seam lines
     below.clear();
@@ -52,7 +53,7 @@ std::vector<Linked> link(const TravelSettings& settings, std::span<const Prepare
   for (std::size_t i = 0; i < layers.size(); ++i) {
     const Prepared& layer = layers[i];
     Linked& out = linked[i];
-    out.seams = choose_seams(settings, layer, below);
+    out.seams = choose_seams(settings, layer, i > 0 ? &layers[i - 1].outline : nullptr, below);
     out.places = places_of(layer, out.seams);
     out.from = at;
     const bool adhesion = !layer.blocks.empty() && layer.blocks[0].object == Block::adhesion;

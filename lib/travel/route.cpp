@@ -168,7 +168,7 @@ class Writer {
     if (!gap.empty()) at_ = held_.path.back().at;
     Polyline coasted = retract ? coast() : Polyline{};
     Polyline wipe;
-    if (retract && retraction_.wipe) {
+    if (retract && retraction_.wipe && !retraction_.firmware_retraction) {
       std::vector<Junction> back(held_.path.rbegin(), held_.path.rend());
       wipe = first_of(closed ? held_.path : back, retraction_.wipe_distance);
       if (closed && !gap.empty()) wipe.insert(wipe.begin(), held_.path.front().at);

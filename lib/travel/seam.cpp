@@ -14,6 +14,8 @@ constexpr double reach_um = 500;
 constexpr double least_turn_rad = 0.35;
 /// A corner of full strength is worth this long a jump from the seam of the layer below, µm.
 constexpr double corner_worth_um = 3000;
+/// The same where hiding comes before lining up: a corner a twentieth better is worth 15 mm.
+constexpr double hide_first_um = 300000;
 /// Seams of the layer below farther off than this belong to something else, µm.
 constexpr double same_line_um = 6000;
 /// A seam this near to a junction begins at it, µm.
@@ -90,13 +92,22 @@ Start random_start(const Bead& bead, std::uint64_t seed) {
   return at_junction(bead, 0);
 }
 
-/// The place of least cost among the corners, where cost(point, strength) is in µm.
+/// The place of least cost among the corners and one other, where cost(point) is in µm and hiding well is worth way.
 template <class Cost>
-Start cheapest(const Bead& bead, std::span<const Corner> corners, Start plain, const Cost& cost) {
+Start cheapest(const TravelSettings& settings, const Bead& bead, std::span<const Corner> corners, Start plain,
+               const Below& below, double worth_um, const Cost& cost) {
+  const auto score = [&](Point p, double strength, double exposure) {
+    const bool over_air =
+        below.outline != nullptr && settings.z_seam_overhang_weight > 0 && below.outline->part_of(p) == Comb::outside;
+    return settings.z_seam_visibility_weight * exposure - settings.z_seam_corner_weight * strength +
+           (over_air ? settings.z_seam_overhang_weight : 0.0);
+  };
   Start best = plain;
-  double least = cost(plain.at, 0.0);
+  double least = cost(plain.at) + worth_um * score(plain.at, 0, 0);
   for (const auto& c : corners) {
-    const double value = cost(bead.path[c.junction].at, static_cast<double>(c.strength));
+    const Point p = bead.path[c.junction].at;
+    const double value =
+        cost(p) + worth_um * score(p, static_cast<double>(c.strength), static_cast<double>(c.exposure));
     if (value < least) least = value, best = at_junction(bead, c.junction);
   }
   return best;
@@ -113,14 +124,9 @@ Start rearmost(const Bead& bead) {
 
 }  // namespace
 
-std::vector<Corner> corners_of(const Bead& bead, SeamCorner kind, std::size_t most) {
+std::vector<Corner> corners_of(const Bead& bead, SeamCorner kind, bool material_left, std::size_t most) {
   std::vector<Corner> corners;
   if (kind == SeamCorner::none || bead.path.size() < 3) return corners;
-  std::int64_t twice_area = 0;
-  for (std::size_t i = 1; i + 1 < bead.path.size(); ++i)
-    twice_area += orient(bead.path[0].at, bead.path[i].at, bead.path[i + 1].at);
-  // Material lies inside an outer contour and outside a hole: Region's orientation, which walls keep, says which it is.
-  // An inner (concave) corner turns right when material is on the left.
   for (std::size_t i = 0; i < bead.path.size(); ++i) {
     const std::size_t n = bead.path.size();
     const Point a = bead.path[(i + n - 1) % n].at, b = bead.path[i].at, c = bead.path[(i + 1) % n].at;
@@ -129,8 +135,8 @@ std::vector<Corner> corners_of(const Bead& bead, SeamCorner kind, std::size_t mo
     if (local < 0.05 * distance(a, b) * distance(b, c) && dot(b - a, c - b) > 0) continue;
     const double turn = turn_at(bead.path, i);
     if (std::abs(turn) < least_turn_rad) continue;
-    const double strength = strength_of(turn, turn < 0, kind);
-    if (strength > 0) corners.push_back({static_cast<std::uint32_t>(i), static_cast<float>(strength)});
+    const double strength = strength_of(turn, (turn < 0) == material_left, kind);
+    if (strength > 0) corners.push_back({static_cast<std::uint32_t>(i), static_cast<float>(strength), 0.F});
   }
   std::stable_sort(corners.begin(), corners.end(),
                    [](const Corner& a, const Corner& b) { return a.strength > b.strength; });
@@ -159,40 +165,55 @@ Start nearest_start(const Bead& bead, Point p, Um snap) {
   return best;
 }
 
-Start choose_seam(const TravelSettings& settings, const Bead& bead, std::span<const Corner> corners,
-                  std::span<const Point> below, std::uint64_t seed) {
+void add_exposure(const Bead& bead, bool material_left, const Comb& outline, std::vector<Corner>& corners) {
+  constexpr int rays = 8;
+  constexpr double ray_um = 5000;
+  for (auto& corner : corners) {
+    const Vec in = direction(bead.path, corner.junction, false), out = direction(bead.path, corner.junction, true);
+    const double turn = std::atan2(-(in.x * out.y - in.y * out.x), -(in.x * out.x + in.y * out.y));
+    // Outwards halfway between the two sides: to the right of the way when material is on its left.
+    const double heading = std::atan2(out.y, out.x) - turn / 2;
+    const double outwards = heading + (material_left ? -0.5 : 0.5) * std::numbers::pi;
+    const Point p = bead.path[corner.junction].at;
+    const double step = 1.5 * bead.path[corner.junction].width / std::max(0.3, std::cos(turn / 2));
+    const auto along = [&](Point from, double angle, double length) {
+      return Point{rounded(from.x + length * std::cos(angle)), rounded(from.y + length * std::sin(angle))};
+    };
+    const Point eye = along(p, outwards, step);
+    int open = 0;
+    for (int k = 0; k < rays; ++k)
+      if (outline.sees(eye, along(eye, outwards + 2 * std::numbers::pi * (k + 0.5) / rays, ray_um))) ++open;
+    corner.exposure = static_cast<float>(2.0 * open / rays - 1.0);
+  }
+}
+
+Start choose_seam(const TravelSettings& settings, const Bead& bead, std::span<const Corner> corners, const Below& below,
+                  std::uint64_t seed) {
+  const auto choose = [&](Start plain, double worth_um, const auto& cost) {
+    return cheapest(settings, bead, corners, plain, below, worth_um, cost);
+  };
   if (settings.z_seam_type == SeamType::random) return random_start(bead, seed);
   if (settings.z_seam_type == SeamType::user) {
     const Point goal{settings.z_seam_x, settings.z_seam_y};
-    const Start plain = nearest_start(bead, goal, snap_um);
-    const auto cost = [&](Point p, double strength) { return distance(p, goal) - corner_worth_um * strength; };
-    return cheapest(bead, corners, plain, cost);
+    return choose(nearest_start(bead, goal, snap_um), corner_worth_um, [&](Point p) { return distance(p, goal); });
   }
-  if (settings.z_seam_type == SeamType::back) {
-    const auto cost = [&](Point p, double strength) { return -static_cast<double>(p.y) - corner_worth_um * strength; };
-    return cheapest(bead, corners, rearmost(bead), cost);
-  }
-  // The line of the seam below, if this wall continues one.
-  const Start plain_start = rearmost(bead);
-  Start plain = plain_start;
+  if (settings.z_seam_type == SeamType::back)
+    return choose(rearmost(bead), corner_worth_um, [](Point p) { return -static_cast<double>(p.y); });
+  // The line of the seams below, if this wall continues one.
+  Start plain = rearmost(bead);
   double nearest = same_line_um;
-  for (const Point q : below) {
+  for (const Point q : below.seams) {
     const Start s = nearest_start(bead, q, snap_um);
     const double d = distance(s.at, q);
     if (d < nearest) nearest = d, plain = s;
   }
   const bool continued = nearest < same_line_um;
   const Point line = plain.at;
-  if (settings.z_seam_type == SeamType::sharpest_corner || !continued) {
-    // The strongest corner; among equals the one on the line below.
-    const auto cost = [&](Point p, double strength) {
-      return -100 * corner_worth_um * std::round(strength * 20) +
-             (continued ? distance(p, line) : -static_cast<double>(p.y) / 1000);
-    };
-    return cheapest(bead, corners, plain, cost);
-  }
-  const auto cost = [&](Point p, double strength) { return distance(p, line) - corner_worth_um * strength; };
-  return cheapest(bead, corners, plain, cost);
+  // Off the line a place costs its distance; where hiding comes first, corners as good as each other are told apart by
+  // it.
+  const bool hide_first = settings.z_seam_type == SeamType::sharpest_corner || !continued;
+  return choose(plain, hide_first ? hide_first_um : corner_worth_um,
+                [&](Point p) { return continued ? distance(p, line) : -static_cast<double>(p.y) / 1000; });
 }
 
 }  // namespace weft::travel

@@ -1,6 +1,7 @@
 #pragma once
 #include "model/bead.h"
 #include "settings/travel.h"
+#include "travel/comb.h"
 
 #include <cstdint>
 #include <span>
@@ -19,7 +20,8 @@ struct Start {
 /// A corner of a wall that a seam may hide in.
 struct Corner {
   std::uint32_t junction = 0;
-  float strength = 0;  ///< 0 … 1: how well it hides a seam
+  float strength = 0;  ///< 0 … 1: how sharp it is, by the liking of z_seam_corner
+  float exposure = 0;  ///< −1 … 1: 0 is seen like a place on a flat wall, 1 from everywhere
 };
 
 /// What is known of an outer wall's seam before the layer below is.
@@ -30,15 +32,26 @@ struct SeamChoices {
 
 /// The corners of a closed bead that attract a seam, best first, at most `most`. The turn of a corner is measured over
 /// half a millimetre to each side, so that a finely sampled curve has no corner. Cost: O(n).
-std::vector<Corner> corners_of(const Bead& bead, SeamCorner kind, std::size_t most);
+/// @param material_left the part lies on the left of the bead's direction
+std::vector<Corner> corners_of(const Bead& bead, SeamCorner kind, bool material_left, std::size_t most);
 
 /// The point of a closed bead nearest to p; within `snap` of a junction it is the junction. Cost: O(n).
 Start nearest_start(const Bead& bead, Point p, Um snap);
 
-/// Chooses the seam of one outer wall.
-/// @param below seams of the layer below
-/// @param seed  of the random seam
-Start choose_seam(const TravelSettings& settings, const Bead& bead, std::span<const Corner> corners,
-                  std::span<const Point> below, std::uint64_t seed);
+/// How much of the horizon a corner is seen from, by rays against the outlines of the layer.
+/// Pre: `material_left` as for corners_of.
+void add_exposure(const Bead& bead, bool material_left, const Comb& outline, std::vector<Corner>& corners);
+
+/// What the layer below says to a seam.
+struct Below {
+  std::span<const Point> seams;   ///< those near enough to matter
+  const Comb* outline = nullptr;  ///< where there is something to print on; null: everywhere
+};
+
+/// Chooses the seam of one outer wall. Where the type leaves a choice, it is the place of least
+/// S = visibility weight · exposure − corner weight · strength + overhang weight · (nothing below).
+/// @param seed of the random seam
+Start choose_seam(const TravelSettings& settings, const Bead& bead, std::span<const Corner> corners, const Below& below,
+                  std::uint64_t seed);
 
 }  // namespace weft::travel

@@ -25,7 +25,9 @@ struct ObjectLayer {
   std::uint32_t object = 0;  ///< index into PrintPlan::objects
   Beads beads;               ///< walls first, of each part in the order they are to be printed; then fills
   Regions outline;           ///< of the slice; index = Bead::part
-  Regions skin;              ///< top and bottom surfaces, for combing that keeps off them; may be empty
+  Regions skin;              ///< all solid fill: what combing = noskin keeps off
+  Regions top;               ///< what will be seen from above: what combing = no_outer_surfaces keeps off
+  Regions sparse;            ///< sparse infill: what combing = infill keeps to
 };
 
 /// Everything that is printed at one height.
@@ -76,6 +78,9 @@ struct Ordered {
   std::vector<Turn> turns;
   std::optional<Point> begin, end;  ///< where the first bead begins and the last one ends; absent without turns
 };
+
+/// What of the settings cannot have the effect the user may expect.
+Notices check(const TravelSettings& settings, const RetractionSettings& retraction);
 
 /// Seam candidates and the boundaries of combing. Cost: about 1 µs a vertex.
 Prepared prepare(const TravelSettings& settings, LayerInput input);

@@ -83,12 +83,12 @@ TEST_CASE("travel: which corners attract a seam is chosen", "[travel]") {
   // An L: five outer corners and one inner one at (10, 10) mm.
   const Ring l{{0, 0}, {30000, 0}, {30000, 10000}, {10000, 10000}, {10000, 30000}, {0, 30000}};
   const Bead bead = sample::closed_bead(l, Role::outer_wall, 0, 0);
-  const auto inner = corners_of(bead, SeamCorner::inner, 10);
+  const auto inner = corners_of(bead, SeamCorner::inner, true, 10);
   REQUIRE(inner.size() == 1);
   CHECK(inner[0].junction == 3);
-  CHECK(corners_of(bead, SeamCorner::outer, 10).size() == 5);
-  CHECK(corners_of(bead, SeamCorner::none, 10).empty());
-  CHECK(corners_of(bead, SeamCorner::weighted, 10)[0].junction == 3);
+  CHECK(corners_of(bead, SeamCorner::outer, true, 10).size() == 5);
+  CHECK(corners_of(bead, SeamCorner::none, true, 10).empty());
+  CHECK(corners_of(bead, SeamCorner::weighted, true, 10)[0].junction == 3);
   const Bead round = sample::closed_bead(sample::circle({0, 0}, 10000, 200), Role::outer_wall, 0, 0);
-  CHECK(corners_of(round, SeamCorner::any, 10).empty());
+  CHECK(corners_of(round, SeamCorner::any, true, 10).empty());
 }
