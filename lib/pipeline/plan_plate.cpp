@@ -50,7 +50,8 @@ travel::LayerInput plate_layer(const std::vector<PlacedObject>& objects, const s
       const auto& layer = layers[o][index];
       input.z = layer.z;
       input.height = layer.height;
-      input.objects.push_back({object, moved(layer.beads, offset), weft::moved(layer.outline, offset), weft::moved(layer.skin, offset)});
+      input.objects.push_back({object, moved(layer.beads, offset), weft::moved(layer.outline, offset), weft::moved(layer.skin, offset),
+                               weft::moved(layer.top, offset), weft::moved(layer.sparse, offset)});
     }
   }
   return input;
@@ -82,6 +83,9 @@ PrintPlan plan_plate(const Settings& settings, const std::vector<PlacedObject>& 
   PrintPlan plan;
   plan.objects = labels_of(objects);
   add_adhesion(settings, inputs, plan.notices);
+  const Ring reach = reach_area(settings.machine);
+  for (auto& input : inputs) input.reach = reach;
+  for (auto& notice : travel::check(settings.travel, settings.retraction)) plan.notices.push_back(std::move(notice));
 
   const auto prepared = parallel_map(count, [&](std::size_t i) {
     stop_if_cancelled(watch);

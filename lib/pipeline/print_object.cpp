@@ -76,6 +76,8 @@ PrintedLayers print_object(const Settings& settings, const PlacedObject& object,
     out[i].height = layers[i].height;
     out[i].outline = std::move(layers[i].regions);
     for (const auto& part : areas[i]) {
+      out[i].top.insert(out[i].top.end(), part.top.begin(), part.top.end());
+      out[i].sparse.insert(out[i].sparse.end(), part.sparse.begin(), part.sparse.end());
       out[i].skin.insert(out[i].skin.end(), part.top.begin(), part.top.end());
       out[i].skin.insert(out[i].skin.end(), part.solid.begin(), part.solid.end());
     }

@@ -22,7 +22,9 @@ struct PlacedObject {
 struct PrintedLayer {
   Um z = 0, height = 0;
   Regions outline;  ///< of the slice
-  Regions skin;     ///< top and bottom surfaces
+  Regions skin;     ///< top, bottom and other solid fill
+  Regions top;      ///< seen from above
+  Regions sparse;
   Beads beads;      ///< walls of each part in the order they are printed, then fills
 };
 using PrintedLayers = std::vector<PrintedLayer>;

@@ -65,7 +65,8 @@ std::vector<Block> blocks_of(const LayerInput& input) {
         blocks.back().object = o;
       }
       auto& block = blocks[slot];
-      (is_wall(beads[i].role) ? block.walls : block.fills).push_back(i);
+      // An open wall lies between others and binds no order: it is fitted in among the fills.
+      (is_wall(beads[i].role) && beads[i].closed ? block.walls : block.fills).push_back(i);
     }
   }
   return blocks;

@@ -91,14 +91,20 @@ class BlockOrder {
       for (; i < sequenced.size() && sequenced[i].first == sequence; ++i) beads.push_back(sequenced[i].second);
       chains.push_back(chain(beads));
       const auto& turns = chains.back();
+      const bool seen = beads_[turns.front().bead].role == Role::top_skin;  // lines that shine alike run one way
       stops.push_back({begin_of(beads_[turns.front().bead], turns.front()),
-                       end_of(beads_[turns.back().bead], turns.back()), false});
+                       end_of(beads_[turns.back().bead], turns.back()), !seen});
       bead_of.push_back(is_chain | static_cast<std::uint32_t>(chains.size() - 1));
     }
     for (const auto& visit : tour(settings_.path_order, stops, {at, then})) {
       const std::uint32_t b = bead_of[visit.stop];
       if (b & is_chain) {
-        for (const auto& t : chains[b & ~is_chain]) at = append(t);
+        auto& turns = chains[b & ~is_chain];
+        if (visit.reversed) {
+          std::reverse(turns.begin(), turns.end());
+          for (auto& t : turns) t.reversed = !t.reversed;
+        }
+        for (const auto& t : turns) at = append(t);
       } else if (beads_[b].closed) {
         at = append(nearest_turn(beads_, index_, b, at));
       } else {

@@ -44,7 +44,7 @@ struct Block {
   static constexpr std::uint32_t adhesion = 0xFFFFFFFF;
   static constexpr std::uint32_t no_seam = 0xFFFFFFFF;
   std::uint32_t object = adhesion;          ///< index into LayerInput::objects, not of the plate
-  std::vector<std::uint32_t> walls, fills;  ///< indices into the beads of that object
+  std::vector<std::uint32_t> walls, fills;  ///< indices into the beads of that object: closed walls, and the rest
   std::vector<std::uint32_t> seams;         ///< beside walls: index into Prepared::seams, or no_seam
 };
 
@@ -91,7 +91,8 @@ std::vector<Linked> link(const TravelSettings& settings, std::span<const Prepare
 
 /// The order of all beads of a layer.
 /// Post: every bead has exactly one turn; beads of a part follow each other, its walls in their order where they touch,
-///       then its fills; beads of equal non-zero sequence keep their order.
+///       then its fills and open walls; beads of equal non-zero sequence keep their order (or, unless they are top
+///       skin, have it turned around as a whole).
 Ordered order(const TravelSettings& settings, const Prepared& layer, const Linked& linked);
 
 /// The steps of the layer.
