@@ -84,7 +84,10 @@ Report Auditor::finish() {
 
 void Auditor::line(const Lines::Line& l) {
   const std::string_view text(l.begin, static_cast<std::size_t>(l.end - l.begin));
-  const auto place = [&] { return Place{reader_.context(), reader_.line_number(), l.offset, text}; };
+  const auto place = [&] {
+    const Context& context = reader_.context();
+    return Place{context, context.custom() ? "custom" : context.feature(), reader_.line_number(), l.offset, text};
+  };
   const auto damaged = [&](std::string_view problem) {
     Violation v;
     v.kind = Finding::Kind::damaged;
@@ -107,7 +110,7 @@ void Auditor::line(const Lines::Line& l) {
   else if (!reader_.problems().empty())
     damaged(reader_.problems().front().what);
   else if (surface_violation_.excess.mm > 0)
-    unmarked_.add(surface_violation_, place());
+    unmarked_.add(surface_violation_, {reader_.context(), {}, reader_.line_number(), l.offset, text});
 }
 
 void Auditor::judge(const Motion& m) {

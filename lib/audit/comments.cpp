@@ -139,6 +139,12 @@ void Context::read(std::string_view c) {
     case 'l':
       if (c.starts_with("layer ") && c.find(", Z =") != std::string_view::npos) next_layer(layer_ + 1);  // Simplify3D
       break;
+    case 'B':
+      if (c.starts_with("BEGIN_LAYER")) next_layer(layer_ + 1);  // KISSlicer
+      break;
+    case ';':
+      if (c.starts_with("; --- layer ")) next_layer(layer_ + 1);  // Kiri:Moto
+      break;
     case 'b':
       if (c == "brim") set_feature(c);  // weft, below PrusaSlicer's "Skirt/Brim"
       break;

@@ -44,8 +44,7 @@ Finding Tally::finding(const Violation& v, const Place& place) const {
   Finding f;
   f.kind = v.kind;
   f.move = v.move;
-  f.feature = place.context.custom() && place.context.began() ? "custom" : place.context.feature();
-  if (f.feature.empty() && place.context.custom()) f.feature = "custom";
+  f.feature = place.feature;
   f.object = place.context.object();
   f.side = v.kind == Finding::Kind::damaged ? Side::none : v.excess.side;
   f.area = v.area;
@@ -65,7 +64,7 @@ void Tally::add(const Violation& v, const Place& place) {
     ++damaged_;
   else
     worst_mm_ = std::max(worst_mm_, v.excess.mm);
-  const std::string_view feature = place.context.custom() ? "custom" : place.context.feature();
+  const std::string_view feature = place.feature;
   const Side lead = damaged ? Side::none : v.excess.side;
   if (lead <= Side::plus_y)
     for (std::size_t i = 0; i < v.excess.by_side.size(); ++i)

@@ -19,6 +19,7 @@ struct Violation {
 /// Where a line stands and what surrounds it.
 struct Place {
   const Context& context;
+  std::string_view feature;
   std::int64_t line;
   std::int64_t offset;  ///< of the line's first byte
   std::string_view text;

@@ -88,7 +88,7 @@ std::string remedy(const Report& r) {
     case Finding::Kind::no_go:
       return "move the part away from bed_exclude_areas, or give exclude_height if the nozzle may pass above them";
     case Finding::Kind::surface:
-      if (f->feature == "skirt") return "use a smaller skirt, adhesion_outside = clip, or move the part";
+      if (f->feature == "skirt") return "use a smaller skirt or brim, adhesion_outside = clip, or move the part";
       if (f->feature == "brim") return "use a narrower brim, adhesion_outside = clip, or move the part";
       return "move or turn the part, or take a larger printer";
     case Finding::Kind::reach:

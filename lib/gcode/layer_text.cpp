@@ -126,6 +126,7 @@ class LayerText {
     if (role_ != static_cast<int>(bead.role)) {
       role_ = static_cast<int>(bead.role);
       out_ << ";TYPE:" << name_of(bead.role).comment << '\n';
+      if (bead.role == Role::brim) out_ << "; brim\n";  // PrusaSlicer has one name for both; the audit tells them apart
     }
     if (bead.height != height_) (out_ << ";HEIGHT:").spelled(height_ = bead.height) << '\n';
     accelerate(bead.acceleration_mm_s2, false);

@@ -91,6 +91,7 @@ TEST_CASE("audit: features, layers and objects are read in the dialects of Prusa
   CHECK(cura.feature == "inner_wall");
   CHECK(cura.object == "part.stl");
   CHECK(cura.layer == 2);
+  CHECK(finding("; BEGIN_LAYER_OBJECT z=0.2\n;; --- layer 1 (0.2 @ 0.4) ---\n").layer == 1);
   const auto marlin = finding(";LAYER_CHANGE\nM486 S2\nM486 A\"bracket\"\n;TYPE:Something new\n");
   CHECK(marlin.feature == "something new");
   CHECK(marlin.object == "bracket");
@@ -110,7 +111,8 @@ TEST_CASE("audit: a file without a slicer's comments is held against the print s
   Bench bench;
   bench.machine.machine_reach = {{-10_mm, -10_mm}, {210_mm, 210_mm}};
   const std::string plain = "G28\nM83\nG1 X10 Y10 Z0.2\nG1 X205 Y10 E8\n";
-  CHECK(bench(plain).violation_count == 1);
+  REQUIRE(bench(plain).violation_count == 1);
+  CHECK(bench(plain).findings[0].feature.empty());
   CHECK(bench(plain + ";TYPE:Perimeter\nG1 X10 Y10\n").clean());  // it was start G-code
   CHECK(bench(plain).notices.size() == 1);
 }
