@@ -78,12 +78,7 @@ PrintPlan plan_plate(const Settings& settings, const std::vector<PlacedObject>& 
   const Stopwatch stopwatch(report.timings_ms.travel);
   std::size_t count = 0;
   for (const auto& object : layers) count = std::max(count, object.size());
-  const Ring reach = reach_area(settings.machine);
-  auto inputs = parallel_map(count, [&](std::size_t i) {
-    auto input = plate_layer(objects, layers, i);
-    input.reach = reach;
-    return input;
-  });
+  auto inputs = parallel_map(count, [&](std::size_t i) { return plate_layer(objects, layers, i); });
 
   PrintPlan plan;
   plan.objects = labels_of(objects);
