@@ -34,6 +34,30 @@ std::string resolved(const Profile& profile) {
   return out;
 }
 
+/// A PrusaSlicer config.ini as one of weft's, with the fate of each line that has none here.
+std::string imported(const std::filesystem::path& path) {
+  Profile profile;
+  const auto translation = import_prusaslicer(profile, path);
+  std::string out = fmt::format("; from {}\n\n", path.filename().string());
+  std::string section;
+  for (const auto& e : catalogue()) {
+    const auto at = profile.origins.find(std::string(e.key));
+    if (at == profile.origins.end()) continue;
+    if (e.section != section) out += fmt::format("[{}]\n", section = e.section);
+    out += fmt::format("{} = {}\n", e.key, e.print(profile.settings));
+  }
+  const auto list = [&](std::string_view title, const std::vector<prusaslicer::Remark>& remarks) {
+    if (remarks.empty()) return;
+    out += fmt::format("\n; {} ({}):\n", title, remarks.size());
+    for (const auto& r : remarks) out += fmt::format(";   line {}: {} = {}{}{}\n", r.line, r.key, r.text.substr(0, 60), r.why.empty() ? "" : ": ", r.why);
+  };
+  list("translated to the nearest", translation.approximated);
+  list("not supported yet, and set to a value that would change the print", translation.unsupported);
+  list("not needed here", translation.not_needed);
+  list("not one of PrusaSlicer's keys", translation.unknown);
+  return out;
+}
+
 }  // namespace
 
 int profile(const Words& words) {
@@ -43,15 +67,22 @@ int profile(const Words& words) {
   if (command.help || words.empty()) {
     std::ostringstream out;
     out << "weft profile check FILE...   validate profiles, laid over each other in their order\n"
+           "weft profile import FILE     translate a PrusaSlicer, SuperSlicer or Slic3r config.ini, and say what becomes of each line\n"
            "weft profile show FILE...    print every setting as resolved\n\n"
         << options << "\n" << common_help();
     return fmt::print("{}", out.str()), words.empty() ? 2 : 0;
   }
-  if (command.inputs.empty()) throw Error{Error::Kind::usage, "check or show?", "weft profile", "as in weft profile show printer.ini"};
+  if (command.inputs.empty()) throw Error{Error::Kind::usage, "check, import or show?", "weft profile", "as in weft profile show printer.ini"};
   const std::string what = command.inputs.front();
   for (std::size_t i = 1; i < command.inputs.size(); ++i) command.profiles.emplace_back(command.inputs[i]);
-  if (what != "check" && what != "show") throw Error{Error::Kind::usage, fmt::format("'{}' is neither check nor show", what), "weft profile"};
+  if (what != "check" && what != "import" && what != "show")
+    throw Error{Error::Kind::usage, fmt::format("'{}' is not one of check, import, show", what), "weft profile"};
   if (command.profiles.empty()) throw Error{Error::Kind::usage, "no profile was given", "weft profile " + what};
+
+  if (what == "import") {
+    if (command.profiles.size() != 1) throw Error{Error::Kind::usage, "takes one file", "weft profile import"};
+    return write_output(command.output.value_or("-"), imported(command.profiles.front())), 0;
+  }
 
   Console console(command.console);
   const auto profile = resolve(command);

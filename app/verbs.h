@@ -26,7 +26,7 @@ inline constexpr std::array verbs{
     Verb{"audit", audit_verb, "FILE.gcode... -p PROFILE", "check any slicer's G-code against a build volume"},
     Verb{"preview", preview, "FILE.gcode -o OUT.(html|svg|png)", "look at toolpaths"},
     Verb{"inspect", inspect, "MODEL...", "mesh facts and what a repair would do"},
-    Verb{"profile", profile, "check|show FILE...", "validate, print resolved"},
+    Verb{"profile", profile, "check|import|show FILE...", "validate, translate from PrusaSlicer, print resolved"},
     Verb{"settings", settings, "[--format text|json|markdown] [KEY...]", "every setting: type, unit, default, range, meaning"},
 };
 

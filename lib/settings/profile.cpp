@@ -22,10 +22,21 @@ std::string contents_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Lays a PrusaSlicer config.ini over `profile`, and says what of it has no effect.
-void apply_prusaslicer(Profile& profile, const std::vector<IniEntry>& entries, const std::string& path) {
-  const auto translated = prusaslicer::translate(entries, path);
+/// A bundle holds many presets under one key each; which of them is meant cannot be guessed.
+void refuse_bundle(const std::vector<IniEntry>& entries, const std::string& path) {
+  for (const auto& e : entries)
+    if (e.section.find(':') != std::string::npos)
+      throw Error{Error::Kind::settings, fmt::format("is a bundle of presets, as [{}] shows", e.section), fmt::format("{}:{}", path, e.line),
+                  "export one configuration from PrusaSlicer: File, Export, Export Config"};
+}
+
+prusaslicer::Translation apply_prusaslicer(Profile& profile, const std::vector<IniEntry>& entries, const std::string& path) {
+  auto translated = prusaslicer::translate(entries, path);
   for (const auto& a : translated.assignments) apply_value(profile, a.key, a.text, fmt::format("{}:{}", path, a.line));
+  return translated;
+}
+
+void note_losses(Profile& profile, const prusaslicer::Translation& translated, const std::string& path) {
   const auto note = [&](const char* code, const prusaslicer::Remark& r, std::string_view what) {
     profile.notices.push_back({code, fmt::format("{}:{}: {} = {}: {}{}{}", path, r.line, r.key, r.text.substr(0, 40), what, r.why.empty() ? "" : ": ", r.why)});
   };
@@ -37,6 +48,7 @@ void apply_prusaslicer(Profile& profile, const std::vector<IniEntry>& entries, c
 void apply_file(Profile& profile, const std::filesystem::path& path, std::vector<std::filesystem::path>& chain) {
   const auto text = contents_of(path);
   const auto entries = parse_ini(text, path.string());
+  refuse_bundle(entries, path.string());
   std::map<std::string, int> seen;
   for (const auto& e : entries) {
     const auto [first, is_new] = seen.emplace(e.key, e.line);
@@ -44,7 +56,7 @@ void apply_file(Profile& profile, const std::filesystem::path& path, std::vector
       throw Error{Error::Kind::settings, fmt::format("'{}' was already given on line {}", e.key, first->second),
                   fmt::format("{}:{}", path.string(), e.line), "keep one of the two"};
   }
-  if (prusaslicer::recognises(text, entries)) return apply_prusaslicer(profile, entries, path.string());
+  if (prusaslicer::recognises(text, entries)) return note_losses(profile, apply_prusaslicer(profile, entries, path.string()), path.string());
   chain.push_back(std::filesystem::weakly_canonical(path));
   for (const auto& e : entries) {
     if (e.key != "inherits") continue;
@@ -67,6 +79,15 @@ void apply_file(Profile& profile, const std::filesystem::path& path, std::vector
 void apply_file(Profile& profile, const std::filesystem::path& path) {
   std::vector<std::filesystem::path> chain;
   apply_file(profile, path, chain);
+}
+
+prusaslicer::Translation import_prusaslicer(Profile& profile, const std::filesystem::path& path) {
+  const auto text = contents_of(path);
+  const auto entries = parse_ini(text, path.string());
+  refuse_bundle(entries, path.string());
+  if (!prusaslicer::recognises(text, entries))
+    throw Error{Error::Kind::settings, "is not a PrusaSlicer, SuperSlicer or Slic3r config.ini", path.string(), "weft's own profiles need no import"};
+  return apply_prusaslicer(profile, entries, path.string());
 }
 
 void apply_value(Profile& profile, const std::string& key, const std::string& text, const std::string& where) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/notice.h"
+#include "settings/prusaslicer.h"
 #include "settings/settings.h"
 
 namespace weft {
@@ -26,6 +27,11 @@ struct Profile {
 /// @throws Error{file} when the file cannot be read; Error{settings} with path:line for unknown keys (with the nearest known
 ///         one), values of wrong type or range, a key given twice, an inheritance that is missing or runs in a circle
 void apply_file(Profile& profile, const std::filesystem::path& path);
+
+/// Lays a PrusaSlicer config.ini over `profile`; apply_file does so too, with a notice for each line that loses something.
+/// @return the fate of its lines
+/// @throws as apply_file; Error{settings} as well when the file is not PrusaSlicer's
+prusaslicer::Translation import_prusaslicer(Profile& profile, const std::filesystem::path& path);
 
 /// Lays one value over `profile`.
 /// @param where what to name in messages: the option, or path:line
