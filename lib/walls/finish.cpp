@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace weft::walls {
 namespace {
@@ -51,18 +52,34 @@ void thin_out(std::vector<Vertex>& path) {
   path = std::move(out);
 }
 
-/// The first segment of an open bead is at least half as long as the bead is wide: a bend right at its start would
-/// swell back beyond it.
+/// The first segment of an open bead reaches as far as any later bend may swell back: half the width there.
 void steady_start(std::vector<Vertex>& path) {
-  while (path.size() > 2) {
-    const double d = distance(path[0].at, path[1].at);
-    if (d >= path[0].width / 2) return;
-    const double e = distance(path[1].at, path[2].at), whole = distance(path[0].at, path[2].at);
-    if (whole < 1) return;
-    const double volume = d * (path[0].width + path[1].width) + e * (path[1].width + path[2].width);
-    path[0].width = std::max(1.0, volume / whole - path[2].width);
-    path.erase(path.begin() + 1);
+  std::size_t last = 0;
+  double along = 0, volume = 0, volume_there = 0;
+  for (std::size_t i = 1; i + 1 < path.size() && along < 2000; ++i) {
+    const double d = distance(path[i - 1].at, path[i].at);
+    along += d;
+    volume += d * (path[i - 1].width + path[i].width) / 2;
+    if (along < 0.98 * path[i].width / 2) last = i, volume_there = volume;
   }
+  if (last == 0) return;
+  const Vertex from = path[last], next = path[last + 1];
+  const double length = distance(from.at, next.at), reach = std::max(from.width, next.width) / 2;
+  const double there = std::accumulate(path.begin() + 1, path.begin() + static_cast<long>(last) + 1, 0.0,
+                                       [before = path[0].at](double sum, const Vertex& v) mutable {
+                                         sum += distance(before, v.at);
+                                         before = v.at;
+                                         return sum;
+                                       });
+  const double t = std::clamp((reach - there) / std::max(1.0, length), 0.0, 1.0);
+  const Vertex second{{from.at.x + t * (next.at.x - from.at.x), from.at.y + t * (next.at.y - from.at.y)},
+                      from.width + t * (next.width - from.width)};
+  const double whole = distance(path[0].at, second.at);
+  if (whole < 1) return;
+  volume_there += t * length * (from.width + second.width) / 2;
+  path[0].width = std::max(1.0, 2 * volume_there / whole - second.width);
+  path.erase(path.begin() + 1, path.begin() + static_cast<long>(last));
+  path[1] = second;
 }
 
 void limit_steps(std::vector<Vertex>& path) {

@@ -83,6 +83,39 @@ class Planner {
       if (--degree[m] == 1) leaves.push_back(m);
       if (degree[m] == 0) peaks_.push_back(m);
     }
+    cut_bent_tips(degree);
+  }
+
+  /// A tip is led on to only straight ahead: at the end of a rib the axis also bends into the sharper of two corners.
+  void cut_bent_tips(std::vector<int>& degree) {
+    constexpr double most_bend_cos = 0.82;
+    for (std::uint32_t n = 0; n < degree.size(); ++n) {
+      if (degree[n] != 1 || s_.nodes[n].clearance > 5) continue;
+      std::uint32_t h = any_[n];
+      for_each_leaving(any_[n], [&](std::uint32_t g) {
+        if (core_[g / 2]) h = g;
+      });
+      std::vector<std::uint32_t> chain;
+      while (steep_[h / 2]) {
+        chain.push_back(h);
+        if (degree[s_.to(h)] != 2) break;
+        const std::uint32_t g = onward(h);
+        if (g == h) break;
+        const Place u = direction(h), v = direction(g);
+        if (u.x * v.x + u.y * v.y < most_bend_cos) {
+          for (const std::uint32_t c : chain) core_[c / 2] = 0;
+          degree[n] = 0;
+          degree[s_.to(h)] = 1;
+          break;
+        }
+        h = g;
+      }
+    }
+  }
+  Place direction(std::uint32_t h) const {
+    const Place a = s_.start(h).at, b = s_.end(h).at;
+    const double d = std::max(1e-9, std::hypot(b.x - a.x, b.y - a.y));
+    return {(b.x - a.x) / d, (b.y - a.y) / d};
   }
 
   // ---- how many beads ----------------------------------------------------------------------------------------------
@@ -187,7 +220,10 @@ class Planner {
         const double t = threshold(w_, std::min(mine.beads(), other.beads()));
         if (mine.beads() == 0 || other.beads() == 0) continue;
         const double deviation = other.beads() > mine.beads() ? t - low[b.region] : high[b.region] - t;
-        if (deviation > o_.filter_deviation) continue;
+        // A wall that has no room to turn back is worse than a wide one.
+        const bool cramped =
+            mine.beads() > other.beads() && length[b.region] < 2 * w_.inner && high[b.region] < 1.6 * w_.outer;
+        if (deviation > o_.filter_deviation && !cramped) continue;
         fixed[b.region] = fixed[b.other] = 1;
         changed[b.region] = other;
         fixed[b.region] = 2;

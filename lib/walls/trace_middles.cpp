@@ -116,6 +116,7 @@ class Tracer {
       lead_on(line.path, last);
       std::reverse(line.path.begin(), line.path.end());
       lead_on(line.path, Skeleton::twin(begin));
+      if (line.path.size() < 2) return;
     } else if (line.path.size() > 2) {
       line.path.front().width = (line.path.front().width + line.path.back().width) / 2;
       line.path.pop_back();
@@ -148,9 +149,40 @@ class Tracer {
     ring.push_back(b < inner ? level() : s_.on_end_rib(g, inner));
   }
 
+  bool ends_at_fork(std::uint32_t h) const {
+    int others = 0;
+    for (std::uint32_t g = s_.halves[h].next; g != Skeleton::twin(h); g = s_.halves[Skeleton::twin(g)].next)
+      others += laying_.spans[g / 2].core ? 1 : 0;
+    return others >= 2;
+  }
+
+  /// Where other beads pass by the end of a branch, it ends at its mouth: between the feet of its last ribs.
+  void make_room(std::vector<Vertex>& path, std::uint32_t h) const {
+    const Place right = s_.halves[s_.halves[h].next].foot, left = s_.halves[Skeleton::twin(h)].foot,
+                node = s_.end(h).at;
+    const Place back = unit(node, s_.start(h).at);
+    double by = ((right.x + left.x) / 2 - node.x) * back.x + ((right.y + left.y) / 2 - node.y) * back.y;
+    while (by > 0 && path.size() > 1) {
+      const Vertex last = path.back(), before = path[path.size() - 2];
+      const double d = distance(last.at, before.at);
+      if (d > by) {
+        const double t = by / d;
+        path.back() = {{last.at.x + t * (before.at.x - last.at.x), last.at.y + t * (before.at.y - last.at.y)},
+                       last.width + t * (before.width - last.width)};
+        return;
+      }
+      by -= d;
+      path.pop_back();
+    }
+  }
+
   void lead_on(std::vector<Vertex>& path, std::uint32_t h) const {
     const auto k = static_cast<std::size_t>(laying_.spans[h / 2].pairs);
     const double inner = laying_.end(h)[k];
+    if (ends_at_fork(h)) {
+      make_room(path, h);
+      return;
+    }
     if (s_.end(h).clearance - inner < 5) return;
     const auto ring = tip_of(h, inner);
     if (ring.size() < 3) return;
@@ -206,9 +238,14 @@ class Tracer {
     const Place centre = s_.start(start).at;
     double behind = 0, ahead = 0, area = 0;
     for (std::size_t i = 0; i < ring.size(); ++i) {
-      const double at = (ring[i].x - centre.x) * d.x + (ring[i].y - centre.y) * d.y;
+      const Place p = ring[i], q = ring[(i + 1) % ring.size()];
+      area += cross(centre, p, q) / 2;
+      const double a = (p.y - centre.y) * d.x - (p.x - centre.x) * d.y,
+                   b = (q.y - centre.y) * d.x - (q.x - centre.x) * d.y;
+      if ((a < 0) == (b < 0)) continue;
+      const double t = a / (a - b);  // where the line through the centre leaves the part
+      const double at = (p.x + t * (q.x - p.x) - centre.x) * d.x + (p.y + t * (q.y - p.y) - centre.y) * d.y;
       behind = std::min(behind, at), ahead = std::max(ahead, at);
-      area += cross(centre, ring[i], ring[(i + 1) % ring.size()]) / 2;
     }
     if (ahead - behind < 1) return;
     const double width = area / (ahead - behind);

@@ -16,7 +16,7 @@
 namespace weft::walls {
 namespace {
 
-constexpr double corner_deg = 60;  // walls are led into the tip of a sharper corner
+constexpr double corner_deg = 45;  // walls are led into the tip of a sharper corner
 constexpr double chord_um = 4;     // how far a chord may stand off a bead that bends around a corner
 
 void add_rings(const Regions& at, Um width, std::uint16_t inset, std::uint32_t part, Beads& out) {
@@ -69,6 +69,25 @@ struct Part {
   bool valid = true;
 };
 
+/// What turns, tips and branches lay too much or too little is taken from all beads of the part: its volume is right.
+void keep_volume(const Region& region, Part& part) {
+  constexpr double most = 0.05;  // beyond, something was left out on purpose
+  constexpr double negligible = 5e-4;
+  double laid = 0;
+  for (const Bead& bead : part.beads) laid += volume_mm3(bead, 1_mm);
+  if (laid <= 0) return;
+  const double ratio = (area_mm2(region) - area_mm2(part.inside)) / laid;
+  if (std::abs(ratio - 1) < negligible) return;
+  const double scale = std::clamp(ratio, 1 - most, 1 + most);
+  for (Bead& bead : part.beads)
+    for (Junction& j : bead.path) {
+      if (j.flow < 1.F)
+        j.flow = std::min(1.F, static_cast<float>(j.flow * scale));
+      else
+        j.width = rounded(j.width * scale);
+    }
+}
+
 Part build_part(const WallSettings& settings, const Widths& widths, const Region& region, Um nozzle,
                 std::uint32_t index) {
   Part out;
@@ -98,6 +117,7 @@ Part build_part(const WallSettings& settings, const Widths& widths, const Region
   for (auto& line : trace_pairs(skeleton, laying)) finish(std::move(line), finishing, out.beads, out.dropped_mm);
   for (auto& line : trace_middles(skeleton, laying)) finish(std::move(line), finishing, out.beads, out.dropped_mm);
   out.inside = rest_of(skeleton, laying, axis.origin);
+  keep_volume(region, out);
   return out;
 }
 
