@@ -74,10 +74,8 @@ struct Raster {
             std::min(height - 1, upward(std::max(std::max(a.y, b.y), c.y)) - 1)};
   }
 
-  void triangle(Vec a, Vec b, Vec c, float light, Window in) {
-    const float area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-    if (area == 0) return;
-    if (area < 0) std::swap(b, c);
+  /// Pre: turned towards the eye, with an area.
+  void triangle(Vec a, Vec c, Vec b, float light, Window in) {  // y points down: the corners go round the other way
     // Depth is z0 + x·zx + y·zy on the plane of the triangle.
     const float share = 1.F / ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
     const float zx = ((b.z - a.z) * (c.y - a.y) - (b.y - a.y) * (c.z - a.z)) * share;
@@ -129,14 +127,17 @@ std::vector<Vec> projected(const Mesh& mesh, const Camera& camera, const Raster&
   return out;
 }
 
-/// Brightness of a face with that normal: light from above the viewer's left shoulder, some from everywhere. The inner
-/// side of an open mesh is dark.
+Vec normal_of(const Mesh& mesh, const Triangle& t) {
+  const Vec a = vec(mesh.vertices[t[0]]), b = vec(mesh.vertices[t[1]]), c = vec(mesh.vertices[t[2]]);
+  return cross({b.x - a.x, b.y - a.y, b.z - a.z}, {c.x - a.x, c.y - a.y, c.z - a.z});
+}
+
+/// Brightness of a face with that normal: light from above the viewer's left shoulder, some from everywhere.
 float shade(Vec normal, const Camera& camera) {
   const Vec light =
       unit({camera.eye.x - 0.6F * camera.right.x, camera.eye.y - 0.6F * camera.right.y, camera.eye.z + 0.6F});
   const float length = std::sqrt(dot(normal, normal));
   if (length == 0) return 0;
-  if (dot(normal, camera.eye) < 0) return 0.25F;
   return 0.35F + 0.75F * std::max(0.F, dot(normal, light) / length);
 }
 
@@ -175,11 +176,11 @@ std::vector<std::uint8_t> thumbnail(const Mesh& mesh, PixelSize size) {
   Raster raster(size);
   const std::vector<Vec> corners = projected(mesh, camera, raster);
   for (const Triangle& t : mesh.triangles) {
-    const auto window = raster.window(corners[t[0]], corners[t[1]], corners[t[2]]);
+    const Vec a = corners[t[0]], b = corners[t[1]], c = corners[t[2]];
+    if ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) >= 0) continue;  // turned away: y points down here
+    const auto window = raster.window(a, b, c);
     if (window.empty()) continue;  // a fine mesh: most of its triangles lie between the samples
-    const Vec a = vec(mesh.vertices[t[0]]), b = vec(mesh.vertices[t[1]]), c = vec(mesh.vertices[t[2]]);
-    const Vec normal = cross({b.x - a.x, b.y - a.y, b.z - a.z}, {c.x - a.x, c.y - a.y, c.z - a.z});
-    raster.triangle(corners[t[0]], corners[t[1]], corners[t[2]], shade(normal, camera), window);
+    raster.triangle(a, b, c, shade(normal_of(mesh, t), camera), window);
   }
   return encode_png(resolved(raster, size));
 }
