@@ -4,6 +4,9 @@
 #include "infill/sparse.h"
 #include "model/flow.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <numbers>
 
 namespace weft::infill {
@@ -11,6 +14,32 @@ namespace {
 
 double radians(double degrees) {
   return degrees * std::numbers::pi / 180;
+}
+
+/// The direction (up to 90°) of most of the area's edge, when half of it runs that way or across; else 45°. Lines along
+/// straight walls end square on the walls across, so they leave nothing open.
+double angle_along_walls(const Region& region) {
+  constexpr double shortest_um = 1000;  // of what counts as a straight wall
+  constexpr std::size_t bins = 90;
+  constexpr double quarter = std::numbers::pi / 2;
+  std::array<double, bins> length{}, longest{}, angle{};
+  double all = 0;
+  const auto look = [&](const Ring& ring) {
+    for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+      const double l = distance(ring[j], ring[i]);
+      all += l;
+      if (l < shortest_um) continue;
+      double a = std::fmod(std::atan2(ring[i].y - ring[j].y, ring[i].x - ring[j].x) + 2 * std::numbers::pi, quarter);
+      if (a > quarter - 1e-9) a = 0;
+      const auto bin = static_cast<std::size_t>(std::lround(a / quarter * bins)) % bins;
+      length[bin] += l;
+      if (l > longest[bin]) longest[bin] = l, angle[bin] = a;
+    }
+  };
+  look(region.outer);
+  for (const Ring& hole : region.holes) look(hole);
+  const auto peak = static_cast<std::size_t>(std::max_element(length.begin(), length.end()) - length.begin());
+  return length[peak] >= all / 2 ? angle[peak] : radians(45);
 }
 
 }  // namespace
@@ -23,14 +52,14 @@ FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const 
       infill.infill_line_width.value_or(flow::automatic_width(input.nozzle, input.height, false)), input.height);
   const double overlap = infill.infill_overlap.of(input.wall_line_width > 0 ? input.wall_line_width : automatic);
   const bool turned_layer = input.index % 2 == 1;
-  const double skin_angle = radians(shells.skin_angle + (turned_layer ? 90 : 0));
+  const double turn = turned_layer ? radians(90) : 0;
 
   FillLayer layer;
   SolidStyle solid{.role = Role::solid_infill,
                    .band = skin_band,
-                   .angle_rad = skin_angle,
+                   .angle_rad = 0,
                    .overlap_um = overlap,
-                   .connect = true,
+                   .connect = infill.infill_connect_lines,
                    .fixed_strand = false,
                    .flow = 1,
                    .origin = input.origin,
@@ -56,6 +85,8 @@ FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const 
     style.part = part;
     for (const Region& region : regions) {
       style.sequence = ++sequence;
+      if (style.role != Role::bridge)
+        style.angle_rad = turn + (shells.skin_angle ? radians(*shells.skin_angle) : angle_along_walls(region));
       fill_solid(region, style, layer.beads);
     }
   };

@@ -12,7 +12,7 @@ struct ShellSettings {
   Um bottom_thickness = 0.5_mm;
   std::optional<Um> skin_line_width;
   std::optional<Um> top_skin_line_width;
-  double skin_angle = 45;
+  std::optional<double> skin_angle;
   double infill_solid_below_area = 20;
   bool bridges = true;
   std::optional<double> bridge_angle;
@@ -36,7 +36,9 @@ inline constexpr std::tuple shell_schema{
             "Line width of top surfaces; auto is nozzle_diameter, narrow for an even surface.",
             "top_infill_extrusion_width"),
     setting("skin_angle", &ShellSettings::skin_angle, Unit::degrees, -360, 360,
-            "Direction of the lines of solid layers, against X; every second layer is turned by 90°."),
+            "Direction of the lines of solid layers, against X; every second layer is turned by 90°. auto runs along "
+            "straight "
+            "walls, where lines at a slant would leave gaps at their ends, and at 45° in areas without."),
     setting("infill_solid_below_area", &ShellSettings::infill_solid_below_area, Unit::mm2, 0, 1000000,
             "A patch of sparse infill smaller than this is made solid.", "solid_infill_below_area"),
     setting("bridges", &ShellSettings::bridges,

@@ -1,0 +1,143 @@
+#include "infill/infill.h"
+
+#include "areas.h"
+#include "model/flow.h"
+
+#include <algorithm>
+
+#include <catch2/catch.hpp>
+
+using namespace weft;
+using namespace weft::test;
+using infill::FillInput;
+using infill::LayerAreas;
+
+namespace {
+
+LayerAreas solid_area(Region region) {
+  LayerAreas areas(1);
+  areas[0].part = 3;
+  areas[0].solid.push_back(std::move(region));
+  return areas;
+}
+FillInput input(const LayerAreas& areas, std::size_t index = 0) {
+  return {.areas = areas, .index = index, .z = 200, .height = 200, .nozzle = 400};
+}
+Region turned(const Region& region, double angle) {
+  Region r = region;
+  for (Point& p : r.outer)
+    p = {rounded(p.x * std::cos(angle) - p.y * std::sin(angle)),
+         rounded(p.x * std::sin(angle) + p.y * std::cos(angle))};
+  return r;
+}
+
+}  // namespace
+
+TEST_CASE("infill: a straight-walled area is covered up to its walls", "[infill][law]") {
+  const bool turns = GENERATE(true, false);
+  const double angle = GENERATE(0.0, 12.3, 45.0, 81.7);
+  const std::size_t layer = GENERATE(0U, 1U);
+  const Region square = rectangle(0, 0, 17400, 9130);
+  const LayerAreas areas = solid_area(turned(square, degrees(angle)));
+  InfillSettings settings;
+  settings.infill_connect_lines = turns;
+  const Beads beads = infill::fill(settings, {}, input(areas, layer)).beads;
+  // No gap is wider than 0.05 mm; two turns side by side leave a cusp of up to 0.1 mm between their round corners.
+  const double reach = turns ? 50 : 25;
+  int gaps = 0;
+  for (double x = 30; x < 17400; x += 61)
+    for (double y = 30; y < 9130; y += 59) {
+      const bool corner = (x < 500 || x > 16900) && (y < 500 || y > 8630);
+      const double px = x * std::cos(degrees(angle)) - y * std::sin(degrees(angle)),
+                   py = x * std::sin(degrees(angle)) + y * std::cos(degrees(angle));
+      if (corner || cover(beads, px, py) > 0) continue;
+      bool near = false;
+      for (int k = 0; k < 8; ++k)
+        near |= cover(beads, px + reach * std::cos(k * 0.785), py + reach * std::sin(k * 0.785)) > 0;
+      gaps += !near;
+    }
+  CAPTURE(angle, layer, turns);
+  CHECK(gaps == 0);
+}
+
+TEST_CASE("infill: a full block's volume is right within half a percent of its area, overlap apart", "[infill][law]") {
+  InfillSettings none;
+  none.infill_overlap = length(0);
+  const LayerAreas areas = solid_area(rectangle(0, 0, 17400, 17400));
+  CHECK(covered_mm2(infill::fill(none, {}, input(areas)).beads) == Approx(17.4 * 17.4).epsilon(0.003));
+  // the overlap adds to the volume of a 20 mm cube what the audit of volume allows
+  const double over = covered_mm2(infill::fill({}, {}, input(areas)).beads) - 17.4 * 17.4;
+  CHECK(over > 0);
+  CHECK(over < 0.009 * 400);
+}
+
+TEST_CASE("infill: every bead knows its part, ordered fills have a sequence of their own", "[infill]") {
+  LayerAreas areas = solid_area(rectangle(0, 0, 9000, 9000));
+  areas[0].top.push_back(rectangle(20000, 0, 29000, 9000));
+  areas[0].sparse.push_back(rectangle(40000, 0, 60000, 20000));
+  areas[0].bridges.push_back({{rectangle(70000, 0, 80000, 9000)}, 0});
+  std::vector<std::uint32_t> of_role(20, 0);
+  for (const Bead& bead : infill::fill({}, {}, input(areas)).beads) {
+    CHECK(bead.part == 3);
+    CHECK((bead.sequence == 0) == (bead.role == Role::infill));
+    of_role[static_cast<std::size_t>(bead.role)] = bead.sequence;
+  }
+  CHECK(of_role[static_cast<std::size_t>(Role::solid_infill)] != of_role[static_cast<std::size_t>(Role::top_skin)]);
+  CHECK(of_role[static_cast<std::size_t>(Role::bridge)] != of_role[static_cast<std::size_t>(Role::top_skin)]);
+}
+
+TEST_CASE("infill: bridges are strands of the nozzle's diameter", "[infill]") {
+  LayerAreas areas(1);
+  areas[0].bridges.push_back({{rectangle(0, 0, 20000, 10000)}, degrees(90)});
+  ShellSettings shells;
+  InfillSettings none;
+  none.infill_overlap = length(0);
+  const double strands = 20.0 / 0.4;
+  for (const double percent : {100.0, 80.0}) {
+    shells.bridge_flow = percent;
+    const Beads beads = infill::fill(none, shells, input(areas)).beads;
+    double volume = 0;
+    for (const Bead& bead : beads) {
+      CHECK(bead.role == Role::bridge);
+      volume += volume_mm3(bead, 200);
+    }
+    CHECK(volume == Approx(strands * 10 * flow::bridge_area_mm2(400) * percent / 100).epsilon(0.01));
+  }
+}
+
+TEST_CASE("infill: settings of widths and directions do something", "[infill]") {
+  LayerAreas areas = solid_area(rectangle(0, 0, 20000, 20000));
+  areas[0].top.push_back(rectangle(30000, 0, 50000, 20000));
+  areas[0].sparse.push_back(rectangle(60000, 0, 90000, 30000));
+  const Beads plain = infill::fill({}, {}, input(areas)).beads;
+  const auto differs = [&](auto change) {
+    InfillSettings infill;
+    ShellSettings shells;
+    change(infill, shells);
+    return infill::fill(infill, shells, input(areas)).beads != plain;
+  };
+  CHECK(differs([](auto&, auto& s) { s.skin_line_width = 500; }));
+  CHECK(differs([](auto&, auto& s) { s.top_skin_line_width = 500; }));
+  CHECK(differs([](auto&, auto& s) { s.skin_angle = 30; }));
+  CHECK(differs([](auto& i, auto&) { i.infill_line_width = 500; }));
+  CHECK(differs([](auto& i, auto&) { i.infill_angle = 10; }));
+  CHECK(differs([](auto& i, auto&) { i.infill_overlap = share(30); }));
+  CHECK(differs([](auto& i, auto&) { i.infill_connect_lines = false; }));
+  CHECK(differs([](auto& i, auto&) { i.infill_pattern = InfillPattern::gyroid; }));
+  CHECK(differs([](auto& i, auto&) { i.infill_sparse_density = 30; }));
+  CHECK(infill::fill({}, {}, input(areas, 1)).beads != plain);
+}
+
+TEST_CASE("infill: moving a part moves its fill and changes nothing else", "[infill][law]") {
+  const Point by{7'001, -90'003};
+  LayerAreas areas = solid_area(star(5, 15000, 17));
+  areas[0].sparse.push_back(star(6, 20000, 11));
+  LayerAreas there = areas;
+  there[0].solid = moved(there[0].solid, by), there[0].sparse = moved(there[0].sparse, by);
+  FillInput far = input(there);
+  far.origin = by;
+  Beads here = infill::fill({}, {}, input(areas)).beads;
+  for (Bead& bead : here)
+    for (Junction& j : bead.path) j.at = j.at + by;
+  CHECK(here == infill::fill({}, {}, far).beads);
+}
