@@ -65,10 +65,14 @@ PrintedLayers print_object(const Settings& settings, const PlacedObject& object,
 
   const Stopwatch stopwatch(report.timings_ms.infill);
   const auto areas = find_areas(settings, layers, walls);
+  Box box;  // patterns hang on its centre, so they move with the object
+  for (const auto& layer : layers) box.add(box_of(layer.regions));
   auto fills = parallel_map(layers.size(), [&](std::size_t i) {
     stop_if_cancelled(watch);
     return infill::fill(settings.infill, settings.shells, {.areas = areas[i], .index = i, .z = layers[i].z, .height = layers[i].height,
-                                                           .nozzle = settings.machine.nozzle_diameter});
+                                                           .nozzle = settings.machine.nozzle_diameter,
+                                                           .wall_line_width = settings.walls.wall_line_width_x.value_or(0),
+                                                           .origin = box.empty() ? Point{} : box.centre()});
   });
   PrintedLayers out(layers.size());
   for (std::size_t i = 0; i < layers.size(); ++i) {

@@ -39,8 +39,9 @@ inline constexpr std::tuple infill_schema{
         "infill_overlap", &InfillSettings::infill_overlap, Unit::mm, 0_mm, 5_mm,
         "How far skin and infill reach into the innermost wall, to bond with it; a share is of that wall's line width.",
         "infill_overlap"),
-    setting("infill_connect_lines", &InfillSettings::infill_connect_lines,
-            "Neighbouring lines are joined along the wall instead of travelling from one to the next."),
+    setting(
+        "infill_connect_lines", &InfillSettings::infill_connect_lines,
+        "Neighbouring lines, solid ones too, are joined along the wall instead of travelling from one to the next."),
 };
 static_assert(complete<InfillSettings>(infill_schema));
 
