@@ -132,7 +132,11 @@ const char* Reader::g_command(int number, bool fraction, const char* p, const ch
       break;
     case 28:
       p = words(p, end, false, w);
-      return home(w), p;
+      if (fraction)
+        opaque_command("G28.x");  // Bambu: calibrations about homing
+      else
+        home(w);
+      return p;
     case 53:
       machine_coordinates_ = true;
       break;

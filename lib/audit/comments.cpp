@@ -166,6 +166,9 @@ void Context::read(std::string_view c) {
     case 'E':
       if (c.starts_with("EXECUTABLE_BLOCK_END") || c.starts_with("End of Gcode")) ended_ = true;
       break;
+    case 'O':
+      if (take(c, "OBJECT_ID:")) set_object(c);  // Bambu
+      break;
     case 'p':
       if (take(c, "printing object ")) set_object(c.substr(0, c.find(" id:")));
       break;

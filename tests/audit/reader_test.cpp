@@ -51,6 +51,30 @@ TEST_CASE("audit: arcs in upright planes are counted as not audited, their ends 
   CHECK(bench.moves("G18\nG2 X210 Z5 I5 K0\n").violation_count == 1);
 }
 
+TEST_CASE("audit: the start G-code of a Bambu printer is read without a false finding", "[audit]") {
+  Bench bench;
+  bench.machine.machine_width = bench.machine.machine_depth = 350_mm;
+  bench.machine.machine_reach = {{-10_mm, -10_mm}, {350_mm, 350_mm}};
+  const auto report = bench(
+      "; FEATURE: Custom\nM1006 A53 B9 L99 C53 D9 M99 E53 F9 N99\nM73.2   R1.0 ;Reset left time magnitude\nG28.140 D0; "
+      "reset\n"
+      "G91\nG380 S2 Z42 F1200\nG90\n    M104 S140 A\nM1002 set_filament_type:PETG\nG28 X T300\nG150.1 F18000\nG1 X175 "
+      "Y160 F30000\n"
+      "G28 Z P0 T250\nM620 S0A H-1 ; switch material\nT0 H-1\nM621 S0A\nM620.11 S1 L0 I0 B-1 R10 D8 E-10 "
+      "F299.339\nM622 J1\n"
+      "    G29 A1 O X160.193 Y152.193 I25.8066 J17.1131 R\nM623\n    M970.3 Q1 A5 K0 O1\nG29.1 Z-0.02 ; for Textured "
+      "PEI Plate\n"
+      "    G1 Z5 F1200\n    G1 X270 Y-0.5 F60000\n    G91\n    G3 Z0.4 I1.217 J0 P1 F60000\n    G90\n; "
+      "MACHINE_START_GCODE_END\n"
+      "; CHANGE_LAYER\n; Z_HEIGHT: 0.2\n; LAYER_HEIGHT: 0.2\nG1 E-.8 F1800\n; OBJECT_ID: 15\nG1 X161.372 Y153.574 "
+      "F60000\nG1 Z.2\n"
+      "; FEATURE: Brim\n; LINE_WIDTH: 0.5\nG1 X161.788 Y153.19 E.02045\nG1 X361 Y153 E1\n");
+  REQUIRE(report.violation_count == 1);
+  CHECK(report.findings[0].feature == "brim");
+  CHECK(report.findings[0].object == "15");
+  CHECK(report.unaudited_moves == 3);
+}
+
 TEST_CASE("audit: Klipper's offsets and saved states are followed", "[audit]") {
   const Bench bench;
   CHECK(bench.moves("SET_GCODE_OFFSET X=10\nG1 X190\n").clean());
