@@ -71,14 +71,14 @@ struct Part {
 
 /// What turns, tips and branches lay too much or too little is taken from all beads of the part: its volume is right.
 void keep_volume(const Region& region, Part& part) {
-  constexpr double most = 0.05;  // beyond, something was left out on purpose
-  constexpr double negligible = 5e-4;
+  constexpr double most = 0.05;        // beyond, something was left out on purpose
+  constexpr double tolerated = 0.004;  // so much stays where it is: evenness of the walls is worth more
   double laid = 0;
   for (const Bead& bead : part.beads) laid += volume_mm3(bead, 1_mm);
   if (laid <= 0) return;
   const double ratio = (area_mm2(region) - area_mm2(part.inside)) / laid;
-  if (std::abs(ratio - 1) < negligible) return;
-  const double scale = std::clamp(ratio, 1 - most, 1 + most);
+  if (std::abs(ratio - 1) <= tolerated) return;
+  const double scale = std::clamp(ratio > 1 ? ratio - tolerated : ratio + tolerated, 1 - most, 1 + most);
   for (Bead& bead : part.beads)
     for (Junction& j : bead.path) {
       if (j.flow < 1.F)
