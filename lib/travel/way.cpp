@@ -19,8 +19,8 @@ Way Router::way(Point p, Point q) const {
     const double length = length_from(p, *inside);
     const bool far = settings_.retraction_combing_max_distance && length > *settings_.retraction_combing_max_distance;
     const bool strict = !retraction_.retract_only_when_crossing && length >= retraction_.retraction_min_travel;
-    // A boundary moved outwards may lead out of the part.
-    const bool crosses = settings_.retraction_combing_offset > 0 && leaves_outline(p, *inside);
+    // Checked all the same: the boundary may be moved outwards, and an outer wall may leave the outline where it is thin.
+    const bool crosses = leaves_outline(p, *inside);
     return {std::move(*inside), far || strict || crosses, crosses};
   }
   const bool crosses = leaves_outline(p, {q});
