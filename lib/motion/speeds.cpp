@@ -53,16 +53,16 @@ struct Segment {
 };
 
 /// Lowers speeds until the flow rate changes no faster than `slope`, mm³/s²: within each segment, then from each to the
-/// next in both directions (the faster of two gives way, so that nothing is ever raised).
-void limit_slope(std::vector<Segment>& segments, double slope) {
+/// next in both directions (the faster of two gives way, so that nothing is ever raised). Not below `least`: where the
+/// width jumps, crawling would do more harm than the jump.
+void limit_slope(std::vector<Segment>& segments, double slope, double least_mm_s) {
+  const auto lower = [&](Segment& s, double v) { s.speed_mm_s = std::min(s.speed_mm_s, std::max(v, least_mm_s)); };
   for (auto& s : segments)
-    if (s.area_change_mm2 > 0)
-      s.speed_mm_s = std::min(s.speed_mm_s, std::sqrt(slope * s.length_mm / s.area_change_mm2));
+    if (s.area_change_mm2 > 0) lower(s, std::sqrt(slope * s.length_mm / s.area_change_mm2));
   const auto follow = [&](const Segment& before, Segment& s) {
     if (s.area_mm2 <= 0 || before.speed_mm_s <= 0) return;
     const double half_s = 0.5 * before.length_mm / before.speed_mm_s;
-    s.speed_mm_s = std::min(
-        s.speed_mm_s, reachable_speed(s.area_mm2, s.length_mm, before.area_mm2 * before.speed_mm_s, half_s, slope));
+    lower(s, reachable_speed(s.area_mm2, s.length_mm, before.area_mm2 * before.speed_mm_s, half_s, slope));
   };
   for (std::size_t i = 1; i < segments.size(); ++i) follow(segments[i - 1], segments[i]);
   for (std::size_t i = segments.size(); i-- > 1;) follow(segments[i], segments[i - 1]);
@@ -198,7 +198,8 @@ void set_bead_speed(const Rules& rules, Extrude& bead, bool first_layer) {
     segments[i] = {distance(path[i].at, path[i + 1].at) / 1000.0, 0.5 * (a + b) * share, std::abs(a - b) * share,
                    std::min(wanted(a), wanted(b))};
   }
-  if (rules.speeds.max_extrusion_rate_slope) limit_slope(segments, *rules.speeds.max_extrusion_rate_slope);
+  if (rules.speeds.max_extrusion_rate_slope)
+    limit_slope(segments, *rules.speeds.max_extrusion_rate_slope, rules.cooling.cool_min_speed);
   store(segments, bead);
 }
 

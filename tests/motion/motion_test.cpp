@@ -247,6 +247,7 @@ TEST_CASE("motion: mm³/s change no faster along a bead than max_extrusion_rate_
   rules.speeds.speed_wall_x = 100;
   const double slope = 20;
   rules.speeds.max_extrusion_rate_slope = slope;
+  rules.cooling.cool_min_speed = 0.1;
   auto bead =
       line({{0, 300}, {10'000, 300}, {10'400, 900}, {30'000, 900}, {30'200, 200}, {60'000, 200}}, Role::inner_wall);
   cut_where_width_changes(bead.path);
@@ -269,6 +270,15 @@ TEST_CASE("motion: mm³/s change no faster along a bead than max_extrusion_rate_
     CHECK(std::abs(rate(i + 1) - rate(i)) <=
           slope * 0.5 * (duration(i) + duration(i + 1)) + 0.06 * std::max(rate(i), rate(i + 1)));
   }
+}
+
+TEST_CASE("motion: where the width jumps, speed is not lowered below cool_min_speed") {
+  auto rules = plain_rules();
+  rules.speeds.max_extrusion_rate_slope = 5;
+  rules.cooling.cool_min_speed = 12;
+  auto bead = line({{0, 20}, {1'000, 20}, {1'010, 900}, {2'000, 900}}, Role::inner_wall);
+  set_bead_speed(rules, bead, false);
+  CHECK(bead.speed_mm_s == 12);
 }
 
 TEST_CASE("motion: with full equalisation walls of any width are printed at one mm³/s") {
