@@ -111,6 +111,7 @@ void refuse_emptiness(const Job& job, const std::vector<PlacedObject>& objects, 
 std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Report& report) {
   const Stopwatch stopwatch(report.timings_ms.total);
   report.settings_sha256 = sha256(as_text(job.settings));
+  gcode::check_custom_code(job.settings);  // a typo in the start G-code is told before an hour of slicing
   const auto objects = place_models(job, report);
   watch.progress("slicing", 0.05);
   std::vector<PrintedLayers> layers;
