@@ -69,6 +69,11 @@ std::string_view type_name(Unit unit) {
   else return "polygons";
 }
 
+/// The unit to print a number with where its symbol is written behind it anyway: `%` would stand there twice.
+constexpr Unit bare(Unit unit) {
+  return unit == Unit::percent ? Unit::none : unit;
+}
+
 /// Throws unless `v` lies in the row's range. A share is not ranged: its base is not known here.
 template <class T, class Bound>
 void check_range(const T& v, const Bound& least, const Bound& most, Unit unit) {
@@ -79,8 +84,8 @@ void check_range(const T& v, const Bound& least, const Bound& most, Unit unit) {
   } else if constexpr (std::is_same_v<T, SpeedOrShare>) {
     if (!v.is_share) check_range(v.value, least, most, unit);
   } else if (v < least || v > most) {
-    throw std::invalid_argument(fmt::format("{} {} is outside {} … {}{}{}", print_value(v, unit), symbol_of(unit), print_value(least, unit),
-                                            print_value(most, unit), unit == Unit::none ? "" : " ", symbol_of(unit)));
+    throw std::invalid_argument(fmt::format("{}{}{} is outside {} … {}{}{}", print_value(v, bare(unit)), unit == Unit::none ? "" : " ", symbol_of(unit),
+                                            print_value(least, bare(unit)), print_value(most, bare(unit)), unit == Unit::none ? "" : " ", symbol_of(unit)));
   }
 }
 
@@ -98,8 +103,8 @@ CatalogueEntry entry_of(const S& section, const Row& row) {
   e.automatic = OptionalOf<T>::value;
   e.choices = choice_names<typename OptionalOf<T>::type>();
   if constexpr (ranged) {
-    e.least = print_value(row.least, row.unit);
-    e.most = print_value(row.most, row.unit);
+    e.least = print_value(row.least, bare(row.unit));
+    e.most = print_value(row.most, bare(row.unit));
   }
   const auto group = section.group;
   const auto field = row.field;
