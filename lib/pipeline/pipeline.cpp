@@ -26,8 +26,7 @@ using namespace pipeline;
 Statistics plan_motion(const Settings& settings, PrintPlan& plan, const Watch& watch, Report& report) {
   const Stopwatch stopwatch(report.timings_ms.travel);
   const auto rules = motion::rules_of(settings);
-  std::vector<std::optional<Point3>> starts(plan.layers.size());
-  for (std::size_t i = 1; i < plan.layers.size(); ++i) starts[i] = end_of(plan.layers[i - 1], starts[i - 1].value_or(Point3{}));
+  const auto starts = motion::starts_of(plan);
   auto planned = parallel_map(plan.layers.size(), [&](std::size_t i) {
     stop_if_cancelled(watch);
     return motion::plan_layer(rules, std::move(plan.layers[i]), i, starts[i]);
