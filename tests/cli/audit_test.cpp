@@ -69,6 +69,29 @@ void check_passes(const Sliced& s) {
   CHECK_THAT(s.gcode, Contains("\n; weft_audit = pass, ") && Contains(" 0 not audited\n"));
 }
 
+/// A box sliced with start G-code that leaves the machine on `line`: refused, and annotated there. A motion back from
+/// outside is found as well, so `moves` of them stand outside.
+void check_start_code_found(const std::vector<std::string>& settings, const std::string& start, const std::string& annotation, const std::string& line,
+                            std::size_t moves) {
+  CAPTURE(start);
+  Scratch scratch;
+  scratch.write("part.stl", box_stl(10, 10, 0.4F));
+  std::vector<std::string> options{"-s", "machine_start_gcode=G28\\nG90\\nM83\\n" + start};
+  for (const auto& setting : settings) options.insert(options.end(), {"-s", setting});
+  const auto s = slice(scratch, "part.stl", options);
+  INFO(s.rejected.err << s.annotated.err);
+  CHECK(s.rejected.status == 5);
+  CHECK_FALSE(s.file_after_rejection);
+  CHECK(s.report["audit"]["verdict"] == "rejected");
+  CHECK(s.report["audit"]["violation_count"] == moves);
+  CHECK(s.report["audit"]["violations"][0]["text"] == line);
+  CHECK(s.report["audit"]["violations"][0]["feature"] == "custom");
+  CHECK(s.annotated.status == 0);
+  CHECK(count(s.gcode, "\n; WEFT-AUDIT ") == moves);
+  CHECK(count(s.gcode, "\n; WEFT-AUDIT " + annotation + "\n" + line + "\n") == 1);
+  CHECK(count(s.gcode, "\n; weft_audit = annotated: ") == 1);
+}
+
 /// Audits text against the printer with more settings.
 Run audit(const Scratch& scratch, const std::string& gcode, const std::vector<std::string>& more = {}) {
   scratch.write("printer.ini", printer);
@@ -106,6 +129,10 @@ TEST_CASE("audit T4: a travel over the notch of a concave bed, or through a no-g
   CHECK(area.status == 5);
   CHECK_THAT(area.err, Contains("10.000 mm inside no-go area 1"));
   CHECK(audit(scratch, travels, {"bed_exclude_areas=90x170,110x170,110x190,90x190", "exclude_height=0.2"}).status == 0);
+  check_start_code_found({"bed_shape=polygon", "bed_polygon=0x0,200x0,200x200,150x200,150x130,50x130,50x200,0x200"}, "G1 X20 Y180\\nG1 X180 Y180\\nG1 X180 Y20",
+                         "outside -x 50.000 mm, custom, travel", "G1 X180 Y180", 1);
+  check_start_code_found({"bed_exclude_areas=90x170,110x170,110x190,90x190"}, "G1 X20 Y180\\nG1 X180 Y180\\nG1 X180 Y20", "inside no-go area 1 10.000 mm, custom, travel",
+                         "G1 X180 Y180", 1);
 }
 
 TEST_CASE("audit T5: a brim wider than what is left of the bed is found") {
@@ -120,6 +147,7 @@ TEST_CASE("audit T7: an arc that bulges past the edge is found although its ends
   CHECK(run.status == 5);
   CHECK_THAT(run.err, Contains("beyond +x of the print surface (outer_wall, arc, line 10)"));
   CHECK(audit(scratch, start + "G1 X199 Y100\nG2 X199 Y110 I4 J5 E1\n").status == 0);
+  check_start_code_found({}, "G1 X199 Y100\\nG3 X199 Y110 I-4 J5", "outside +x 1.403 mm, custom, arc", "G3 X199 Y110 I-4 J5", 1);
 }
 
 TEST_CASE("audit T8: an ordinary print has no finding, and neither has its file") {
@@ -153,6 +181,9 @@ TEST_CASE("audit T10: relative moves, shifted origins and inches are judged in m
     CAPTURE(moves);
     CHECK(audit(scratch, start + moves).status == 0);
   }
+  check_start_code_found({}, "G1 X60 Y5\\nG91\\nG1 X140.1\\nG90", "outside +x 0.100 mm, custom, travel", "G1 X140.1", 2);
+  check_start_code_found({}, "G1 X100 Y5\\nG92 X0\\nG1 X100.1\\nG92 X200.1", "outside +x 0.100 mm, custom, travel", "G1 X100.1", 2);
+  check_start_code_found({}, "G20\\nG1 X7.88\\nG21", "outside +x 0.152 mm, custom, travel", "G1 X7.88", 2);
 }
 
 TEST_CASE("audit: a fleet of printers is told apart, for people, programs and CI servers") {
