@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 
+#include <CGAL/Mpzf.h>
 #include <CGAL/Segment_Delaunay_graph_2.h>
 #include <CGAL/Segment_Delaunay_graph_face_base_2.h>
 #include <CGAL/Segment_Delaunay_graph_filtered_traits_2.h>
@@ -33,7 +34,39 @@ struct Numbered : Base {
 };
 
 using Kernel = CGAL::Simple_cartesian<double>;
-using Traits = CGAL::Segment_Delaunay_graph_filtered_traits_without_intersections_2<Kernel>;
+using Exact = CGAL::Simple_cartesian<CGAL::Mpzf>;
+using FilteredTraits =
+    CGAL::Segment_Delaunay_graph_filtered_traits_without_intersections_2<Kernel, CGAL::Field_with_sqrt_tag, Exact>;
+
+/// CGAL's predicates, but for two that are asked oftest. Every site is a point of the outline or an edge between two, and
+/// edges are proven to meet in common ends only: then equality of sites is equality of their coordinates.
+struct Traits : FilteredTraits {
+  using Site = Site_2;
+  struct Equal_2 {
+    using result_type = bool;
+    using argument_type = Site;
+    bool operator()(const Site& p, const Site& q) const { return same(p.point(), q.point()); }
+    static bool same(const Point_2& p, const Point_2& q) { return p.x() == q.x() && p.y() == q.y(); }
+  };
+  struct Arrangement_type_2 : CGAL::SegmentDelaunayGraph_2::Internal::Arrangement_enum {
+    using result_type = Arrangement_type;
+    using argument_type = Site;
+    Arrangement_type operator()(const Site& p, const Site& q) const {
+      if (p.is_point() && q.is_point()) return Equal_2()(p, q) ? IDENTICAL : DISJOINT;
+      if (p.is_point()) return end_of(q, p.point());
+      if (q.is_point()) return end_of(p, q.point());
+      const auto p1 = p.source(), p2 = p.target(), q1 = q.source(), q2 = q.target();
+      const bool s11 = Equal_2::same(p1, q1), s22 = Equal_2::same(p2, q2), s12 = Equal_2::same(p1, q2), s21 = Equal_2::same(p2, q1);
+      if ((s11 && s22) || (s12 && s21)) return IDENTICAL;
+      return s11 ? TOUCH_11 : s12 ? TOUCH_12 : s21 ? TOUCH_21 : s22 ? TOUCH_22 : DISJOINT;
+    }
+    static Arrangement_type end_of(const Site& edge, const Point_2& p) {
+      return Equal_2::same(p, edge.source()) ? TOUCH_1 : Equal_2::same(p, edge.target()) ? TOUCH_2 : DISJOINT;
+    }
+  };
+  Equal_2 equal_2_object() const { return {}; }
+  Arrangement_type_2 arrangement_type_2_object() const { return {}; }
+};
 using Storage = CGAL::Segment_Delaunay_graph_storage_traits_2<Traits>;
 using VertexBase = Numbered<CGAL::Segment_Delaunay_graph_vertex_base_2<Storage>>;
 using FaceBase = Numbered<CGAL::Segment_Delaunay_graph_face_base_2<Traits>>;

@@ -1,0 +1,122 @@
+// What each stage costs a unit of its work, on one core, with the settings of the profiles given:
+//   benchmark_stages MODEL [PROFILE.ini]... [--benchmark_filter=walls]
+// `items_per_second` counts what the stage's cost grows with: triangles, vertices of outlines, beads, bytes.
+#include "audit/audit.h"
+#include "geometry/medial_axis.h"
+#include "infill/infill.h"
+#include "infill/shells.h"
+#include "mesh/read.h"
+#include "settings/profile.h"
+#include "slice/slice.h"
+#include "walls/walls.h"
+
+#include <benchmark/benchmark.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace {
+using namespace weft;
+
+std::int64_t vertices_of(const std::vector<SlicedLayer>& layers) {
+  std::size_t count = 0;
+  for (const auto& layer : layers)
+    for (const auto& region : layer.regions) {
+      count += region.outer.size();
+      for (const auto& hole : region.holes) count += hole.size();
+    }
+  return static_cast<std::int64_t>(count);
+}
+
+/// One job, stage by stage: each stage's input is what the one before it made.
+struct Bench {
+  std::string bytes, path;
+  Settings settings;
+  Mesh mesh;
+  std::vector<slice::Plane> planes;
+  std::vector<SlicedLayer> layers;
+  std::vector<WallLayer> walls;
+  std::vector<infill::ShellLayer> seen;
+  std::vector<infill::LayerAreas> areas;
+
+  void prepare() {
+    mesh = mesh::read(bytes, path).objects.front().mesh;
+    Box3 box = box_of(mesh);
+    for (auto& v : mesh.vertices) v.z -= box.min.z;
+    planes = slice::planes(settings.layers, box_of(mesh).max.z);
+    layers = slice_layers();
+    walls = build_walls();
+    for (std::size_t i = 0; i < layers.size(); ++i) seen.push_back({layers[i].z, layers[i].height, &layers[i].regions, &walls[i].inside});
+    areas = find_areas();
+  }
+  std::vector<SlicedLayer> slice_layers() const {
+    const slice::Cutter cutter(mesh, planes);
+    std::vector<SlicedLayer> out;
+    for (std::size_t i = 0; i < cutter.size(); ++i) out.push_back(cutter.cut(i, settings.layers.resolution).layer);
+    return out;
+  }
+  std::vector<WallLayer> build_walls() const {
+    std::vector<WallLayer> out;
+    for (std::size_t i = 0; i < layers.size(); ++i)
+      out.push_back(walls::build(settings.walls, {.layer = layers[i], .index = i, .nozzle_diameter = settings.machine.nozzle_diameter}));
+    return out;
+  }
+  std::vector<infill::LayerAreas> find_areas() const {
+    const infill::ShellObject object{seen, infill::box_of(seen), settings.machine.nozzle_diameter};
+    return infill::find_areas(settings.shells, settings.infill, object, 0, seen.size());
+  }
+  std::size_t fill() const {
+    std::size_t beads = 0;
+    for (std::size_t i = 0; i < layers.size(); ++i)
+      beads += infill::fill(settings.infill, settings.shells,
+                            {.areas = areas[i], .index = i, .z = layers[i].z, .height = layers[i].height, .nozzle = settings.machine.nozzle_diameter})
+                   .beads.size();
+    return beads;
+  }
+};
+
+template <class Work>
+void add(const char* name, std::int64_t items, Work work) {
+  benchmark::RegisterBenchmark(name, [=](benchmark::State& state) {
+    for (auto _ : state) benchmark::DoNotOptimize(work());
+    state.SetItemsProcessed(state.iterations() * items);
+  })->Unit(benchmark::kMillisecond);
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  benchmark::Initialize(&count, arguments);
+  if (count < 2) return fmt::print(stderr, "usage: benchmark_stages MODEL [PROFILE.ini]...\n"), 2;
+  static Bench bench;
+  bench.path = arguments[1];
+  std::ifstream file(bench.path, std::ios::binary);
+  bench.bytes.assign(std::istreambuf_iterator<char>(file), {});
+  try {
+    Profile profile;
+    for (int i = 2; i < count; ++i) apply_file(profile, arguments[i]);
+    bench.settings = profile.settings;
+    bench.prepare();
+  } catch (const std::exception& error) {
+    return fmt::print(stderr, "{}\n", error.what()), 1;
+  }
+  const auto triangles = static_cast<std::int64_t>(bench.mesh.triangles.size());
+  const auto vertices = vertices_of(bench.layers);
+  add("read/triangle", triangles, [] { return mesh::read(bench.bytes, bench.path).objects.front().mesh.triangles.size(); });
+  add("slice/triangle", triangles, [] { return bench.slice_layers().size(); });
+  add("medial_axis/vertex", vertices, [] {
+    std::size_t nodes = 0;
+    for (const auto& layer : bench.layers)
+      for (const auto& region : layer.regions) nodes += geometry::medial_axis(region).nodes.size();
+    return nodes;
+  });
+  add("walls/vertex", vertices, [] { return bench.build_walls().size(); });
+  add("shells/vertex", vertices, [] { return bench.find_areas().size(); });
+  add("fill/bead", static_cast<std::int64_t>(bench.fill()), [] { return bench.fill(); });
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
