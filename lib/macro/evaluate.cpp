@@ -1,0 +1,389 @@
+// The text that a program gives.
+#include "macro/functions.h"
+#include "macro/macro.h"
+#include "macro/program.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace weft::macro {
+
+namespace {
+
+class Evaluation {
+ public:
+  Evaluation(const Program& program, const Variables& variables, Scope& scope)
+      : program_(program), variables_(variables), scope_(scope) {}
+
+  std::string text() {
+    std::string out;
+    bool jumped = false;  // to the next branch, because the one before was not taken
+    for (std::size_t i = 0; i < program_.statements.size();) {
+      const auto& s = program_.statements[i];
+      const bool arrived = std::exchange(jumped, false);
+      switch (s.op) {
+        case Op::text:
+          out += s.text;
+          break;
+        case Op::legacy:
+          out += legacy(s);
+          break;
+        case Op::print:
+          out += printed(s);
+          break;
+        case Op::else_if:
+        case Op::otherwise:
+          if (!arrived) {
+            i = s.end;
+            continue;
+          }
+          if (s.op == Op::otherwise) break;
+          [[fallthrough]];
+        case Op::begin_if:
+          if (truth(s.expression)) break;
+          jumped = true;
+          i = s.next;
+          continue;
+        case Op::end_if:
+          break;
+        case Op::local:
+          locals_[s.text] = list(list_or_scalar(s.expression));
+          break;
+        case Op::global:
+          scope_.globals[s.text] = list(list_or_scalar(s.expression));
+          break;
+        case Op::assign:
+          assign(s);
+          break;
+      }
+      ++i;
+      if (out.size() > most_output) program_.refuse(s.at, "custom G-code becomes longer than 64 MB");
+    }
+    return out;
+  }
+
+  bool truth(Id id) {
+    const auto v = scalar(id);
+    const auto* b = std::get_if<bool>(&v);
+    if (!b)
+      program_.refuse(program_.nodes[id].at, fmt::format("'{}' is neither true nor false", text_of(v)),
+                      "compare it: x == 1");
+    return *b;
+  }
+
+ private:
+  static constexpr std::size_t most_output = std::size_t{1} << 26, most_elements = 100'000;
+
+  static Variable list(std::vector<Scalar> values) {
+    Variable out;
+    out.values = std::move(values);
+    return out;
+  }
+
+  const Variable* find(const std::string& name) const {
+    const Variables& locals = locals_;
+    const Variables& globals = scope_.globals;
+    for (const auto* where : {&locals, &globals, &variables_})
+      if (const auto found = where->find(name); found != where->end()) return &found->second;
+    return nullptr;
+  }
+
+  const Variable& variable(std::uint32_t at, const std::string& name) const {
+    const auto* found = find(name);
+    if (!found ||
+        (found->values.empty() && found->missing.empty() && !locals_.contains(name) && !scope_.globals.contains(name)))
+      program_.refuse(at, fmt::format("'{}' has no value here", name));
+    if (!found->missing.empty())
+      program_.refuse(at, fmt::format("'{}' {}: it has no value to write", name, found->missing),
+                      "give the setting a value");
+    return *found;
+  }
+
+  const Scalar& element(std::uint32_t at, const std::string& name, const Variable& v, std::int64_t index) const {
+    // One element: every index names it, as with PrusaSlicer's lists of one extruder.
+    if (index >= 0 && v.values.size() == 1) return v.values[0];
+    if (index < 0 || static_cast<std::size_t>(index) >= v.values.size())
+      program_.refuse(at, fmt::format("'{}' has {} values, there is no [{}]", name, v.values.size(), index),
+                      "count from 0");
+    return v.values[static_cast<std::size_t>(index)];
+  }
+
+  std::int64_t index_value(Id id) {
+    const auto v = scalar(id);
+    const auto* i = std::get_if<std::int64_t>(&v);
+    if (!i)
+      program_.refuse(program_.nodes[id].at, fmt::format("'{}' is not a whole number", text_of(v)),
+                      "an index counts from 0");
+    return *i;
+  }
+
+  std::string legacy(const Statement& s) {
+    if (s.index != none) return text_of(element(s.at, s.text, variable(s.at, s.text), index_value(s.index)));
+    if (!find(s.text))
+      if (const auto split = numbered(s.text))
+        return text_of(
+            element(s.at, split->name, variable(s.at, split->name), static_cast<std::int64_t>(split->index)));
+    const auto& v = variable(s.at, s.text);
+    if (!v.text.empty()) return v.text;
+    std::string out;
+    for (std::size_t i = 0; i < v.values.size(); ++i) {
+      if (i > 0) out += ',';
+      out += text_of(v.values[i]);
+    }
+    return out;
+  }
+
+  std::string printed(const Statement& s) {
+    const auto v = scalar(s.expression);
+    if (std::holds_alternative<Nil>(v)) program_.refuse(s.at, "the value is nil", "test it: {if is_nil(x)}…{endif}");
+    return text_of(v);
+  }
+
+  void assign(const Statement& s) {
+    auto& where = locals_.contains(s.text) ? locals_ : scope_.globals;
+    const auto found = where.find(s.text);
+    if (found == where.end())
+      program_.refuse(s.at, fmt::format("'{}' has no value here", s.text),
+                      fmt::format("write {{local {} = …}} before", s.text));
+    if (s.index == none) {
+      found->second = list(list_or_scalar(s.expression));
+      return;
+    }
+    const auto index = index_value(s.index);
+    auto& values = found->second.values;
+    if (index < 0 || static_cast<std::size_t>(index) >= values.size())
+      program_.refuse(s.at, fmt::format("'{}' has {} values, there is no [{}]", s.text, values.size(), index),
+                      "count from 0");
+    values[static_cast<std::size_t>(index)] = scalar(s.expression);
+  }
+
+  std::vector<Scalar> list_or_scalar(Id id) {
+    const auto& node = program_.nodes[id];
+    if (node.kind == Kind::list) {
+      std::vector<Scalar> out;
+      for (const Id kid : node.kids) out.push_back(scalar(kid));
+      return out;
+    }
+    if (node.kind == Kind::variable) return variable(node.at, node.name).values;
+    if (node.kind == Kind::call && node.name == "repeat") {
+      const auto count = index_value(node.kids[0]);
+      if (count < 0 || static_cast<std::size_t>(count) > most_elements)
+        program_.refuse(node.at, fmt::format("repeat takes 0 to {} elements", most_elements));
+      return std::vector<Scalar>(static_cast<std::size_t>(count), scalar(node.kids[1]));
+    }
+    return {scalar(id)};
+  }
+
+  Scalar scalar(Id id) {
+    const auto& node = program_.nodes[id];
+    switch (node.kind) {
+      case Kind::literal:
+        return node.value;
+      case Kind::regex:
+        program_.refuse(node.at, "a /regular expression/ is not a value");
+      case Kind::list:
+        program_.refuse(node.at, "a list stands where one value is expected");
+      case Kind::variable:
+        return only(node);
+      case Kind::index:
+        return indexed(node);
+      case Kind::call:
+        return called(node);
+      case Kind::negate:
+      case Kind::identity:
+      case Kind::invert:
+        return unary(node);
+      case Kind::both:
+        return truth(node.kids[0]) && truth(node.kids[1]);
+      case Kind::either:
+        return truth(node.kids[0]) || truth(node.kids[1]);
+      case Kind::choose:
+        return scalar(truth(node.kids[0]) ? node.kids[1] : node.kids[2]);
+      case Kind::matches:
+      case Kind::differs:
+        return matched(node);
+      default:
+        break;
+    }
+    const auto a = scalar(node.kids[0]);
+    const auto b = scalar(node.kids[1]);
+    try {
+      return node.kind >= Kind::equal ? Scalar(compared(node.kind, a, b)) : arithmetic(node.kind, a, b);
+    } catch (const std::invalid_argument& e) {
+      program_.refuse(node.at, e.what());
+    }
+  }
+
+  Scalar only(const Node& node) const {
+    const auto& v = variable(node.at, node.name);
+    if (v.values.size() != 1)
+      program_.refuse(node.at, fmt::format("'{}' is a list of {} values", node.name, v.values.size()),
+                      fmt::format("write {{{}[0]}}", node.name));
+    return v.values[0];
+  }
+
+  Scalar indexed(const Node& node) {
+    const auto& name = program_.nodes[node.kids[0]];
+    const auto index = index_value(node.kids[1]);
+    return element(node.at, name.name, variable(name.at, name.name), index);
+  }
+
+  Scalar matched(const Node& node) {
+    const auto v = scalar(node.kids[0]);
+    const auto* text = std::get_if<std::string>(&v);
+    if (!text)
+      program_.refuse(node.at, fmt::format("'{}' is not a text to compare with a regular expression", text_of(v)));
+    return matches(*text, program_.nodes[node.kids[1]].name) == (node.kind == Kind::matches);
+  }
+
+  Scalar unary(const Node& node) {
+    const auto v = scalar(node.kids[0]);
+    if (node.kind == Kind::invert) {
+      if (const auto* b = std::get_if<bool>(&v)) return !*b;
+      program_.refuse(node.at, fmt::format("'{}' is neither true nor false", text_of(v)),
+                      "'not' binds closer than '==': write not (a == b)");
+    }
+    if (const auto* i = std::get_if<std::int64_t>(&v)) {
+      if (*i == std::numeric_limits<std::int64_t>::min()) program_.refuse(node.at, "the number is too large");
+      return node.kind == Kind::negate ? -*i : *i;
+    }
+    if (const auto* d = std::get_if<double>(&v)) return node.kind == Kind::negate ? -*d : *d;
+    program_.refuse(node.at, fmt::format("'{}' is not a number", text_of(v)));
+  }
+
+  static Scalar arithmetic(Kind kind, const Scalar& a, const Scalar& b) {
+    if (kind == Kind::add && (std::holds_alternative<std::string>(a) || std::holds_alternative<std::string>(b)))
+      return text_of(a) + text_of(b);
+    const auto *i = std::get_if<std::int64_t>(&a), *k = std::get_if<std::int64_t>(&b);
+    if (i && k) return whole(kind, *i, *k);
+    const double x = number_of(a), y = number_of(b);
+    double out = 0;
+    if ((kind == Kind::divide || kind == Kind::modulo) && y == 0) throw std::invalid_argument("division by zero");
+    switch (kind) {
+      case Kind::add:
+        out = x + y;
+        break;
+      case Kind::subtract:
+        out = x - y;
+        break;
+      case Kind::multiply:
+        out = x * y;
+        break;
+      case Kind::divide:
+        out = x / y;
+        break;
+      default:
+        out = std::fmod(x, y);
+        break;
+    }
+    if (!std::isfinite(out)) throw std::invalid_argument("the number is too large");
+    return out;
+  }
+
+  static Scalar whole(Kind kind, std::int64_t a, std::int64_t b) {
+    std::int64_t out = 0;
+    bool over = false;
+    switch (kind) {
+      case Kind::add:
+        over = __builtin_add_overflow(a, b, &out);
+        break;
+      case Kind::subtract:
+        over = __builtin_sub_overflow(a, b, &out);
+        break;
+      case Kind::multiply:
+        over = __builtin_mul_overflow(a, b, &out);
+        break;
+      default:
+        if (b == 0) throw std::invalid_argument("division by zero");
+        over = a == std::numeric_limits<std::int64_t>::min() && b == -1;
+        if (!over) out = kind == Kind::divide ? a / b : a % b;
+    }
+    if (over) throw std::invalid_argument("the number is too large");
+    return out;
+  }
+
+  /// Numbers with numbers, flags with flags, and anything with a text: as texts.
+  static bool compared(Kind kind, const Scalar& a, const Scalar& b) {
+    const auto ordered = [kind](const auto& x, const auto& y) {
+      switch (kind) {
+        case Kind::equal:
+          return x == y;
+        case Kind::unequal:
+          return !(x == y);
+        case Kind::less:
+          return x < y;
+        case Kind::greater:
+          return y < x;
+        case Kind::at_most:
+          return !(y < x);
+        default:
+          return !(x < y);
+      }
+    };
+    if (std::holds_alternative<std::string>(a) || std::holds_alternative<std::string>(b))
+      return ordered(text_of(a), text_of(b));
+    const auto *p = std::get_if<bool>(&a), *q = std::get_if<bool>(&b);
+    if (p && q && (kind == Kind::equal || kind == Kind::unequal)) return ordered(*p, *q);
+    if (p || q) throw std::invalid_argument(fmt::format("'{}' and '{}' cannot be compared", text_of(a), text_of(b)));
+    return ordered(number_of(a), number_of(b));
+  }
+
+  Scalar called(const Node& node) {
+    const auto& first = program_.nodes[node.kids[0]];
+    if (node.name == "is_nil") {
+      if (first.kind == Kind::variable) {
+        const auto& values = variable(first.at, first.name).values;
+        return !values.empty() && std::all_of(values.begin(), values.end(),
+                                              [](const Scalar& v) { return std::holds_alternative<Nil>(v); });
+      }
+      return std::holds_alternative<Nil>(scalar(node.kids[0]));
+    }
+    if (node.name == "size" || node.name == "empty") {
+      const auto size = static_cast<std::int64_t>(list_or_scalar(node.kids[0]).size());
+      return node.name == "size" ? Scalar(size) : Scalar(size == 0);
+    }
+    if (node.name == "repeat") program_.refuse(node.at, "repeat gives a list", "write {local x = repeat(3, 0)}");
+    std::vector<Argument> arguments;
+    for (const Id kid : node.kids) {
+      const auto& argument = program_.nodes[kid];
+      if (argument.kind == Kind::regex)
+        arguments.push_back({.values = {argument.name}, .regex = true});
+      else if (argument.kind == Kind::list)
+        arguments.push_back({.values = list_or_scalar(kid), .list = true});
+      else
+        arguments.push_back({.values = {scalar(kid)}});
+    }
+    try {
+      return call(node.name, arguments, scope_.random);
+    } catch (const std::invalid_argument& e) {
+      program_.refuse(node.at, e.what());
+    }
+  }
+
+  const Program& program_;
+  const Variables& variables_;
+  Scope& scope_;
+  Variables locals_;
+};
+
+}  // namespace
+
+std::string Template::expand(const Variables& variables, Scope& scope) const {
+  return Evaluation(*program_, variables, scope).text();
+}
+
+bool holds(std::string_view text, const Variables& variables, std::string_view where) {
+  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) return true;
+  Id root = none;
+  const auto program = condition(text, where, root);
+  check_condition(*program, variables, root);
+  Scope scope;
+  return Evaluation(*program, variables, scope).truth(root);
+}
+
+}  // namespace weft::macro

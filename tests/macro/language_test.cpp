@@ -1,0 +1,224 @@
+#include "core/error.h"
+#include "macro/macro.h"
+
+#include <random>
+
+#include <catch2/catch.hpp>
+
+using namespace weft;
+using namespace weft::macro;
+using Catch::Matchers::Contains;
+
+namespace {
+
+Variables some() {
+  Variables out;
+  out["temperature"] = variable_of("215");
+  out["first_layer_temperature"] = variable_of("230");
+  out["retract"] = variable_of("0.8,nil,1.2");
+  out["override"] = variable_of("nil");
+  out["notes"] = variable(std::string("a\nMK3\nb"));
+  out["layer_num"] = variable(std::int64_t{3});
+  out["travel_z"] = {.values = {}, .text = {}, .missing = "is auto"};
+  return out;
+}
+
+std::string expanded(std::string_view text) {
+  Scope scope;
+  Variables globals;
+  const Template read(text, "start_gcode");
+  read.check(some(), globals);
+  return read.expand(some(), scope);
+}
+
+std::string message(std::string_view text) {
+  try {
+    expanded(text);
+  } catch (const Error& e) {
+    CHECK(e.kind() == Error::Kind::settings);
+    return e.what();
+  }
+  return "nothing was thrown";
+}
+
+}  // namespace
+
+TEST_CASE("macro: variables are kept until the end of the text") {
+  CHECK(expanded("{local a = 1}{a + 1}") == "2");
+  CHECK(expanded("{local a = 1; a = a + 1; a = a * 10}{a}") == "20");
+  CHECK(expanded("{local s = \"x\"}{s = s + 1}{s}") == "x1");
+  CHECK(expanded("{local v = (1, 2.5, \"c\")}{v[0]} {v[1]} {v[2]} {size(v)}") == "1 2.5 c 3");
+  CHECK(expanded("{local v = repeat(3, 7); v[1] = 8}{v[0]}{v[1]}{v[2]}") == "787");
+  CHECK(expanded("{local v = retract}{v[2]}") == "1.2");
+  CHECK(expanded("{local v = (1, 2)}[v_1] [v]") == "2 1,2");
+  CHECK(expanded("{local a = 1 == 1}{if a}yes{endif}") == "yes");
+}
+
+TEST_CASE("macro: global variables are shared by the texts that come later") {
+  Scope scope;
+  Variables globals;
+  const Template first("{global count = 0}", "start_gcode"), each("{count = count + 1}{count}", "layer_gcode");
+  first.check(some(), globals);
+  each.check(some(), globals);
+  CHECK(first.expand(some(), scope) == "");
+  CHECK(each.expand(some(), scope) == "1");
+  CHECK(each.expand(some(), scope) == "2");
+  Variables none;
+  CHECK_THROWS_WITH(each.check(some(), none), Contains("layer_gcode:1:10: unknown placeholder 'count'"));
+}
+
+TEST_CASE("macro: conditions stand around text, or within braces") {
+  CHECK(expanded("{if layer_num == 3 then \"three\" elsif layer_num == 4 then \"four\" else \"other\" endif}") ==
+        "three");
+  CHECK(expanded("{local x = 0; if layer_num > 2 then x = 1; else x = 2; endif; x}") == "1");
+  CHECK(expanded("{local x = 0}\n{\n  if notes =~ /.*MK3.*/ then\n    x = 5;\n  endif\n}{x}") == "\n5");
+  CHECK(expanded("{if false}a{elsif false}b{elsif true}c{elsif true}d{else}e{endif}") == "c");
+  CHECK(expanded("{if true}{if false}a{else}b{endif}{else}{if true}c{endif}{endif}") == "b");
+}
+
+TEST_CASE("macro: a branch that is not taken is not evaluated") {
+  CHECK(expanded("{if false}{1/0}{endif}ok") == "ok");
+  CHECK(expanded("{false and 1/0 == 1 ? 1 : 2}") == "2");
+  CHECK(expanded("{true ? 1 : 1/0}") == "1");
+  CHECK_THAT(message("{if false}{tempratur[0]}{endif}"),
+             Contains("start_gcode:1:12: unknown placeholder 'tempratur'") && Contains("'temperature'"));
+}
+
+TEST_CASE("macro: functions of later PrusaSlicers") {
+  CHECK(expanded("{floor(2.7)} {floor(-2.2)} {ceil(2.2)} {ceil(-2.7)}") == "2 -3 3 -2");
+  CHECK(expanded("{is_nil(override)} {is_nil(temperature)} {is_nil(retract[1])} {is_nil(retract[0])}") ==
+        "true false true false");
+  CHECK(expanded("{size(retract)} {empty(retract)} {size(temperature)}") == "3 false 1");
+  CHECK(expanded("{one_of(\"b\", \"a\", \"b\")} {one_of(\"b\", \"a\")} {one_of(\"abc\", /a.*/)} {one_of(\"abc\", "
+                 "~\"x.*\")}") == "true false true false");
+  CHECK(expanded("{interpolate_table(5, (0, 0), (10, 100))}") == "50");
+  CHECK(expanded("{interpolate_table(-1, (0, 7), (10, 100))} {interpolate_table(11, (0, 7), (10, 100))} "
+                 "{interpolate_table(10, (0, 7), (10, 100))}") == "7 100 100");
+  CHECK(expanded("{interpolate_table(15, (0, 0), (10, 100), (20, 0))}") == "50");
+  CHECK(expanded("{regex_replace(\"a-b-c\", /-/, \"_\")}") == "a_b_c");
+  CHECK(expanded("{max(1, 2.5, 3)} {min(3, 2, 1.5)}") == "3 1.5");
+}
+
+TEST_CASE("macro: random numbers are within their limits, and the same for the same seed") {
+  const Template read("{random(1, 6)} {random(0.0, 1.0)}", "x");
+  Scope a{.globals = {}, .random = 7}, b = a;
+  const auto first = read.expand({}, a);
+  CHECK(first == read.expand({}, b));
+  CHECK(first != read.expand({}, a));
+  const Template die("{random(1, 3)}", "x");
+  std::string seen;
+  for (int i = 0; i < 100; ++i) seen += die.expand({}, a);
+  CHECK(seen.find_first_not_of("123") == std::string::npos);
+  CHECK((seen.find('1') != std::string::npos && seen.find('2') != std::string::npos &&
+         seen.find('3') != std::string::npos));
+}
+
+TEST_CASE("macro: numbers have no exponent, which no firmware reads") {
+  CHECK(expanded("{100000.0 * 1000} {1234567.891} {0.00001} {0.0000123456} {-1e-5}") ==
+        "100000000 1234567.891 0.00001 0.0000123456 -0.00001");
+  CHECK(expanded("{0.1 + 0.2} {1.0 / 3} {-0.0}") == "0.3 0.333333 0");
+}
+
+TEST_CASE("macro: brackets that hold no name stand for themselves") {
+  CHECK(expanded("POLYGON=[[1,2],[3,4]] [ [a") == "POLYGON=[[1,2],[3,4]] [ [a");
+  CHECK(expanded("[[1,2]] [] [ [") == "[[1,2]] [] [ [");
+  CHECK(expanded("a}b ; 'quoted' \\n") == "a}b ; 'quoted' \\n");
+  CHECK(expanded("") == "");
+}
+
+TEST_CASE("macro: what is wrong is told with line, column and what to try") {
+  CHECK(message("G28\nM109 S{first_layer_temprature[0]}") ==
+        "start_gcode:2:8: unknown placeholder 'first_layer_temprature'; did you mean 'first_layer_temperature'?");
+  CHECK_THAT(message("[nonsense_and_more_nonsense]"), Contains("start_gcode:1:2: unknown placeholder"));
+  CHECK_THAT(message("G1 X{1 +}"), Contains("start_gcode:1:9: expected a value, found '}'"));
+  CHECK_THAT(message("G1 X{1 + * 2}"), Contains("start_gcode:1:10: expected a value"));
+  CHECK_THAT(message("G1 X{(1 + 2}"), Contains("start_gcode:1:12: expected ')'"));
+  CHECK_THAT(message("G1 X{1"), Contains("start_gcode:1:5: '{' without '}'"));
+  CHECK_THAT(message("{}"), Contains("'{}' holds nothing"));
+  CHECK_THAT(message("{1 2}"), Contains("start_gcode:1:4: expected '}' or ';'"));
+  CHECK_THAT(message("{maxx(1, 2)}"), Contains("unknown function 'maxx'") && Contains("did you mean 'max'"));
+  CHECK_THAT(message("{round(1, 2)}"), Contains("round takes 1 arguments, not 2"));
+  CHECK_THAT(message("{if layer_num}x{endif}"), Contains("neither true nor false"));
+  CHECK_THAT(message("{if layer_num == 3}x"), Contains("start_gcode:1:2: {if} without {endif}"));
+  CHECK_THAT(message("x{endif}"), Contains("start_gcode:1:3: there is no {if} before this"));
+  CHECK_THAT(message("{if true}{else}{elsif true}{endif}"), Contains("only {endif} may follow {else}"));
+  CHECK_THAT(message("{if true then 1}x{endif}"), Contains("without endif before '}'"));
+  CHECK_THAT(message("{1/0}"), Contains("start_gcode:1:2: division by zero"));
+  CHECK_THAT(message("{1%0}"), Contains("division by zero"));
+  CHECK_THAT(message("{retract[3]}"), Contains("'retract' has 3 values, there is no [3]") && Contains("count from 0"));
+  CHECK_THAT(message("{retract}"), Contains("is a list of 3 values") && Contains("{retract[0]}"));
+  CHECK_THAT(message("{override}"), Contains("nil"));
+  CHECK_THAT(message("{travel_z}"), Contains("'travel_z' is auto"));
+  CHECK_THAT(message("{\"a\" * 2}"), Contains("'a' is not a number"));
+  CHECK_THAT(message("{if not layer_num == 3}{endif}"), Contains("not (a == b)"));
+  CHECK_THAT(message("{true == 1}"), Contains("cannot be compared"));
+  CHECK_THAT(message("{\"a\" =~ /(/}"), Contains("is not a regular expression"));
+  CHECK_THAT(message("{temperature = 5}"), Contains("'temperature' cannot be changed"));
+  CHECK_THAT(message("{local temperature = 5}"), Contains("choose another name"));
+  CHECK_THAT(message("{x = 5}"), Contains("unknown placeholder 'x'"));
+  CHECK_THAT(message("{9223372036854775807 + 1}"), Contains("too large"));
+  CHECK_THAT(message("{99999999999999999999}"), Contains("start_gcode:1:2: '99999999999999999999' is not a number"));
+  CHECK_THAT(message("{digits(1, 1000)}"), Contains("whole number from 0 to 64"));
+  CHECK_THAT(message("{interpolate_table(1, (2, 2), (1, 1))}"), Contains("must rise"));
+}
+
+TEST_CASE("macro: no text exhausts the stack or takes forever") {
+  CHECK_THAT(message("{" + std::string(100'000, '(') + "1"), Contains("nested too deeply"));
+  CHECK_THAT(message("{" + std::string(100'000, '-') + "1}"), Contains("nested too deeply"));
+  std::string sum = "{1";
+  for (int i = 0; i < 100'000; ++i) sum += "+1";
+  CHECK_THAT(message(sum + "}"), Contains("too long"));
+  std::string choices = "{";
+  for (int i = 0; i < 10'000; ++i) choices += "true?1:";
+  CHECK_THAT(message(choices + "2}"), Contains("nested too deeply"));
+  std::string ifs, ends;
+  for (int i = 0; i < 20'000; ++i) ifs += "{if true}", ends += "{endif}";
+  CHECK(expanded(ifs + "x" + ends) == "x");
+  CHECK(expanded("{local s = \"" + std::string(3'000, 'a') + "\"}{if s =~ /(a|a|aa)*b/}T{else}F{endif}") == "F");
+  CHECK_THAT(message("{local s = repeat(1000000000, 1)}"), Contains("repeat takes"));
+}
+
+TEST_CASE("macro: no bytes whatever crash the reader") {
+  std::mt19937 random(11);
+  const std::string_view parts[] = {
+      "{", "}",  "[",  "]",    "if ", "endif", "else",   "elsif ",  "1",     "2.5",         "\"",      "/",
+      "(", ")",  "+",  "-",    "*",   "%",     "<",      ">",       "=",     "!",           "~",       "?",
+      ":", ";",  ",",  "and ", "or ", "not ",  "local ", "global ", "then ", "temperature", "retract", "_0",
+      " ", "\n", "\\", "\x80", "é",   "max",   "size",   "nil",     "true",  "1e999",       "\0"};
+  std::size_t fine = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    std::string text;
+    for (std::size_t n = random() % 14; n > 0; --n) text += parts[random() % std::size(parts)];
+    try {
+      expanded(text);
+      ++fine;
+    } catch (const Error& e) {
+      CHECK(e.where().rfind("start_gcode:", 0) == 0);
+    }
+  }
+  CHECK(fine > 100);
+}
+
+TEST_CASE("macro: a condition alone") {
+  CHECK(holds("", some(), "compatible_printers_condition"));
+  CHECK(holds("  ", some(), "compatible_printers_condition"));
+  CHECK(holds("notes=~/.*MK3.*/ and temperature[0]<240", some(), "x"));
+  CHECK(!holds("notes!~/.*MK3.*/ or layer_num!=3", some(), "x"));
+  CHECK_THROWS_WITH(holds("notess=~/a/", some(), "compatible_printers_condition"),
+                    Contains("compatible_printers_condition:1:1: unknown placeholder 'notess'"));
+  CHECK_THROWS_WITH(holds("true true", some(), "x"), Contains("x:1:6") && Contains("left over"));
+  CHECK_THROWS_WITH(holds("1", some(), "x"), Contains("neither true nor false"));
+}
+
+TEST_CASE("macro: values in the words of an ini have types") {
+  CHECK(variable_of("215").values == std::vector<Scalar>{std::int64_t{215}});
+  CHECK(variable_of("0.5, 1").values == std::vector<Scalar>{0.5, std::int64_t{1}});
+  CHECK(variable_of("true").values == std::vector<Scalar>{true});
+  CHECK(variable_of("nil,x").values == std::vector<Scalar>{Nil{}, std::string("x")});
+  CHECK(variable_of("15%").values == std::vector<Scalar>{std::int64_t{15}});
+  CHECK(variable_of("15%").text == "15%");
+  CHECK(variable_of("\"a, \\\"b\\\"\",c").values == std::vector<Scalar>{std::string("a, \"b\""), std::string("c")});
+  CHECK(variable_of("\"a b\"").text == "a b");
+  CHECK(variable_of("inf").values == std::vector<Scalar>{std::string("inf")});
+  CHECK(variable_of("").values == std::vector<Scalar>{std::string()});
+}
