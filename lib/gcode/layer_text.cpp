@@ -121,8 +121,7 @@ class LayerText {
 
   void print(const Extrude& bead) {
     if (bead.path.size() < 2) return;
-    const auto& first = bead.path.front().at;
-    travel_to({first.x, first.y, job_.plan.z}, job_.settings.speeds.speed_travel);
+    travel_to(place_of(bead, 0, job_.plan.z), job_.settings.speeds.speed_travel);
     if (role_ != static_cast<int>(bead.role)) {
       role_ = static_cast<int>(bead.role);
       out_ << ";TYPE:" << name_of(bead.role).comment << '\n';
@@ -137,7 +136,8 @@ class LayerText {
       if (a.at == b.at) continue;
       width((a.width + b.width) / 2, bead.height);
       out_ << "G1";
-      axes({b.at.x, b.at.y, job_.plan.z});
+      const Point3 to = place_of(bead, i, job_.plan.z);
+      axes(to);
       filament(distance(a.at, b.at) / 1000.0 * mean_area_mm2(a, b, height_mm) * e_per_mm3_);
       feed(varies ? static_cast<double>(bead.segment_speed_mm_s[i - 1]) : bead.speed_mm_s);
       if (flow_comments && (a.flow != 1.F || b.flow != 1.F)) {
@@ -145,7 +145,7 @@ class LayerText {
         out_.spelled(rounded(500.0 * static_cast<double>(a.flow + b.flow)));
       }
       out_ << '\n';
-      state_.at = Point3{b.at.x, b.at.y, job_.plan.z};
+      state_.at = to;
     }
   }
 
@@ -243,7 +243,7 @@ void advance(MachineState& state, const Dialect& dialect, const LayerPlan& layer
   for (const auto& step : layer.steps) {
     if (const auto* bead = std::get_if<Extrude>(&step)) {
       if (bead->path.size() < 2) continue;
-      state.at = Point3{bead->path.back().at.x, bead->path.back().at.y, layer.z};
+      state.at = place_of(*bead, bead->path.size() - 1, layer.z);
       if (bead->acceleration_mm_s2 > 0) state.print_acceleration = bead->acceleration_mm_s2;
     } else if (const auto* travel = std::get_if<Travel>(&step)) {
       if (travel->path.empty()) continue;

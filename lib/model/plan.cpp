@@ -15,7 +15,7 @@ double speed_between(const Travel& travel, Point3 a, Point3 b) {
 Point3 end_of(const LayerPlan& layer, Point3 before) {
   for (auto step = layer.steps.rbegin(); step != layer.steps.rend(); ++step) {
     if (const auto* extrude = std::get_if<Extrude>(&*step); extrude && !extrude->path.empty())
-      return {extrude->path.back().at.x, extrude->path.back().at.y, layer.z};
+      return place_of(*extrude, extrude->path.size() - 1, layer.z);
     if (const auto* travel = std::get_if<Travel>(&*step); travel && !travel->path.empty()) return travel->path.back();
     if (const auto* retract = std::get_if<Retract>(&*step); retract && !retract->wipe.empty())
       return {retract->wipe.back().x, retract->wipe.back().y, layer.z};

@@ -16,7 +16,15 @@ struct Extrude {
   double speed_mm_s = 0;                ///< set by motion; 0 before
   std::vector<float> segment_speed_mm_s{};  ///< set by motion where speed varies along the path: one a segment; else empty
   double acceleration_mm_s2 = 0;          ///< set by motion; 0: whatever the firmware has
+  /// Of a ramp: how far below the layer's z each junction lies, one a junction; else empty. Flow is the band's share that
+  /// is laid there, so that volume is as for any bead. Such a bead is not resampled.
+  std::vector<Um> below{};
 };
+
+/// Where junction i of a bead lies, on a layer at z.
+inline Point3 place_of(const Extrude& bead, std::size_t i, Um z) {
+  return {bead.path[i].at.x, bead.path[i].at.y, bead.below.empty() ? z : z - bead.below[i]};
+}
 
 /// Moves without extruding, through the points in order; starts where the last step ended.
 struct Travel {

@@ -138,7 +138,7 @@ std::vector<Move> moves_of(const Rules& rules, const LayerPlan& layer, std::opti
       const bool varies = !bead->segment_speed_mm_s.empty();
       for (std::size_t k = 0; k < bead->path.size(); ++k) {
         const double v = varies && k > 0 ? static_cast<double>(bead->segment_speed_mm_s[k - 1]) : bead->speed_mm_s;
-        out.go({bead->path[k].at.x, bead->path[k].at.y, layer.z}, v, a, i, true);
+        out.go(place_of(*bead, k, layer.z), v, a, i, true);
       }
     } else if (const auto* travel = std::get_if<Travel>(&step)) {
       for (const Point3 to : travel->path)

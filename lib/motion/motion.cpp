@@ -73,7 +73,7 @@ Statistics count(const Rules& rules, const LayerPlan& layer, std::optional<Point
   for (const auto& step : layer.steps) {
     if (const auto* bead = std::get_if<Extrude>(&step)) {
       count_bead(*bead, s);
-      at = Point3{bead->path.back().at.x, bead->path.back().at.y, layer.z};
+      at = place_of(*bead, bead->path.size() - 1, layer.z);
     } else if (const auto* travel = std::get_if<Travel>(&step)) {
       count_travel(*travel, at, s);
       at = travel->path.back();

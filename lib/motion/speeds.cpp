@@ -218,16 +218,16 @@ void set_speeds(const Rules& rules, LayerPlan& layer, bool first_layer, std::opt
   for (auto& step : layer.steps) {
     if (auto* bead = std::get_if<Extrude>(&step)) {
       if (bead->path.size() < 2) continue;
-      const Point3 first{bead->path.front().at.x, bead->path.front().at.y, layer.z};
+      const Point3 first = place_of(*bead, 0, layer.z);
       if (at != first) {
         Travel travel{.path = {first}};
         set_travel(travel);
         steps.emplace_back(std::move(travel));
       }
-      resample(bead->path);
+      if (bead->below.empty()) resample(bead->path);
       set_bead_speed(rules, *bead, first_layer);
       bead->acceleration_mm_s2 = write_accelerations ? feature_acceleration_mm_s2(rules, bead->role, first_layer) : 0;
-      at = Point3{bead->path.back().at.x, bead->path.back().at.y, layer.z};
+      at = place_of(*bead, bead->path.size() - 1, layer.z);
     } else if (auto* travel = std::get_if<Travel>(&step)) {
       if (travel->path.empty()) continue;
       set_travel(*travel);
@@ -239,7 +239,9 @@ void set_speeds(const Rules& rules, LayerPlan& layer, bool first_layer, std::opt
       const double amount_mm = to_mm(rules.retraction.retraction_amount);
       const double while_wiping_mm = rules.retraction.retraction_retract_speed * um / 1000.0 / travel_speed;
       retract->before_wipe =
-          rules.retraction.firmware_retraction || amount_mm <= 0 ? 1 : std::max(0.0, 1 - while_wiping_mm / amount_mm);
+          rules.retraction.firmware_retraction || amount_mm <= 0
+              ? 1
+              : std::max(rules.retraction.retract_before_wipe / 100.0, 1 - while_wiping_mm / amount_mm);
       at = Point3{retract->wipe.back().x, retract->wipe.back().y, at ? at->z : layer.z};
     }
     steps.push_back(std::move(step));

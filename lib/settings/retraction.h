@@ -24,8 +24,11 @@ struct RetractionSettings {
   Um retraction_min_travel = 1.5_mm;
   bool retract_only_when_crossing = true;
   bool retract_at_layer_change = false;
+  std::optional<int> retraction_count_max;
+  Um retraction_extrusion_window = 1_mm;
   bool wipe = false;
   Um wipe_distance = 1_mm;
+  double retract_before_wipe = 0;
   Um retraction_hop = 0_mm;
   HopType retraction_hop_type = HopType::vertical;
   double travel_slope = 20;
@@ -54,8 +57,15 @@ inline constexpr std::tuple retraction_schema{
             "only_retract_when_crossing_perimeters"),
     setting("retract_at_layer_change", &RetractionSettings::retract_at_layer_change, "Filament is drawn back before the next layer.",
             "retract_layer_change"),
+    setting("retraction_count_max", &RetractionSettings::retraction_count_max, Unit::none, 0, 10000,
+            "Most retractions within retraction_extrusion_window of filament, so that the same piece is not ground down; auto: any number."),
+    setting("retraction_extrusion_window", &RetractionSettings::retraction_extrusion_window, Unit::mm, 0_mm, 1000_mm,
+            "Length of filament within which retractions are counted for retraction_count_max."),
     setting("wipe", &RetractionSettings::wipe, "The nozzle runs over what it has just printed while filament is drawn back.", "wipe"),
     setting("wipe_distance", &RetractionSettings::wipe_distance, Unit::mm, 0_mm, 100_mm, "Length of that run."),
+    setting("retract_before_wipe", &RetractionSettings::retract_before_wipe, Unit::percent, 0, 100,
+            "Least share of retraction_amount drawn back before the wipe begins; more where the wipe is too short for the rest.",
+            "retract_before_wipe"),
     setting("retraction_hop", &RetractionSettings::retraction_hop, Unit::mm, 0_mm, 100_mm, "How far the nozzle is lifted on retracted travels.",
             "retract_lift"),
     setting("retraction_hop_type", &RetractionSettings::retraction_hop_type,

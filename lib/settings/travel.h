@@ -49,11 +49,17 @@ struct TravelSettings {
   Combing retraction_combing = Combing::all;
   Um retraction_combing_offset = 0_mm;
   std::optional<Um> retraction_combing_max_distance;
+  std::optional<LengthOrShare> retraction_combing_max_detour = length(20_mm);
+  bool travel_avoid_other_parts = false;
+  Um travel_avoid_distance = 0.625_mm;
   bool staggered_inner_seams = false;
   Um seam_gap_distance = 0_mm;
   Um wall_0_wipe_dist = 0_mm;
   bool coasting_enable = false;
   double coasting_volume = 0.064;
+  Um scarf_joint_seam_length = 0_mm;
+  double scarf_joint_seam_start_height_ratio = 0;
+  Um scarf_split_distance = 1_mm;
 };
 
 inline constexpr std::tuple travel_schema{
@@ -75,6 +81,13 @@ inline constexpr std::tuple travel_schema{
             "Moves the boundary of combing, outwards when positive, against the centreline of the outer wall. Only with retraction_combing = all."),
     setting("retraction_combing_max_distance", &TravelSettings::retraction_combing_max_distance, Unit::mm, 0_mm, 10000_mm,
             "Combed travels longer than this are retracted; auto: never for their length."),
+    setting("retraction_combing_max_detour", &TravelSettings::retraction_combing_max_detour, Unit::mm, 0_mm, 10000_mm,
+            "Combed travels longer than the straight way by more than this go straight and are retracted; a share is of the straight way; "
+            "auto: combed however long."),
+    setting("travel_avoid_other_parts", &TravelSettings::travel_avoid_other_parts,
+            "Retracted travels go round the other parts of the layer instead of over them."),
+    setting("travel_avoid_distance", &TravelSettings::travel_avoid_distance, Unit::mm, 0_mm, 100_mm,
+            "How far travels keep from the parts that they go round."),
     setting("staggered_inner_seams", &TravelSettings::staggered_inner_seams,
             "Seams of inner walls lie aside of the outer wall's, alternately, so that no gap runs through all walls.", "staggered_inner_seams"),
     setting("seam_gap_distance", &TravelSettings::seam_gap_distance, Unit::mm, 0_mm, 5_mm,
@@ -84,6 +97,12 @@ inline constexpr std::tuple travel_schema{
     setting("coasting_enable", &TravelSettings::coasting_enable,
             "The end of a bead before a retraction is not extruded: the pressure in the nozzle prints it."),
     setting("coasting_volume", &TravelSettings::coasting_volume, Unit::mm3, 0, 10, "Volume left out; beads of less than three times as much are not touched."),
+    setting("scarf_joint_seam_length", &TravelSettings::scarf_joint_seam_length, Unit::mm, 0_mm, 100_mm,
+            "Outer walls begin on a ramp of this length and end above it, so that the seam is a slanting joint; 0: they begin and end at one place."),
+    setting("scarf_joint_seam_start_height_ratio", &TravelSettings::scarf_joint_seam_start_height_ratio, Unit::percent, 0, 100,
+            "Height of a scarf seam's ramp at its beginning; a share of the layer height."),
+    setting("scarf_split_distance", &TravelSettings::scarf_split_distance, Unit::mm, 0.05_mm, 100_mm,
+            "Longest piece of a scarf seam's ramp that is printed at one rate of flow."),
 };
 static_assert(complete<TravelSettings>(travel_schema));
 

@@ -1,3 +1,4 @@
+#include "travel/open_walls.h"
 #include "travel/tour.h"
 #include "travel/wall_order.h"
 
@@ -23,9 +24,14 @@ class BlockOrder {
   /// @param at where the nozzle is; @returns where it is afterwards
   std::optional<Point> run(std::optional<Point> at, std::optional<Point> then) {
     if (block_.object == Block::adhesion) return in_list_order(block_.fills, at);
+    const std::size_t first = turns_.size();
+    const auto from = at;
     const auto walls = order_walls(settings_, layer_, linked_, index_, at, block_.fills.empty() ? then : std::nullopt);
     for (const auto& turn : walls) at = append(turn);
-    return fills(at, then);
+    at = fills(at, then);
+    if (settings_.path_order == PathOrder::nearest) return at;
+    fit_open_walls(beads_, std::span(turns_).subspan(first), {from, then});
+    return turns_.size() > first ? std::optional(end_of(beads_[turns_.back().bead], turns_.back())) : at;
   }
 
  private:
