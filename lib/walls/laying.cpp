@@ -61,10 +61,20 @@ class Planner {
     }
     any_.resize(s_.nodes.size());
     for (std::uint32_t h = 0; h < s_.halves.size(); ++h) any_[s_.halves[h].from] = h;
+    // From the thinnest up, so that what is left last of a part that is all corners is its thickest place.
+    const auto thicker = [&](std::uint32_t a, std::uint32_t b) {
+      return s_.nodes[a].clearance != s_.nodes[b].clearance ? s_.nodes[a].clearance > s_.nodes[b].clearance : a > b;
+    };
     std::vector<std::uint32_t> leaves;
     for (std::uint32_t n = 0; n < degree.size(); ++n)
       if (degree[n] == 1) leaves.push_back(n);
+    std::make_heap(leaves.begin(), leaves.end(), thicker);
+    const auto add_leaf = [&](std::uint32_t n) {
+      leaves.push_back(n);
+      std::push_heap(leaves.begin(), leaves.end(), thicker);
+    };
     while (!leaves.empty()) {
+      std::pop_heap(leaves.begin(), leaves.end(), thicker);
       const std::uint32_t n = leaves.back();
       leaves.pop_back();
       if (degree[n] != 1) continue;
@@ -74,17 +84,57 @@ class Planner {
       });
       const std::uint32_t m = s_.to(h);
       const double rise = s_.nodes[m].clearance - s_.nodes[n].clearance;
+      if (rise < -dip_share * s_.nodes[n].clearance) continue;  // the thickest place of its surroundings stays
       double flat = shallow[n];
       if (slope(h / 2) <= o_.corner || rise < 0) flat += s_.length(h / 2);
       if (flat > stub_share * s_.nodes[m].clearance) continue;
       core_[h / 2] = 0;
       --degree[n];
       shallow[m] = std::max(shallow[m], flat);
-      if (--degree[m] == 1) leaves.push_back(m);
+      if (--degree[m] == 1) add_leaf(m);
       if (degree[m] == 0) peaks_.push_back(m);
     }
     cut_bent_tips(degree);
+    cut_mouths(degree);
   }
+
+  /// Where the axis climbs steeply from a thin part into a thick one, the walls of the thick part turn back as they do
+  /// in a corner, and the beads of the thin part end.
+  void cut_mouths(std::vector<int>& degree) {
+    mouth_.assign(core_.size(), 0);
+    const auto climbs = [&](std::uint32_t h) {
+      return core_[h / 2] && !mouth_[h / 2] && slope(h / 2) > o_.corner && s_.end(h).clearance > s_.start(h).clearance;
+    };
+    std::vector<std::uint32_t> run;
+    for (std::uint32_t start = 0; start < s_.halves.size(); ++start) {
+      if (!climbs(start)) continue;
+      std::uint32_t below = start;  // begins there: what leads to it does not climb
+      for (std::uint32_t h = onward(Skeleton::twin(start)); h != Skeleton::twin(below) && climbs(Skeleton::twin(h));
+           h = onward(h))
+        below = Skeleton::twin(h);
+      run.assign(1, below);
+      for (std::uint32_t h = onward(below); h != run.back() && climbs(h); h = onward(h)) run.push_back(h);
+      const std::uint32_t low = s_.halves[below].from, high = s_.to(run.back());
+      const int fewer = count_for(w_, 2 * s_.nodes[low].clearance, false).beads();
+      const int more = count_for(w_, 2 * s_.nodes[high].clearance, true).beads();
+      const double rise = s_.nodes[high].clearance - s_.nodes[low].clearance;
+      const bool splits = fewer == 1 && 2 * s_.nodes[high].clearance > wide_bead() && rise > 0.3 * w_.inner;
+      if (more - fewer < (splits ? 1 : 2)) continue;
+      for (const std::uint32_t h : run) {
+        core_[h / 2] = 0;
+        mouth_[h / 2] = 1;
+        --degree[s_.halves[h].from];
+        --degree[s_.to(h)];
+      }
+      tops_.push_back(high);
+    }
+    for (const std::uint32_t n : tops_) {
+      bool peak = degree[n] == 0;
+      for_each_leaving(any_[n], [&](std::uint32_t h) { peak = peak && !climbs_mouth(h); });
+      if (peak && std::find(peaks_.begin(), peaks_.end(), n) == peaks_.end()) peaks_.push_back(n);
+    }
+  }
+  bool climbs_mouth(std::uint32_t h) const { return mouth_[h / 2] && s_.end(h).clearance > s_.start(h).clearance; }
 
   /// A tip is led on to only straight ahead: at the end of a rib the axis also bends into the sharper of two corners.
   void cut_bent_tips(std::vector<int>& degree) {
@@ -130,6 +180,7 @@ class Planner {
     any_.push_back(2 * f);
     core_.push_back(core_[e]);
     steep_.push_back(steep_[e]);
+    mouth_.push_back(mouth_[e]);
     return f;
   }
 
@@ -162,6 +213,18 @@ class Planner {
     count_.resize(core_.size());
     for (std::uint32_t e = 0; e < core_.size(); ++e)
       if (core_[e]) count_[e] = count_of(e);
+  }
+
+  /// How wide a bead may grow for a short way, rather than be joined by another.
+  double wide_bead() const { return std::min(w_.most, 1.7 * w_.inner); }
+
+  /// The band of the widest bead when that many share a thickness.
+  double widest(Count count, double thickness) {
+    scratch_.resize(static_cast<std::size_t>(count.pairs) + 1);
+    bounds_for(w_, count, thickness / 2, scratch_.data());
+    double most = count.middle ? thickness - 2 * scratch_.back() : 0;
+    for (std::size_t i = 1; i < scratch_.size(); ++i) most = std::max(most, scratch_[i] - scratch_[i - 1]);
+    return most;
   }
 
   /// Regions of one count along the core, joined where they touch.
@@ -209,6 +272,8 @@ class Planner {
         if (p.region != q.region) return p.region < q.region;
         return length[p.other] > length[q.other];
       });
+      std::vector<double> mouths(edges, 0);  // ends of each region, twice
+      for (const Border& b : borders) mouths[b.region] += 1;
       std::vector<std::uint8_t> fixed(edges, 0);
       std::vector<Count> changed(edges);
       bool any = false;
@@ -220,9 +285,10 @@ class Planner {
         const double t = threshold(w_, std::min(mine.beads(), other.beads()));
         if (mine.beads() == 0 || other.beads() == 0) continue;
         const double deviation = other.beads() > mine.beads() ? t - low[b.region] : high[b.region] - t;
-        // A wall that has no room to turn back is worse than a wide one.
+        // Where several parts meet there is a little more room than in each: no wall turns back in that.
         const bool cramped =
-            mine.beads() > other.beads() && length[b.region] < 2 * w_.inner && high[b.region] < 1.6 * w_.outer;
+            mine.beads() > other.beads() && length[b.region] < mouths[b.region] / 2 * w_.inner &&
+            widest(other, high[b.region]) < (other.pairs == 0 && mouths[b.region] > 5 ? w_.most : wide_bead());
         if (deviation > o_.filter_deviation && !cramped) continue;
         fixed[b.region] = fixed[b.other] = 1;
         changed[b.region] = other;
@@ -365,7 +431,7 @@ class Planner {
 
   void descend_from(std::uint32_t n, const Span& span) {
     for_each_leaving(any_[n], [&](std::uint32_t h) {
-      if (!core_[h / 2]) leave_.push_back({h, span});
+      if (!core_[h / 2] && !climbs_mouth(h)) leave_.push_back({h, span});
     });
     while (!leave_.empty()) {
       const Descent d = leave_.back();
@@ -417,6 +483,7 @@ class Planner {
         continue;
       }
       out_.spans[h / 2] = span;
+      out_.spans[h / 2].mouth = mouth_[h / 2] != 0;
       reached_[h / 2] = 1;
       if (rest != h) {
         if (span.open)
@@ -427,20 +494,24 @@ class Planner {
         continue;
       }
       const std::uint32_t back = Skeleton::twin(h);
+      bool at_core = false;
+      for_each_leaving(back, [&](std::uint32_t g) { at_core = at_core || core_[g / 2]; });
+      if (at_core) return;
       for_each_leaving(back, [&](std::uint32_t g) {
-        if (g != back && !core_[g / 2]) leave_.push_back({g, span});
+        if (g != back && !climbs_mouth(g)) leave_.push_back({g, span});
       });
       return;
     }
   }
 
-  static constexpr double stub_share = 0.25;
+  static constexpr double stub_share = 0.25;  // of the clearance: flat ends of the axis shorter than this are corners
+  static constexpr double dip_share = 0.02;   // of the clearance: … and never reach over a rise of more than this
 
   Skeleton& s_;
   const Widths& w_;
   const LayingOptions& o_;
-  std::vector<std::uint32_t> any_, peaks_;  // a half that leaves each node; nodes with corners all around
-  std::vector<std::uint8_t> core_, steep_, reached_;
+  std::vector<std::uint32_t> any_, peaks_, tops_;  // a half that leaves each node; nodes with corners all around
+  std::vector<std::uint8_t> core_, steep_, mouth_, reached_;
   std::vector<Count> count_;
   std::vector<Blend> blend_;
   std::vector<double> scratch_;

@@ -13,6 +13,7 @@ struct Span {
   bool core = false;    ///< beads follow the thickness; else the edge runs into a corner where they turn back
   bool middle = false;  ///< a bead on the axis itself
   bool open = false;    ///< the axis lies in what is left for infill, from bounds[pairs] inwards
+  bool mouth = false;   ///< climbs from a thin part, whose beads end below it, into a thick one
   int pairs = 0;        ///< beads on either side, each between bounds[i] and bounds[i + 1]
   std::uint32_t at_start = 0, at_end = 0;  ///< where the bounds begin in Laying::bounds, for the ends of the even half
 };

@@ -129,7 +129,7 @@ class Tracer {
   std::vector<Place> tip_of(std::uint32_t h, double inner) const {
     std::vector<Place> ring{s_.on_end_rib(h, std::min(inner, s_.end(h).clearance))};
     for (std::uint32_t g = s_.halves[h].next; g != Skeleton::twin(h); g = s_.halves[g].next) {
-      if (laying_.spans[g / 2].core) return {};
+      if (laying_.spans[g / 2].core || laying_.spans[g / 2].mouth) return {};
       add_piece(g, inner, ring);
     }
     ring.push_back(s_.end(h).at);

@@ -105,3 +105,39 @@ TEST_CASE("walls: twice the same layer gives the same beads", "[walls]") {
   const Regions regions{{random_ring(random), {}}};
   CHECK(walls_of(regions).beads == walls_of(regions).beads);
 }
+
+TEST_CASE("walls: a part that is all corners is filled to its thickest place", "[walls]") {
+  Ring star;
+  for (int i = 0; i < 16; ++i) {
+    const double a = std::numbers::pi * i / 8 + 0.1, r = i % 2 == 0 ? 10'000 : 6'500;
+    star.push_back({rounded(r * std::cos(a)), rounded(r * std::sin(a))});
+  }
+  WallSettings settings;
+  settings.wall_line_count = 100;
+  const Regions regions{{star, {}}};
+  const auto walls = walls_of(regions, settings);
+  CHECK(bead_area_mm2(walls) == Approx(area_mm2(regions)).epsilon(0.001));
+  double nearest = 1e9;
+  for (const Bead& bead : walls.beads)
+    for (const Junction& j : bead.path) nearest = std::min(nearest, std::hypot(j.at.x, j.at.y));
+  CHECK(nearest < 500);
+}
+
+TEST_CASE("walls: where two thin ribs cross, one bead goes through and nothing circles the crossing", "[walls]") {
+  const Um t = 0.5_mm, l = 3_mm;
+  const Ring cross{{l, 0},
+                   {l + t, 0},
+                   {l + t, l},
+                   {2 * l + t, l},
+                   {2 * l + t, l + t},
+                   {l + t, l + t},
+                   {l + t, 2 * l + t},
+                   {l, 2 * l + t},
+                   {l, l + t},
+                   {0, l + t},
+                   {0, l},
+                   {l, l}};
+  const auto walls = walls_of({{cross, {}}});
+  CHECK(walls.beads.size() == 3);
+  for (const Bead& bead : walls.beads) CHECK_FALSE(bead.closed);
+}
