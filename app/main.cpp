@@ -7,6 +7,7 @@
 
 #include "command.h"
 #include "core/version.h"
+#include "limits.h"
 #include "verbs.h"
 
 namespace {
@@ -53,6 +54,7 @@ Console early_console(const Words& words) {
 }  // namespace
 
 int main(int count, char** arguments) {
+  explain_termination();
   const Words words(arguments + 1, arguments + std::max(count, 1));
   try {
     return run(words);
@@ -60,7 +62,9 @@ int main(int count, char** arguments) {
     early_console(words).error(error);
     return exit_status(error.kind());
   } catch (const std::bad_alloc&) {
-    early_console(words).internal_error("out of memory");
+    const Error error{Error::Kind::interrupted, "the machine's memory is used up", {}, "nothing was written"};
+    early_console(words).error(error);
+    return exit_status(error.kind());
   } catch (const std::exception& error) {
     early_console(words).internal_error(error.what());
   }

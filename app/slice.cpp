@@ -1,13 +1,14 @@
 #include <fmt/format.h>
 
-#include <atomic>
 #include <csignal>
 #include <cmath>
 #include <map>
+#include <new>
 #include <sstream>
 
 #include "command.h"
 #include "core/hash.h"
+#include "limits.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/write_file.h"
 #include "preview_file.h"
@@ -30,6 +31,8 @@ po::options_description slice_options() {
     ("duplicate", po::value<int>()->value_name("N"), "the same")
     ("audit", po::value<std::string>()->value_name("reject|annotate")->default_value("reject"),
      "what the boundary audit does with a move outside the build volume. It cannot be turned off")
+    ("timeout", po::value<double>()->value_name("S")->default_value(0, "none"), "stop after so many seconds, with status 130 and a report of what was done")
+    ("max-memory", po::value<double>()->value_name("MB")->default_value(0, "none"), "stop above so much resident memory, in the same way")
     ("preview", po::value<std::string>()->value_name("FILE"), "also write a preview (html, svg or png)");
   return out;
 }
@@ -79,8 +82,12 @@ Job job_of(const Command& command, const Settings& settings) {
   return job;
 }
 
-std::atomic<bool> interrupted = false;
-extern "C" void note_interrupt(int) { interrupted = true; }
+/// The value of an option that limits something. @throws Error{usage}
+double limit_of(const po::variables_map& options, const std::string& name) {
+  const double value = options[name].as<double>();
+  if (!(value >= 0 && value <= 1e9)) throw Error{Error::Kind::usage, "must be above 0", "--" + name};
+  return value;
+}
 
 /// The first `most` of each kind, and how many more there are: thousands of layers must not bury what matters. The report
 /// has them all.
@@ -121,8 +128,7 @@ int slice(const Words& words) {
   if (!preview.empty()) (void)preview_kind(preview);  // refused before the work, not after it
 
   Console console(command.console);
-  std::signal(SIGINT, note_interrupt);
-  std::signal(SIGTERM, note_interrupt);
+  const Limits limits(limit_of(command.options, "timeout"), limit_of(command.options, "max-memory"));
   std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of writing, told as one
 
   Report report;
@@ -131,12 +137,18 @@ int slice(const Words& words) {
     report.peak_memory_mb = peak_memory_mb();
     if (command.report) write_output(*command.report, to_json(report));
   };
+  const auto failed = [&](const Error& error) {
+    report.status = Report::Status::failed;
+    report.error = error.what();
+    finish();
+    return error;
+  };
   try {
     const auto profile = resolve(command);
     report.warnings = profile.notices;
     Watch watch;
     watch.progress = [&](std::string_view stage, double share) { console.progress(stage, share); };
-    watch.cancelled = [] { return interrupted.load(); };
+    watch.cancelled = [&] { return limits.reached(); };
     const auto gcode = run(job_of(command, profile.settings), watch, report);
     if (gcode && !preview.empty())
       write_preview(preview, gcode->gcode(), profile.settings.material.filament_diameter,
@@ -146,13 +158,11 @@ int slice(const Words& words) {
     if (!gcode) throw Error{Error::Kind::audit, report.error, {}, {}};
     console.info(summary(report));
     return 0;
+  } catch (const std::bad_alloc&) {
+    throw failed({Error::Kind::interrupted, "the machine's memory is used up", command.inputs.front(), "nothing was written; try a coarser mesh or layer_height, or fewer copies"});
   } catch (const Error& error) {
-    if (report.status != Report::Status::rejected) {
-      report.status = Report::Status::failed;
-      report.error = error.what();
-      finish();
-    }
-    throw;
+    if (report.status == Report::Status::rejected) throw;
+    throw failed(error.kind() == Error::Kind::interrupted ? limits.error() : error);
   }
 }
 

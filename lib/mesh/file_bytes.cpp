@@ -3,11 +3,12 @@
 #include "core/error.h"
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
+#include <new>
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -31,24 +32,27 @@ Error unreadable(const std::string& path, int error) {
 
 FileBytes::FileBytes(const std::string& path) {
   const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
-  struct stat status {};
-  if (file.number < 0 || ::fstat(file.number, &status) != 0) throw unreadable(path, errno);
-  if (S_ISDIR(status.st_mode)) throw unreadable(path, EISDIR);
-  if (S_ISREG(status.st_mode) && status.st_size > 0) {
-    const auto size = static_cast<std::size_t>(status.st_size);
-    void* const at = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE | MAP_POPULATE, file.number, 0);
-    if (at != MAP_FAILED) mapped_ = {static_cast<const char*>(at), size};
+  struct stat before {}, after {};
+  if (file.number < 0 || ::fstat(file.number, &before) != 0) throw unreadable(path, errno);
+  if (S_ISDIR(before.st_mode)) throw unreadable(path, EISDIR);
+  const bool regular = S_ISREG(before.st_mode);
+  std::size_t room = regular ? static_cast<std::size_t>(before.st_size) + 1 : 1 << 16;  // one more, to see the end
+  bytes_.reset(static_cast<char*>(std::malloc(room)));
+  for (;;) {
+    if (!bytes_) throw std::bad_alloc();
+    const ssize_t got = ::read(file.number, bytes_.get() + size_, room - size_);
+    if (got == 0) break;
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) throw unreadable(path, errno);
+    size_ += static_cast<std::size_t>(got);
+    if (size_ < room) continue;
+    room *= 2;
+    bytes_.reset(static_cast<char*>(std::realloc(bytes_.release(), room)));
   }
-  if (!mapped_.empty()) return;
-  char buffer[1 << 16];  // a pipe, or a file system that cannot map
-  while (const ssize_t got = ::read(file.number, buffer, sizeof buffer)) {
-    if (got > 0) copy_.append(buffer, static_cast<std::size_t>(got));
-    if (got < 0 && errno != EINTR) throw unreadable(path, errno);
-  }
-}
-
-FileBytes::~FileBytes() {
-  if (!mapped_.empty()) ::munmap(const_cast<char*>(mapped_.data()), mapped_.size());
+  if (!regular || ::fstat(file.number, &after) != 0) return;
+  const auto same = [](const timespec& s, const timespec& t) { return s.tv_sec == t.tv_sec && s.tv_nsec == t.tv_nsec; };
+  if (static_cast<std::size_t>(after.st_size) != size_ || !same(before.st_mtim, after.st_mtim))
+    throw Error{Error::Kind::file, "changed while it was read", path, "is another program still writing it?"};
 }
 
 }  // namespace weft::mesh

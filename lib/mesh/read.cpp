@@ -5,15 +5,10 @@
 #include "mesh/file_bytes.h"
 #include "mesh/formats.h"
 
-#include <cerrno>
 #include <cmath>
 #include <cstring>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 namespace weft::mesh {
 namespace {

@@ -109,27 +109,31 @@ void refuse_emptiness(const Job& job, const std::vector<PlacedObject>& objects, 
 /// The program.
 std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Report& report) {
   const Stopwatch stopwatch(report.timings_ms.total);
+  const auto begin = [&](std::string_view stage, double share) {
+    stop_if_cancelled(watch);
+    watch.progress(stage, share);
+  };
   report.settings_sha256 = sha256(as_text(job.settings));
   gcode::check_custom_code(job.settings);  // a typo in the start G-code is told before an hour of slicing
   const auto objects = place_models(job, report);
-  watch.progress("slicing", 0.05);
+  begin("slicing", 0.05);
   std::vector<PrintedLayers> layers;
   for (const auto& object : objects) layers.push_back(print_object(job.settings, object, watch, report));
   refuse_emptiness(job, objects, layers);
-  watch.progress("travel", 0.65);
+  begin("travel", 0.65);
   PrintPlan plan = plan_plate(job.settings, objects, layers, watch, report);
   layers.clear();
-  watch.progress("motion", 0.8);
+  begin("motion", 0.8);
   const Statistics statistics = plan_motion(job.settings, plan, watch, report);
   note_statistics(statistics, report);
   report.layers = plan.layers.size();
   report.height_mm = plan.layers.empty() ? 0.0 : to_mm(plan.layers.back().z);
   report.warnings.insert(report.warnings.end(), plan.notices.begin(), plan.notices.end());
-  watch.progress("G-code", 0.85);
+  begin("G-code", 0.85);
   auto text = write_gcode({job.settings, plan, statistics, std::filesystem::path(job.models.front()).stem().string(),
                            thumbnails_of(job.settings, objects)},
                           report);
-  watch.progress("audit", 0.95);
+  begin("audit", 0.95);
   auto passed = audit_gcode(job, std::move(text), report);
   watch.progress("done", 1.0);
   return passed;

@@ -59,12 +59,9 @@ void write_file(const std::filesystem::path& destination, std::string_view bytes
     return write_all(file.get(), bytes, destination);
   }
   std::string temporary = destination.string() + ".weft-XXXXXX";
-  Descriptor file(::mkostemp(temporary.data(), O_CLOEXEC), temporary);
-  if (file.get() < 0) {
-    const int error = errno;
-    file.keep();
-    fail(destination, error);
-  }
+  const int fd = ::mkostemp(temporary.data(), O_CLOEXEC);  // by itself: it writes the name that is to be removed
+  if (fd < 0) fail(destination, errno);
+  Descriptor file(fd, temporary);
   write_all(file.get(), bytes, destination);
   const mode_t mask = ::umask(0);  // mkostemp makes 0600; a result is as readable as any new file
   ::umask(mask);

@@ -19,12 +19,11 @@ std::string contents(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
-}  // namespace
 
-Run weft(const std::vector<std::string>& words, const std::filesystem::path& folder) {
+Run run(const char* program, const std::vector<std::string>& words, const std::filesystem::path& folder) {
   const Scratch streams;
   const std::string out = (streams.path() / "out").string(), err = (streams.path() / "err").string();
-  std::vector<std::string> arguments{WEFT_PROGRAM};
+  std::vector<std::string> arguments{program};
   arguments.insert(arguments.end(), words.begin(), words.end());
   std::vector<char*> pointers;
   for (auto& a : arguments) pointers.push_back(a.data());
@@ -37,12 +36,20 @@ Run weft(const std::vector<std::string>& words, const std::filesystem::path& fol
   posix_spawn_file_actions_addopen(&actions, 2, err.c_str(), O_WRONLY | O_CREAT, 0600);
   posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
   pid_t pid = 0;
-  const int error = posix_spawn(&pid, WEFT_PROGRAM, &actions, nullptr, pointers.data(), environ);
+  const int error = posix_spawn(&pid, program, &actions, nullptr, pointers.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) throw std::runtime_error(std::string("cannot run " WEFT_PROGRAM ": ") + std::strerror(error));
+  if (error != 0) throw std::runtime_error(std::string("cannot run ") + program + ": " + std::strerror(error));
   int status = 0;
   ::waitpid(pid, &status, 0);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), contents(out), contents(err)};
+}
+}  // namespace
+
+Run weft(const std::vector<std::string>& words, const std::filesystem::path& folder) { return run(WEFT_PROGRAM, words, folder); }
+
+Run shell(const std::string& script, const std::filesystem::path& folder) {
+  ::setenv("WEFT", WEFT_PROGRAM, 1);
+  return run("/bin/bash", {"-c", script}, folder);
 }
 
 Scratch::Scratch() {

@@ -12,6 +12,9 @@ struct Run {
 /// Runs weft with these words, in `folder`, and waits for it. No shell is in between.
 Run weft(const std::vector<std::string>& words, const std::filesystem::path& folder = ".");
 
+/// Runs a script of the shell in `folder`, for what needs one: limits, pipes, signals. `$WEFT` in it is the program.
+Run shell(const std::string& script, const std::filesystem::path& folder = ".");
+
 /// A folder of its own for a test, gone with it.
 class Scratch {
  public:

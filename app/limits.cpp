@@ -1,0 +1,80 @@
+#include "limits.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <string_view>
+
+namespace weft::app {
+namespace {
+
+enum class Reached { nothing, signal, timeout, memory };
+std::atomic<Reached> reached_first = Reached::nothing;
+static_assert(std::atomic<Reached>::is_always_lock_free);
+
+void note(Reached what) {
+  auto expected = Reached::nothing;
+  reached_first.compare_exchange_strong(expected, what);
+}
+extern "C" void note_signal(int) { note(Reached::signal); }
+
+}  // namespace
+
+Limits::Limits(double timeout_s, double max_memory_mb) : timeout_s_(timeout_s), max_memory_mb_(max_memory_mb) {
+  reached_first = Reached::nothing;
+  std::signal(SIGINT, note_signal);
+  std::signal(SIGTERM, note_signal);
+}
+
+Limits::~Limits() {
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+}
+
+bool Limits::reached() const {
+  const auto elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  if (timeout_s_ > 0 && elapsed > timeout_s_) note(Reached::timeout);
+  if (max_memory_mb_ > 0 && resident_memory_mb() > max_memory_mb_) note(Reached::memory);
+  return reached_first != Reached::nothing;
+}
+
+Error Limits::error() const {
+  switch (reached_first.load()) {
+    case Reached::timeout:
+      return {Error::Kind::interrupted, fmt::format("stopped after {:g} s; nothing was written", timeout_s_), "--timeout", "give it more time, or a coarser layer_height"};
+    case Reached::memory:
+      return {Error::Kind::interrupted, fmt::format("stopped above {:g} MB; nothing was written", max_memory_mb_), "--max-memory",
+              "give it more memory, or a coarser mesh or layer_height"};
+    default:
+      return {Error::Kind::interrupted, "interrupted", {}, "nothing was written"};
+  }
+}
+
+void explain_termination() {
+  std::set_terminate([] {
+    // What the thread library throws away is no longer there to be asked; a limit on memory makes it the likely cause.
+    rlimit limit{};
+    const bool limited = ::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+    const std::string_view text = limited ? "weft: error: the memory that the system grants is used up; nothing was written; raise the limit, or use fewer threads with -j\n"
+                                          : "weft: internal error: terminated; this is a bug, please report it\n";
+    if (::write(STDERR_FILENO, text.data(), text.size()) < 0) std::_Exit(1);
+    std::_Exit(limited ? exit_status(Error::Kind::interrupted) : 1);
+  });
+}
+
+double resident_memory_mb() {
+  std::FILE* const file = std::fopen("/proc/self/statm", "re");
+  if (!file) return 0;
+  long total = 0, resident = 0;
+  const bool read = std::fscanf(file, "%ld %ld", &total, &resident) == 2;
+  std::fclose(file);
+  return read ? static_cast<double>(resident) * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e6 : 0;
+}
+
+}  // namespace weft::app

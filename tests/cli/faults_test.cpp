@@ -1,0 +1,152 @@
+// What a farm's machines do to a job: full disks, readers that go away, limits, signals, files that change. The status says
+// what happened, the message where, and nothing half-written is left.
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+
+#include <sys/mount.h>
+
+#include <catch2/catch.hpp>
+
+#include "cli/program.h"
+
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+using nlohmann::json;
+
+namespace {
+
+/// A box and a job that takes seconds: many layers of many copies.
+void write_long_job(const Scratch& scratch) {
+  scratch.write("box.stl", box_stl(6, 6, 100));
+  scratch.write("long.ini", "layer_height = 0.05\ninitial_layer_height = 0.05\n");
+}
+const std::string long_job = "$WEFT slice box.stl -p long.ini --copies 200 --spacing 1 -o out.gcode --report r.json";
+
+}  // namespace
+
+TEST_CASE("faults: a full disk is status 6, says so, and keeps the old file") {
+  Scratch scratch;
+  scratch.write("box.stl", box_stl(10, 10, 2));
+  const auto device = weft({"slice", "box.stl", "-o", "/dev/full"}, scratch.path());
+  CHECK(device.status == 6);
+  CHECK_THAT(device.err, Contains("weft: error: /dev/full: cannot be written (No space left on device); free some space"));
+
+  const auto disk = scratch.path() / "disk";
+  std::filesystem::create_directory(disk);
+  if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=16k") != 0) {
+    WARN("SKIPPED: no right to mount a small disk");
+    return;
+  }
+  scratch.write("disk/out.gcode", "the old one\n");
+  const auto run = weft({"slice", "box.stl", "-o", "disk/out.gcode"}, scratch.path());
+  CHECK(run.status == 6);
+  CHECK_THAT(run.err, Contains("disk/out.gcode: cannot be written (No space left on device)"));
+  CHECK((scratch.read("disk/out.gcode") == "the old one\n"));
+  CHECK(std::distance(std::filesystem::directory_iterator(disk), {}) == 1);
+  ::umount(disk.c_str());
+}
+
+TEST_CASE("faults: a folder that is gone, or that nothing may be written to, is status 6") {
+  Scratch scratch;
+  scratch.write("box.stl", box_stl(10, 10, 2));
+  for (const auto* place : {"gone/out.gcode", "box.stl/out.gcode", "/proc/out.gcode"}) {
+    const auto run = weft({"slice", "box.stl", "-o", place}, scratch.path());
+    CHECK(run.status == 6);
+    CHECK_THAT(run.err, StartsWith("weft: error: ") && Contains(place) && Contains("cannot be written"));
+  }
+  CHECK(weft({"slice", "box.stl", "-o", "out.gcode", "--report", "gone/r.json"}, scratch.path()).status == 6);
+  CHECK(scratch.names() == std::vector<std::string>{"box.stl", "out.gcode"});  // the G-code was finished and is whole
+}
+
+TEST_CASE("faults: a reader that goes away ends the job with status 6, not with a signal") {
+  Scratch scratch;
+  scratch.write("box.stl", box_stl(20, 20, 20));
+  const auto run = shell("$WEFT slice box.stl -o - | head -c 100 > /dev/null; echo ${PIPESTATUS[0]}", scratch.path());
+  CHECK(run.out == "6\n");
+  CHECK_THAT(run.err, Contains("standard output: cannot be written; was the pipe closed?"));
+}
+
+TEST_CASE("faults: a signal in the middle is status 130 and leaves nothing") {
+  Scratch scratch;
+  write_long_job(scratch);
+  const auto before = scratch.names();
+  for (const auto* signal : {"TERM", "INT"}) {
+    const auto run = shell("timeout --preserve-status -s " + std::string(signal) + " 0.3 " + long_job, scratch.path());
+    INFO(run.err);
+    CHECK(run.status == 130);
+    CHECK_THAT(run.err, Contains("weft: error: interrupted; nothing was written"));
+    CHECK(json::parse(scratch.read("r.json"))["status"] == "failed");
+    std::filesystem::remove(scratch.path() / "r.json");
+    CHECK(scratch.names() == before);
+  }
+}
+
+TEST_CASE("faults: --timeout and --max-memory end a job with status 130 and a report of what was done") {
+  Scratch scratch;
+  write_long_job(scratch);
+  const auto late = shell(long_job + " --timeout 0.2", scratch.path());
+  CHECK(late.status == 130);
+  CHECK_THAT(late.err, Contains("weft: error: --timeout: stopped after 0.2 s; nothing was written"));
+  const auto report = json::parse(scratch.read("r.json"));
+  CHECK(report["status"] == "failed");
+  CHECK(report["models"][0]["triangles"] == 12);
+  const auto fat = shell(long_job + " --max-memory 30", scratch.path());
+  CHECK(fat.status == 130);
+  CHECK_THAT(fat.err, Contains("weft: error: --max-memory: stopped above 30 MB"));
+  CHECK_FALSE(scratch.has("out.gcode"));
+  CHECK(shell(long_job + " --timeout -1", scratch.path()).status == 2);
+}
+
+TEST_CASE("faults: memory that the system refuses is told, never a crash") {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  WARN("SKIPPED: sanitizers reserve more address space than any limit leaves");
+#else
+  Scratch scratch;
+  write_long_job(scratch);
+  for (const int kilobytes : {60'000, 120'000, 250'000, 400'000}) {
+    const auto run = shell("ulimit -v " + std::to_string(kilobytes) + "; " + long_job + " -j 2", scratch.path());
+    CAPTURE(kilobytes, run.err);
+    CHECK((run.status == 130 || run.status == 0));
+    if (run.status == 0) continue;
+    CHECK_THAT(run.err, Contains("memory"));
+    CHECK_FALSE(scratch.has("out.gcode"));
+  }
+#endif
+}
+
+TEST_CASE("faults: a model that is cut short or grows while it is read is refused") {
+  Scratch scratch;
+  scratch.write("box.stl", box_stl(10, 10, 2));
+  // a writer that appends to a large file for as long as the reader reads
+  const auto run = shell(
+      "head -c 300000000 /dev/zero > big.stl; (while :; do echo more >> big.stl; done) & writer=$!; "
+      "$WEFT slice big.stl -o out.gcode; status=$?; kill $writer; exit $status",
+      scratch.path());
+  CHECK((run.status == 6 || run.status == 4));
+  CHECK_THAT(run.err, StartsWith("weft: error: big.stl: "));
+  CHECK_FALSE(scratch.has("out.gcode"));
+}
+
+TEST_CASE("faults: sizes at both ends of what can be printed") {
+  Scratch scratch;
+  scratch.write("bed.ini", "machine_width = 3000\nmachine_depth = 3000\nmachine_height = 3000\n");
+  scratch.write("huge.stl", box_stl(2000, 2000, 1));
+  scratch.write("tiny.stl", box_stl(0.1F, 0.1F, 0.3F));
+  scratch.write("tall.stl", box_stl(2, 2, 100));
+  const auto done = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"slice", "-p", "bed.ini", "-o", "out.gcode", "--report", "r.json"};
+    words.insert(words.end(), more.begin(), more.end());
+    const auto run = weft(words, scratch.path());
+    INFO(run.err);
+    CHECK(run.status == 0);
+    return run.status == 0 ? json::parse(scratch.read("r.json")) : json();
+  };
+  const auto huge = done({"huge.stl"});
+  CHECK(huge["layers"] == 5);
+  const auto tiny = done({"tiny.stl", "-s", "skirt_line_count=0"});
+  CHECK(tiny["filament"]["mm3"].get<double>() > 0.0015);
+  CHECK(tiny["filament"]["mm3"].get<double>() < 0.006);
+  const auto tall = done({"tall.stl", "-s", "layer_height=0.02", "-s", "initial_layer_height=0.02"});
+  CHECK(tall["layers"] == 5'000);
+}
