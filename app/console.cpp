@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -52,16 +53,34 @@ void Console::progress(std::string_view stage, double share) {
     fmt::print(stderr, "{}\n", nlohmann::ordered_json{{"level", "progress"}, {"stage", stage}, {"share", share}}.dump());
     return;
   }
+  draw_bar(share, stage);
+}
+
+void Console::progress_of(double share, std::string_view words, std::string_view facts) {
+  const bool json = options_.format == LogFormat::json;
+  const bool wanted = json ? options_.progress != ProgressMode::never && options_.verbosity != Verbosity::quiet : shows_progress_;
+  const auto now = std::chrono::steady_clock::now();
+  if (!wanted || now - last_shown_ < std::chrono::milliseconds(json ? 1000 : 100)) return;
+  last_shown_ = now;
+  if (!json) return draw_bar(share, words);
+  auto line = nlohmann::ordered_json{{"level", "progress"}};
+  line.update(nlohmann::ordered_json::parse(facts));
+  fmt::print(stderr, "{}\n", line.dump());
+}
+
+void Console::draw_bar(double share, std::string_view words) {
   constexpr int cells = 30;
-  const int full = static_cast<int>(share * cells);
-  fmt::print(stderr, "\r[{:#>{}}{:.>{}}] {:3.0f} % {:<12}", "", full, "", cells - full, share * 100, stage);
+  const int full = static_cast<int>(std::clamp(share, 0.0, 1.0) * cells);
+  fmt::print(stderr, "\r[{:#>{}}{:.>{}}] {:3.0f} % {:<12}", "", full, "", cells - full, share * 100, words);
+  if (words.size() < last_words_) fmt::print(stderr, "{:{}}", "", last_words_ - words.size());  // nothing of the longer line stays
+  last_words_ = words.size();
   std::fflush(stderr);
   progress_on_screen_ = true;
 }
 
 void Console::wipe_progress() {
   if (!progress_on_screen_) return;
-  fmt::print(stderr, "\r{:60}\r", "");
+  fmt::print(stderr, "\r{:{}}\r", "", 60 + last_words_);
   progress_on_screen_ = false;
 }
 

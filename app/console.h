@@ -35,15 +35,20 @@ class Console {
 
   /// Shows `share` (0 … 1, never falling) of the work as done; at most ten times a second.
   void progress(std::string_view stage, double share);
+  /// The same with words of one's own behind the bar, or with facts (a JSON object) for --log-format json, where it is told
+  /// once a second and whatever --progress says unless it is never.
+  void progress_of(double share, std::string_view words, std::string_view facts);
 
  private:
   void log(std::string_view level, std::string_view message, std::string_view code = {});
   void wipe_progress();
+  void draw_bar(double share, std::string_view words);
 
   ConsoleOptions options_;
   bool shows_progress_ = false;
   bool progress_on_screen_ = false;
   double shown_share_ = -1;
+  std::size_t last_words_ = 0;
   std::chrono::steady_clock::time_point last_shown_{};
 };
 

@@ -1,0 +1,184 @@
+#include "batch_run.h"
+
+#include "core/version.h"
+
+#include <atomic>
+#include <cmath>
+#include <csignal>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace po = boost::program_options;
+
+namespace weft::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::atomic<bool> interrupted = false;
+/// The first signal has running jobs stop between layers; the second ends the program at once.
+extern "C" void note_batch_interrupt(int signal) {
+  interrupted = true;
+  std::signal(signal, SIG_DFL);
+}
+
+std::string duration(double seconds) {
+  const auto s = static_cast<long long>(seconds + 0.5);
+  return s < 60     ? fmt::format("{} s", s)
+         : s < 3600 ? fmt::format("{}m {:02}s", s / 60, s % 60)
+                    : fmt::format("{}h {:02}m", s / 3600, s / 60 % 60);
+}
+
+double rounded3(double v) {
+  return std::round(v * 1000) / 1000;
+}
+
+void show(Console& console, const jobs::Progress& p) {
+  const auto done = p.made + p.unchanged + p.failed;
+  const auto failed = p.failed == 0 ? std::string() : fmt::format(", {} failed", p.failed);
+  const auto left = p.left_s ? fmt::format(", {} left", duration(*p.left_s)) : std::string();
+  Json facts{{"stage", "batch"},
+             {"share", rounded3(p.share)},
+             {"jobs", p.jobs},
+             {"made", p.made},
+             {"unchanged", p.unchanged},
+             {"failed", p.failed},
+             {"running", p.running},
+             {"layers_per_s", rounded3(p.layers_per_s)},
+             {"seconds", rounded3(p.seconds)}};
+  if (p.left_s) facts["left_s"] = rounded3(*p.left_s);
+  console.progress_of(p.share,
+                      fmt::format("{}/{} jobs{}, {:.0f} layers/s{}", done, p.jobs, failed, p.layers_per_s, left),
+                      facts.dump());
+}
+
+void tell(Console& console, const jobs::JobLine& line, jobs::Fate fate, const jobs::Outcome& outcome) {
+  switch (fate) {
+    case jobs::Fate::made:
+      return console.detail(fmt::format("{}: {} layers in {:.2f} s", line.id, outcome.report.layers, outcome.seconds));
+    case jobs::Fate::unchanged:
+      return console.detail(fmt::format("{}: unchanged", line.id));
+    case jobs::Fate::failed:
+      return console.warning({"job_failed", fmt::format("{} ({}): {}; status {}", line.id, line.where, outcome.error,
+                                                        outcome.exit_status)});
+    case jobs::Fate::not_run:
+      break;
+  }
+}
+
+std::uint64_t bytes_from(const std::string& text, const std::string& option) {
+  std::size_t end = 0;
+  double v = 0;
+  try {
+    v = std::stod(text, &end);
+  } catch (const std::exception&) {
+    end = 0;
+  }
+  auto unit = text.substr(end);
+  if (unit.ends_with("B") || unit.ends_with("b")) unit.pop_back();
+  const double factor = unit.empty() || unit == "M" || unit == "m" ? 1 << 20
+                        : unit == "G" || unit == "g"               ? 1 << 30
+                        : unit == "K" || unit == "k"               ? 1 << 10
+                                                                   : 0;
+  if (end == 0 || factor == 0 || !(v > 0 && v * factor < 1e18))
+    throw Error{Error::Kind::usage, fmt::format("'{}' is not a size", text), option,
+                "as in " + option + " 4G, or 512 for megabytes"};
+  return static_cast<std::uint64_t>(v * factor);
+}
+
+}  // namespace
+
+po::options_description running_options() {
+  po::options_description out("Options of batch and sweep");
+  out.add_options()("max-memory", po::value<std::string>()->value_name("SIZE"),
+                    "run fewer jobs at once rather than hold more (4G, 512M; default: four fifths of what is free)")(
+      "job-timeout", po::value<double>()->value_name("SECONDS"),
+      "a job that takes longer is stopped and counts as failed")(
+      "resume", po::bool_switch(),
+      "go on where a run ended: what was refused for its settings, model or moves is not tried again");
+  return out;
+}
+
+jobs::BatchOptions batch_options_of(const Command& command) {
+  jobs::BatchOptions out;
+  const auto& o = command.options;
+  if (!command.output || *command.output == "-")
+    throw Error{Error::Kind::usage, "in which folder should the results be?", "-o", "add -o DIR"};
+  out.folder = *command.output;
+  out.threads = command.threads;
+  out.resume = o["resume"].as<bool>();
+  if (o.count("max-memory")) out.max_memory = bytes_from(o["max-memory"].as<std::string>(), "--max-memory");
+  if (o.count("job-timeout")) {
+    out.timeout_s = o["job-timeout"].as<double>();
+    if (!(out.timeout_s > 0 && out.timeout_s <= 1e9))
+      throw Error{Error::Kind::usage, "must be a number of seconds above 0", "--job-timeout"};
+  }
+  return out;
+}
+
+std::vector<jobs::Prepared> prepare_all(Console& console, jobs::JobList list, const Command& command) {
+  auto jobs = jobs::prepare(std::move(list.jobs), {command.profiles, command.settings}, list.errors);
+  if (list.errors.empty()) return jobs;
+  constexpr std::size_t most = 20;  // a list with a wrong column has an error on every line
+  const auto count = list.errors.size();
+  for (std::size_t i = 0; i + 1 < std::min(count, most); ++i) console.error(list.errors[i]);
+  if (count > most)
+    throw Error{list.errors.front().kind(), fmt::format("{} lines cannot be run; nothing was", count),
+                list.errors[most - 1].where(), "the first 19 are above"};
+  throw list.errors.back();
+}
+
+Finished run_jobs(Console& console, const std::vector<jobs::Prepared>& jobs, const jobs::BatchOptions& options,
+                  const std::string& suffix) {
+  std::signal(SIGINT, note_batch_interrupt);
+  std::signal(SIGTERM, note_batch_interrupt);
+  std::signal(SIGPIPE, SIG_IGN);
+  jobs::BatchWatch watch;
+  watch.interrupted = [] { return interrupted.load(); };
+  watch.progress = [&](const jobs::Progress& p) { show(console, p); };
+  watch.ended = [&](const jobs::JobLine& line, jobs::Fate fate, const jobs::Outcome& outcome) {
+    tell(console, line, fate, outcome);
+  };
+  Finished out;
+  out.result = jobs::run_batch(jobs, options, watch);
+  out.collected = jobs::collect(jobs, options.folder);
+  jobs::write_summaries(out.collected, options.folder, suffix);
+  return out;
+}
+
+int conclude(Console& console, const Finished& finished, const Command& command) {
+  const auto& [result, collected] = finished;
+  const auto& p = result.progress;
+  const int status = result.interrupted ? 130 : collected.failed + collected.missing > 0 ? 7 : 0;
+  const auto text = fmt::format(
+      "{} jobs: {} made, {} unchanged, {} failed{}; {} layers in {}, {:.0f} layers/s, {:.2f} jobs/s, peak {:.0f} MB",
+      p.jobs, p.made, p.unchanged, p.failed, collected.missing ? fmt::format(", {} not run", collected.missing) : "",
+      p.layers, duration(p.seconds), p.layers_per_s, p.seconds > 0 ? static_cast<double>(p.made) / p.seconds : 0.0,
+      peak_memory_mb());
+  console.info(text);
+  if (command.report) {
+    const Json report{{"weft", version},
+                      {"status", status == 0   ? "ok"
+                                 : status == 7 ? "failed"
+                                               : "interrupted"},
+                      {"jobs", p.jobs},
+                      {"made", p.made},
+                      {"unchanged", p.unchanged},
+                      {"failed", collected.failed},
+                      {"not_run", collected.missing},
+                      {"put_back", result.put_back},
+                      {"layers", p.layers},
+                      {"seconds", rounded3(p.seconds)},
+                      {"layers_per_s", rounded3(p.layers_per_s)},
+                      {"max_memory_mb", result.max_memory >> 20},
+                      {"peak_memory_mb", rounded3(peak_memory_mb())}};
+    write_output(*command.report, report.dump(2) + "\n");
+  }
+  if (result.interrupted)
+    throw Error{
+        Error::Kind::interrupted, "interrupted", {}, "what is made stays; the same command with --resume goes on"};
+  return status;
+}
+
+}  // namespace weft::app

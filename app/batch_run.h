@@ -1,0 +1,31 @@
+#pragma once
+#include "command.h"
+#include "jobs/batch.h"
+#include "jobs/shard.h"
+#include "jobs/summary.h"
+
+#include <string>
+
+namespace weft::app {
+
+/// Options that batch and sweep have in common, and their meaning.
+boost::program_options::options_description running_options();
+jobs::BatchOptions batch_options_of(const Command& command);
+
+/// Resolves all jobs. Every error is told, then one stands for all of them. @throws Error
+std::vector<jobs::Prepared> prepare_all(Console& console, jobs::JobList list, const Command& command);
+
+/// Runs them with bar, messages and reports.
+/// @param suffix of the reports' names: "" or "-3-of-20"
+/// @return what is known of each job at the end
+struct Finished {
+  jobs::BatchResult result;
+  jobs::Collected collected;
+};
+Finished run_jobs(Console& console, const std::vector<jobs::Prepared>& jobs, const jobs::BatchOptions& options,
+                  const std::string& suffix);
+
+/// The last line on standard error, --report, and the exit status.
+int conclude(Console& console, const Finished& finished, const Command& command);
+
+}  // namespace weft::app

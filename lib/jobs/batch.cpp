@@ -1,0 +1,256 @@
+#include "jobs/batch.h"
+
+#include "core/build_id.h"
+#include "jobs/memory.h"
+#include "jobs/memory_gate.h"
+#include "jobs/workplace.h"
+#include "pipeline/crew.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <deque>
+#include <mutex>
+
+#include <fmt/format.h>
+
+namespace weft::jobs {
+namespace fs = std::filesystem;
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// Why a running job is told to stop.
+enum class Stop : std::uint8_t { no, timeout, put_back, too_large };
+
+struct Running {
+  Clock::time_point begin;
+  std::atomic<Stop> stop = Stop::no;
+  std::atomic<double> share = 0;
+};
+
+/// Bytes that a job is expected to hold. Meshes are a small part; beads and text grow with the part's surface, of which
+/// the file's size is the only cheap sign. What is measured corrects it.
+std::uint64_t estimate_of(const Job& job) {
+  std::uint64_t bytes = 0;
+  for (const auto& model : job.models) {
+    std::error_code ignored;
+    const auto size = fs::file_size(model, ignored);
+    if (!ignored) bytes += size;
+  }
+  const auto copies = static_cast<std::uint64_t>(job.placement.copies);
+  return (std::uint64_t{32} << 20) * copies + 6 * bytes;
+}
+
+class Run {
+ public:
+  Run(const std::vector<Prepared>& jobs, const BatchOptions& options, const BatchWatch& watch)
+      : jobs_(jobs),
+        options_(options),
+        watch_(watch),
+        running_(jobs.size()),
+        gate_(limit_of(options), resident_bytes()) {
+    result_.fates.assign(jobs.size(), Fate::not_run);
+    result_.max_memory = gate_.limit();
+    for (std::size_t i = 0; i < jobs.size(); ++i) waiting_.push_back(i);
+  }
+
+  BatchResult work() {
+    run_crew(
+        options_.threads, [this] { return next(); }, [this](std::size_t i) { run_one(i); });
+    const std::lock_guard lock(mutex_);
+    result_.interrupted = watch_.interrupted();
+    result_.progress = progress();
+    return result_;
+  }
+
+ private:
+  static std::uint64_t limit_of(const BatchOptions& options) {
+    return options.max_memory != 0 ? options.max_memory : available_bytes() / 5 * 4;
+  }
+
+  /// The first job that waits, when memory admits it: in the order of the list, so that a large one is not put off for
+  /// ever.
+  std::optional<std::size_t> next() {
+    const std::lock_guard lock(mutex_);
+    if (waiting_.empty() || watch_.interrupted()) return std::nullopt;
+    const auto i = waiting_.front();
+    const auto estimate = estimate_of(jobs_[i].job);
+    if (!gate_.admits(estimate)) return std::nullopt;
+    waiting_.pop_front();
+    gate_.begin(i, estimate);
+    running_[i].emplace();
+    running_[i]->begin = Clock::now();
+    return i;
+  }
+
+  void run_one(std::size_t i) {
+    const auto& job = jobs_[i];
+    Outcome outcome;
+    Fate fate = Fate::failed;
+    bool again = false;
+    try {
+      outcome.inputs_sha256 = inputs_hash(job.job, files_);
+      const auto record = read_record(options_.folder, job.line);
+      if (record && record->inputs_sha256 == outcome.inputs_sha256 && record->build == build_id() && stands(*record)) {
+        fate = record->exit_status == 0 ? Fate::unchanged : Fate::failed;
+        if (fate == Fate::failed) outcome.exit_status = record->exit_status, outcome.error = record->error;
+      } else {
+        fate = make(i, outcome, again);
+      }
+    } catch (const Error& error) {
+      outcome.exit_status = exit_status(error.kind());
+      outcome.error = error.what();
+      note(i, outcome);
+    }
+    end(i, again ? Fate::not_run : fate, outcome, again);
+  }
+
+  /// Whether what is known of an unchanged job makes running it needless.
+  bool stands(const Record& record) const {
+    if (record.exit_status == 0) return has_hash(options_.folder / record.output, record.gcode_sha256);
+    return options_.resume && record.exit_status >= 3 && record.exit_status <= 5;
+  }
+
+  Fate make(std::size_t i, Outcome& outcome, bool& again) {
+    const auto& job = jobs_[i];
+    auto& running = *running_[i];
+    Watch watch;
+    watch.progress = [&](std::string_view, double share) { running.share = share, look_around(i); };
+    watch.cancelled = [&] { return look_around(i), running.stop != Stop::no || watch_.interrupted(); };
+    outcome.report.warnings = job.notices;
+    try {
+      const auto gcode = run(job.job, watch, outcome.report);
+      outcome.exit_status = gcode ? 0 : exit_status(Error::Kind::audit);
+      outcome.error = outcome.report.error;
+      if (gcode) write_gcode(options_.folder / job.line.output, *gcode);
+    } catch (const Error& error) {
+      if (error.kind() == Error::Kind::interrupted && (watch_.interrupted() || running.stop == Stop::put_back)) {
+        again = running.stop == Stop::put_back && !watch_.interrupted();
+        return Fate::not_run;
+      }
+      outcome.exit_status = exit_status(error.kind());
+      outcome.error = error.kind() == Error::Kind::interrupted ? why(running.stop) : error.what();
+    } catch (const std::bad_alloc&) {
+      outcome.exit_status = 1;
+      outcome.error = "out of memory; try a lower --max-memory, or fewer --threads";
+    } catch (const std::exception& error) {
+      outcome.exit_status = 1;
+      outcome.error = fmt::format("internal error: {}; this is a bug, please report it", error.what());
+    }
+    if (outcome.exit_status != 0 && outcome.report.status != Report::Status::rejected)
+      outcome.report.status = Report::Status::failed;
+    outcome.report.peak_memory_mb = peak_memory_mb();
+    outcome.seconds = seconds_since(running.begin);
+    note(i, outcome);
+    return outcome.exit_status == 0 ? Fate::made : Fate::failed;
+  }
+
+  std::string why(Stop stop) const {
+    if (stop == Stop::timeout)
+      return fmt::format("stopped after {:g} s; give it more with --job-timeout", options_.timeout_s);
+    return fmt::format("stopped: alone it needs more than {} MB; give it more with --max-memory", gate_.limit() >> 20);
+  }
+
+  /// Keeps the outcome. A disk that has no room for it must not end the run: the job is run again then.
+  void note(std::size_t i, Outcome& outcome) {
+    try {
+      write_record(options_.folder, jobs_[i].line, outcome);
+    } catch (const Error& error) {
+      if (outcome.exit_status == 0) outcome.exit_status = exit_status(error.kind()), outcome.error = error.what();
+    }
+  }
+
+  void end(std::size_t i, Fate fate, const Outcome& outcome, bool again) {
+    const std::lock_guard lock(mutex_);
+    gate_.end(i);
+    running_[i].reset();
+    if (again) {
+      ++result_.put_back;
+      waiting_.push_front(i);
+      return;
+    }
+    result_.fates[i] = outcome.exit_status != 0 && fate == Fate::made ? Fate::failed : fate;
+    layers_ += result_.fates[i] == Fate::made ? outcome.report.layers : 0;
+    if (fate == Fate::not_run) return;
+    watch_.ended(jobs_[i].line, result_.fates[i], outcome);
+    watch_.progress(progress());
+  }
+
+  /// Between two layers of a job: is it late, is memory short, is it time to tell how far things are?
+  void look_around(std::size_t i) {
+    auto& running = *running_[i];
+    if (options_.timeout_s > 0 && seconds_since(running.begin) > options_.timeout_s) {
+      Stop none = Stop::no;
+      running.stop.compare_exchange_strong(none, Stop::timeout);
+    }
+    const auto now = Clock::now().time_since_epoch().count();
+    auto due = next_look_.load();
+    constexpr auto interval = std::chrono::duration_cast<Clock::duration>(std::chrono::milliseconds(20)).count();
+    if (now < due || !next_look_.compare_exchange_strong(due, now + interval)) return;
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (!lock) return;
+    heed(gate_.look(resident_bytes()));
+    watch_.progress(progress());
+  }
+
+  void heed(MemoryGate::Verdict verdict) {
+    if (verdict.advice == MemoryGate::Advice::go_on) return;
+    Stop none = Stop::no;
+    if (verdict.advice == MemoryGate::Advice::put_back) {
+      running_[verdict.job]->stop.compare_exchange_strong(none, Stop::put_back);
+      return;
+    }
+    release_freed_memory();
+    if (resident_bytes() > gate_.limit()) running_[verdict.job]->stop.compare_exchange_strong(none, Stop::too_large);
+  }
+
+  Progress progress() const {
+    Progress p;
+    p.jobs = jobs_.size();
+    double done = 0;
+    for (const auto fate : result_.fates) {
+      p.made += fate == Fate::made;
+      p.unchanged += fate == Fate::unchanged;
+      p.failed += fate == Fate::failed;
+    }
+    for (const auto& running : running_)
+      if (running) ++p.running, done += running->share;
+    done += static_cast<double>(p.made + p.unchanged + p.failed);
+    p.layers = layers_;
+    p.seconds = seconds_since(begin_);
+    p.share = p.jobs == 0 ? 1 : done / static_cast<double>(p.jobs);
+    p.layers_per_s = p.seconds > 0 ? static_cast<double>(layers_) / p.seconds : 0;
+    const double worked = done - static_cast<double>(p.unchanged);  // what was there already says nothing of the speed
+    if (worked > 0.5) p.left_s = p.seconds / worked * (static_cast<double>(p.jobs) - done);
+    return p;
+  }
+
+  const std::vector<Prepared>& jobs_;
+  const BatchOptions& options_;
+  const BatchWatch& watch_;
+  const Clock::time_point begin_ = Clock::now();
+  std::atomic<Clock::rep> next_look_ = 0;
+  FileHashes files_;
+
+  std::mutex mutex_;  // guards what follows; a job's own entry of running_ is read without it while the job runs
+  std::vector<std::optional<Running>> running_;
+  std::deque<std::size_t> waiting_;
+  MemoryGate gate_;
+  BatchResult result_;
+  std::size_t layers_ = 0;
+};
+
+}  // namespace
+
+BatchResult run_batch(const std::vector<Prepared>& jobs, const BatchOptions& options, const BatchWatch& watch) {
+  std::vector<std::string> outputs;
+  for (const auto& job : jobs) outputs.push_back(job.line.output);
+  const Workplace workplace(options.folder, outputs);
+  return Run(jobs, options, watch).work();
+}
+
+}  // namespace weft::jobs

@@ -1,0 +1,114 @@
+#include "jobs/job_list.h"
+#include "settings/value.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace weft::jobs {
+namespace {
+
+using Values = std::vector<std::string>;
+
+double number(const std::string& text, double least, double most) {
+  double v = 0;
+  value::parse(text, Unit::none, v);
+  if (!(v >= least && v <= most)) throw std::invalid_argument(fmt::format("{} is outside {} … {}", text, least, most));
+  return v;
+}
+
+bool flag(const std::string& text) {
+  bool v = false;
+  value::parse(text, Unit::none, v);
+  return v;
+}
+
+Point point(const Values& values) {
+  std::string text = values.size() == 2 ? values[0] + "x" + values[1] : values.empty() ? std::string() : values[0];
+  std::replace(text.begin(), text.end(), ',', 'x');
+  Ring out;
+  value::parse(text, Unit::none, out);
+  if (out.size() != 1) throw std::invalid_argument(fmt::format("'{}' is not X,Y in mm", text));
+  return out.front();
+}
+
+double scale(std::string text) {
+  const bool percent = !text.empty() && text.back() == '%';
+  if (percent) text.pop_back();
+  const double factor = number(text, 0, 1e8) / (percent ? 100 : 1);
+  if (!(factor >= 1e-6 && factor <= 1e6))
+    throw std::invalid_argument(fmt::format("'{}' is not a factor above 0", text));
+  return factor;
+}
+
+audit::Mode mode(const std::string& text) {
+  if (text == "reject") return audit::Mode::reject;
+  if (text == "annotate") return audit::Mode::annotate;
+  throw std::invalid_argument(fmt::format("'{}' is not one of reject, annotate", text));
+}
+
+std::string placed(const std::string& path, const std::filesystem::path& folder) {
+  const std::filesystem::path p(path);
+  return p.is_absolute() || folder.empty() ? path : (folder / p).string();
+}
+
+struct Field {
+  std::string_view name;
+  bool list;
+  void (*set)(JobLine&, const Values&, const std::filesystem::path&);
+};
+using Folder = const std::filesystem::path&;
+void add_models(JobLine& j, const Values& v, Folder folder) {
+  for (const auto& path : v) j.models.push_back(placed(path, folder));
+}
+void add_profiles(JobLine& j, const Values& v, Folder folder) {
+  for (const auto& path : v) j.profiles.emplace_back(placed(path, folder));
+}
+constexpr std::array fields{
+    Field{"id", false, [](JobLine& j, const Values& v, Folder) { j.id = v[0]; }},
+    Field{"models", true, add_models},
+    Field{"model", false, add_models},
+    Field{"profiles", true, add_profiles},
+    Field{"profile", false, add_profiles},
+    Field{"output", false, [](JobLine& j, const Values& v, Folder) { j.output = v[0]; }},
+    Field{"center", true, [](JobLine& j, const Values& v, Folder) { j.placement.centre = point(v); }},
+    Field{"keep_position", false, [](JobLine& j, const Values& v, Folder) { j.placement.keep_position = flag(v[0]); }},
+    Field{"scale", false, [](JobLine& j, const Values& v, Folder) { j.placement.scale = scale(v[0]); }},
+    Field{"rotate", false,
+          [](JobLine& j, const Values& v, Folder) { j.placement.rotate_deg = number(v[0], -36000, 36000); }},
+    Field{"copies", false,
+          [](JobLine& j, const Values& v, Folder) {
+            const double n = number(v[0], 1, 10000);
+            if (n != std::floor(n)) throw std::invalid_argument(fmt::format("'{}' is not a whole number", v[0]));
+            j.placement.copies = static_cast<int>(n);
+          }},
+    Field{"spacing", false,
+          [](JobLine& j, const Values& v, Folder) { j.placement.spacing = from_mm(number(v[0], 0, 1000)); }},
+    Field{"audit", false, [](JobLine& j, const Values& v, Folder) { j.audit = mode(v[0]); }},
+};
+
+}  // namespace
+
+const std::vector<std::string_view>& field_names() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> out;
+    for (const auto& field : fields) out.push_back(field.name);
+    return out;
+  }();
+  return names;
+}
+
+bool set_field(JobLine& job, std::string_view name, const Values& values, const std::filesystem::path& folder) {
+  const auto at = std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.name == name; });
+  if (at == fields.end()) return false;
+  if (!at->list && values.size() != 1) throw std::invalid_argument("takes one value, not a list");
+  for (const auto& v : values)
+    if (value::trimmed(v).empty()) throw std::invalid_argument("is empty");
+  at->set(job, values, folder);
+  return true;
+}
+
+}  // namespace weft::jobs

@@ -1,0 +1,61 @@
+#pragma once
+#include "core/error.h"
+#include "pipeline/pipeline.h"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+/// Many jobs: lists of them, what each needs, and running them.
+namespace weft::jobs {
+
+/// A job as its line has it: nothing is read yet but the line.
+struct JobLine {
+  std::string where;                ///< "orders.jsonl:12", for messages
+  std::string id;                   ///< unique in a list
+  std::string output;               ///< path of the G-code, relative to the folder of the results; unique in a list
+  std::vector<std::string> models;  ///< paths that can be opened from here
+  std::vector<std::filesystem::path> profiles;
+  std::vector<std::pair<std::string, std::string>> settings;  ///< key and value, in the order given
+  Placement placement;
+  audit::Mode audit = audit::Mode::reject;
+};
+
+/// A list, and everything that is wrong with it. It is used only when nothing is.
+struct JobList {
+  std::vector<JobLine> jobs;
+  std::vector<Error> errors;  ///< each names its line
+};
+
+/// One JSON object a line: {"id": …, "models": […], "profiles": […], "set": {…}, "output": …}, and where they are
+/// wanted "center": [x, y], "keep_position", "scale", "rotate", "copies", "spacing", "audit". Blank lines do not count.
+/// Models and profiles are relative to `folder`.
+JobList read_jsonl(std::string_view text, const std::string& path, const std::filesystem::path& folder);
+
+/// A header line with the same names, of which models and profiles are lists separated by `;`; every other column is a
+/// setting. An empty cell says nothing. Quotes as RFC 4180 has them; a quoted cell may run over several lines.
+JobList read_csv(std::string_view text, const std::string& path, const std::filesystem::path& folder);
+
+/// A job for each model, in that order.
+JobList jobs_of_models(const std::vector<std::string>& models);
+
+/// What the user named, in that order: a list of jobs (told by content: JSONL begins with `{`), a model, a folder
+/// (every model in it), or a pattern ("parts/*.stl"). "-" is a JSONL or CSV list on standard input.
+/// @throws Error{file} for what cannot be read, Error{usage} for a folder or pattern without a model
+JobList read_jobs(const std::vector<std::string>& inputs);
+
+/// Fills in ids and outputs that were not given (from the output's name, else the first model's), and adds an error for
+/// each line that has no model, or an id or output that another has, or an output that leaves the folder.
+void complete(JobList& list);
+
+/// Sets one of the fields above from text. Fields of lists take each text as an item.
+/// @return false when there is no such field  @throws std::invalid_argument with one clause when the value is not one
+bool set_field(JobLine& job, std::string_view name, const std::vector<std::string>& values,
+               const std::filesystem::path& folder);
+
+/// Names of the fields that set_field knows.
+const std::vector<std::string_view>& field_names();
+
+}  // namespace weft::jobs

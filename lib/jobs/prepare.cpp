@@ -1,0 +1,77 @@
+#include "jobs/prepare.h"
+
+#include "gcode/writer.h"
+
+#include <map>
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace weft::jobs {
+namespace {
+
+/// "orders.jsonl:12: pla.ini:3": the line of the list, then the place in it that the error names.
+Error at_line(const Error& error, const std::string& line) {
+  const auto where = error.where().empty() || error.where() == line ? line : fmt::format("{}: {}", line, error.where());
+  return {error.kind(), error.problem(), where, error.hint()};
+}
+
+void check_model(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0)
+    throw Error{Error::Kind::file, "is not there", path, "paths in a list are relative to the list"};
+  if (S_ISDIR(status.st_mode)) throw Error{Error::Kind::file, "is a folder", path, "name a model in it"};
+  if (::access(path.c_str(), R_OK) != 0)
+    throw Error{Error::Kind::file, "cannot be read", path, "check its permissions"};
+}
+
+/// Profiles by the files they are laid from.
+class ProfileShelf {
+ public:
+  const Profile& of(const std::vector<std::filesystem::path>& files) {
+    const auto at = profiles_.find(files);
+    if (at != profiles_.end()) return at->second;
+    Profile profile;
+    for (const auto& file : files) apply_file(profile, file);
+    return profiles_.emplace(files, std::move(profile)).first->second;
+  }
+
+ private:
+  std::map<std::vector<std::filesystem::path>, Profile> profiles_;
+};
+
+Prepared prepare_one(JobLine line, const Common& common, ProfileShelf& shelf) {
+  for (const auto& model : line.models) check_model(model);
+  auto files = common.profiles;
+  files.insert(files.end(), line.profiles.begin(), line.profiles.end());
+  Profile profile = shelf.of(files);
+  for (const auto& [key, text] : common.settings) apply_value(profile, key, text, "--set " + key);
+  for (const auto& [key, text] : line.settings) apply_value(profile, key, text, line.where);
+  check_consistency(profile);
+  gcode::check_custom_code(profile.settings);
+  Prepared out;
+  out.job = {.models = line.models, .settings = profile.settings, .placement = line.placement, .audit = line.audit};
+  out.notices = profile.notices;
+  out.line = std::move(line);
+  return out;
+}
+
+}  // namespace
+
+std::vector<Prepared> prepare(std::vector<JobLine> jobs, const Common& common, std::vector<Error>& errors) {
+  ProfileShelf shelf;
+  std::vector<Prepared> out;
+  out.reserve(jobs.size());
+  for (auto& job : jobs) {
+    const std::string where = job.where;
+    try {
+      out.push_back(prepare_one(std::move(job), common, shelf));
+    } catch (const Error& error) {
+      errors.push_back(at_line(error, where));
+    }
+  }
+  return out;
+}
+
+}  // namespace weft::jobs

@@ -1,0 +1,27 @@
+#pragma once
+#include "jobs/job_list.h"
+#include "settings/profile.h"
+
+namespace weft::jobs {
+
+/// What every job of a list has beside its own: profiles below the job's, settings above the job's profiles and below
+/// the job's own settings.
+struct Common {
+  std::vector<std::filesystem::path> profiles;
+  std::vector<std::pair<std::string, std::string>> settings;
+};
+
+/// A job with its settings resolved: ready to run.
+struct Prepared {
+  JobLine line;
+  Job job;
+  Notices notices;  ///< of its profiles
+};
+
+/// Resolves and checks every job before the first is run: profiles and settings as `weft slice` would, models by
+/// whether they can be opened, custom G-code by its placeholders. Each profile is read once for all jobs that begin
+/// with it.
+/// @param errors gets one for each job that cannot be run, naming its line
+std::vector<Prepared> prepare(std::vector<JobLine> jobs, const Common& common, std::vector<Error>& errors);
+
+}  // namespace weft::jobs

@@ -1,0 +1,124 @@
+#include "jobs/job_list.h"
+#include "settings/catalogue.h"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace weft::jobs {
+namespace {
+
+struct Row {
+  int line = 0;  ///< where it begins
+  std::vector<std::string> cells;
+};
+
+/// Rows of a CSV text (RFC 4180), blank ones left out. @throws Error{usage} for a quote that is not closed
+std::vector<Row> rows_of(std::string_view text, const std::string& path) {
+  std::vector<Row> rows;
+  Row row{1, {}};
+  std::string cell;
+  bool quoted = false, was_quoted = false;
+  int line = 1, opened = 1;
+  const auto end_cell = [&] {
+    row.cells.push_back(was_quoted ? cell : std::string(value::trimmed(cell)));
+    cell.clear();
+    was_quoted = false;
+  };
+  const auto end_row = [&] {
+    end_cell();
+    if (row.cells.size() > 1 || !row.cells[0].empty()) rows.push_back(row);
+    row = {line, {}};
+  };
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    line += c == '\n';
+    if (quoted) {
+      if (c != '"')
+        cell += c;
+      else if (i + 1 < text.size() && text[i + 1] == '"')
+        cell += text[++i];
+      else
+        quoted = false;
+    } else if (c == '"' && value::trimmed(cell).empty()) {
+      quoted = was_quoted = true;
+      opened = line;
+      cell.clear();
+    } else if (c == ',') {
+      end_cell();
+    } else if (c == '\n') {
+      end_row();
+    } else if (c != '\r' && !was_quoted) {
+      cell += c;
+    }
+  }
+  if (quoted) throw Error{Error::Kind::usage, "a quote is opened and not closed", fmt::format("{}:{}", path, opened)};
+  if (!cell.empty() || !row.cells.empty()) end_row();
+  return rows;
+}
+
+std::vector<std::string> items_of(const std::string& name, const std::string& cell) {
+  if (name != "models" && name != "profiles") return {cell};
+  std::vector<std::string> out;
+  for (std::size_t from = 0; from <= cell.size();) {
+    const auto end = std::min(cell.find(';', from), cell.size());
+    out.emplace_back(value::trimmed(std::string_view(cell).substr(from, end - from)));
+    from = end + 1;
+  }
+  return out;
+}
+
+void check_header(const Row& header, const std::string& path) {
+  std::set<std::string> seen;
+  const auto where = fmt::format("{}:{}", path, header.line);
+  for (const auto& name : header.cells) {
+    const auto& fields = field_names();
+    if (std::find(fields.begin(), fields.end(), name) == fields.end() && !find_setting(name)) {
+      const auto near = nearest_setting(name);
+      throw Error{
+          Error::Kind::usage, fmt::format("column '{}' is neither a field of a job nor a setting", name), where,
+          near.empty() ? fmt::format("fields: {}", fmt::join(fields, ", ")) : fmt::format("did you mean '{}'?", near)};
+    }
+    if (!seen.insert(name).second)
+      throw Error{Error::Kind::usage, fmt::format("column '{}' is given twice", name), where};
+  }
+}
+
+}  // namespace
+
+JobList read_csv(std::string_view text, const std::string& path, const std::filesystem::path& folder) {
+  JobList list;
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  const auto rows = rows_of(text, path);
+  if (rows.empty()) return list;
+  const auto& header = rows.front();
+  check_header(header, path);
+  for (std::size_t r = 1; r < rows.size(); ++r) {
+    const auto& row = rows[r];
+    JobLine job;
+    job.where = fmt::format("{}:{}", path, row.line);
+    try {
+      if (row.cells.size() != header.cells.size())
+        throw std::invalid_argument(
+            fmt::format("{} cells, and the header has {}", row.cells.size(), header.cells.size()));
+      for (std::size_t i = 0; i < row.cells.size(); ++i) {
+        const auto& name = header.cells[i];
+        const auto& cell = row.cells[i];
+        if (cell.empty()) continue;
+        try {
+          if (!set_field(job, name, items_of(name, cell), folder)) job.settings.emplace_back(name, cell);
+        } catch (const std::invalid_argument& problem) {
+          throw std::invalid_argument(fmt::format("{}: {}", name, problem.what()));
+        }
+      }
+      list.jobs.push_back(std::move(job));
+    } catch (const std::invalid_argument& problem) {
+      list.errors.emplace_back(Error::Kind::usage, problem.what(), job.where, "");
+    }
+  }
+  return list;
+}
+
+}  // namespace weft::jobs

@@ -1,0 +1,140 @@
+#include "jobs/summary.h"
+
+#include "pipeline/write_file.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace weft::jobs {
+namespace {
+
+/// A cell as RFC 4180 has it.
+std::string cell(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string out = "\"";
+  for (const char c : text) out.append(c == '"' ? 2 : 1, c);
+  out += '"';
+  return out;
+}
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? ' ' : c;
+    }
+  }
+  return out;
+}
+
+/// Keys that jobs set for themselves, in the order of their first appearance.
+std::vector<std::string> own_settings(const Collected& collected) {
+  std::vector<std::string> keys;
+  for (const auto& entry : collected.entries)
+    for (const auto& [key, text] : entry.line.settings)
+      if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+  return keys;
+}
+
+std::string own_value(const JobLine& line, const std::string& key) {
+  std::string out;
+  for (const auto& [k, text] : line.settings)
+    if (k == key) out = text;
+  return out;
+}
+
+}  // namespace
+
+Collected collect(const std::vector<Prepared>& jobs, const std::filesystem::path& folder) {
+  Collected out;
+  FileHashes files;
+  for (const auto& job : jobs) {
+    Collected::Entry entry{job.line, read_record(folder, job.line)};
+    std::error_code ignored;
+    const bool gone = entry.ok() && !std::filesystem::exists(folder / entry.line.output, ignored);
+    if (gone || (entry.record && entry.record->inputs_sha256 != inputs_hash(job.job, files))) entry.record.reset();
+    out.missing += !entry.record;
+    out.ok += entry.ok();
+    out.failed += entry.record && !entry.ok();
+    out.entries.push_back(std::move(entry));
+  }
+  return out;
+}
+
+std::string report_jsonl(const Collected& collected) {
+  std::string out;
+  for (const auto& entry : collected.entries) {
+    if (entry.record)
+      out += entry.record->line + "\n";
+    else
+      out += nlohmann::ordered_json{{"id", entry.line.id}, {"output", entry.line.output}, {"status", "missing"}}.dump(
+                 -1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
+             "\n";
+  }
+  return out;
+}
+
+std::string summary_csv(const Collected& collected) {
+  const auto keys = own_settings(collected);
+  std::string out =
+      "id,output,status,exit_status,seconds,layers,height_mm,print_time_s,filament_mm,filament_g,audit,warnings,error";
+  for (const auto& key : keys) out.append(",").append(cell(key));
+  out += "\n";
+  for (const auto& entry : collected.entries) {
+    out += fmt::format("{},{},", cell(entry.line.id), cell(entry.line.output));
+    if (const auto& r = entry.record)
+      out += fmt::format("{},{},{:.3f},{},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{}", r->status, r->exit_status, r->seconds,
+                         r->layers, r->height_mm, r->print_time_s, r->filament_mm, r->filament_g, r->verdict,
+                         r->warnings, cell(r->error));
+    else
+      out += "missing,,,,,,,,,,";
+    for (const auto& key : keys) out.append(",").append(cell(own_value(entry.line, key)));
+    out += "\n";
+  }
+  return out;
+}
+
+std::string junit_xml(const Collected& collected, std::string_view suite) {
+  double seconds = 0;
+  for (const auto& entry : collected.entries) seconds += entry.record ? entry.record->seconds : 0;
+  const auto counts = fmt::format(R"(tests="{}" failures="{}" errors="{}" time="{:.3f}")", collected.entries.size(),
+                                  collected.failed, collected.missing, seconds);
+  std::string out =
+      fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites {}>\n <testsuite name=\"{}\" {}>\n", counts,
+                  escaped(suite), counts);
+  for (const auto& entry : collected.entries) {
+    out += fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", escaped(suite),
+                       escaped(entry.line.id), entry.record ? entry.record->seconds : 0.0);
+    if (entry.ok())
+      out += "/>\n";
+    else if (entry.record)
+      out += fmt::format(">\n   <failure type=\"exit status {}\" message=\"{}\"/>\n  </testcase>\n",
+                         entry.record->exit_status, escaped(entry.record->error));
+    else
+      out += ">\n   <error type=\"missing\" message=\"the job was not run\"/>\n  </testcase>\n";
+  }
+  return out + " </testsuite>\n</testsuites>\n";
+}
+
+void write_summaries(const Collected& collected, const std::filesystem::path& folder, const std::string& suffix) {
+  write_file(folder / ("report" + suffix + ".jsonl"), report_jsonl(collected));
+  write_file(folder / ("summary" + suffix + ".csv"), summary_csv(collected));
+  write_file(folder / ("junit" + suffix + ".xml"), junit_xml(collected, "weft batch"));
+}
+
+}  // namespace weft::jobs

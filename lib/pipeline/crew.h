@@ -1,0 +1,22 @@
+#pragma once
+#include <cstddef>
+#include <functional>
+#include <optional>
+
+namespace weft {
+
+/// Works through a list with several pieces side by side, in one arena: what a piece runs in parallel itself shares the
+/// threads with the other pieces, and a thread that finds no piece to begin helps those that are running.
+/// @param threads 0: all cores. So many pieces run at once at most
+/// @param next    index of a piece that may begin now, or nothing when none may (none is left, or memory is short).
+/// Asked at
+///                the beginning and after each end, never by two threads at once. Pre: with nothing running it names a
+///                piece unless none is left
+/// @param work    must not throw; within it a thread takes up no other piece while it waits
+void run_crew(unsigned threads, const std::function<std::optional<std::size_t>()>& next,
+              const std::function<void(std::size_t)>& work);
+
+/// Number of threads that `threads` stands for: itself, or all cores.
+unsigned thread_count(unsigned threads);
+
+}  // namespace weft

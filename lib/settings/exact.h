@@ -1,0 +1,67 @@
+#pragma once
+#include "settings/settings.h"
+
+#include <bit>
+#include <string>
+
+/// Settings as bytes without loss: what keys of cached results are made of. Text is for readers and rounds to six
+/// decimals; two settings that print alike may slice differently.
+namespace weft::exact {
+
+inline void add(std::string& to, std::uint64_t v) {
+  for (int i = 0; i < 8; ++i) to += static_cast<char>(v >> (8 * i));
+}
+inline void add(std::string& to, Um v) {
+  add(to, static_cast<std::uint64_t>(static_cast<std::int64_t>(v)));
+}
+inline void add(std::string& to, bool v) {
+  to += v ? '\1' : '\0';
+}
+inline void add(std::string& to, double v) {
+  add(to, std::bit_cast<std::uint64_t>(v));
+}
+inline void add(std::string& to, const std::string& v) {
+  add(to, std::uint64_t{v.size()}), to += v;
+}
+inline void add(std::string& to, const LengthOrShare& v) {
+  add(to, v.is_share), add(to, v.length), add(to, v.percent);
+}
+inline void add(std::string& to, const SpeedOrShare& v) {
+  add(to, v.is_share), add(to, v.value);
+}
+inline void add(std::string& to, const PictureSize& v) {
+  add(to, Um{v.width}), add(to, Um{v.height});
+}
+inline void add(std::string& to, Point v) {
+  add(to, v.x), add(to, v.y);
+}
+template <class E>
+requires std::is_enum_v<E>
+void add(std::string& to, E v) {
+  add(to, static_cast<std::uint64_t>(v));
+}
+template <class T>
+void add(std::string& to, const std::vector<T>& v) {
+  add(to, std::uint64_t{v.size()});
+  for (const auto& item : v) add(to, item);
+}
+template <class T>
+void add(std::string& to, const std::optional<T>& v) {
+  add(to, v.has_value());
+  if (v) add(to, *v);
+}
+
+/// Every field of a group, each behind its key. Pre: `rows` is the group's schema.
+template <class Group, class Schema>
+void add_group(std::string& to, const Group& group, const Schema& rows) {
+  std::apply([&](const auto&... row) { ((add(to, std::string(row.key)), add(to, group.*(row.field))), ...); }, rows);
+}
+
+/// Every setting.
+inline std::string bytes_of(const Settings& settings) {
+  std::string out;
+  std::apply([&](const auto&... section) { (add_group(out, settings.*(section.group), section.rows), ...); }, sections);
+  return out;
+}
+
+}  // namespace weft::exact

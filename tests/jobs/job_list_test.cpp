@@ -1,0 +1,121 @@
+#include "jobs/job_list.h"
+
+#include <catch2/catch.hpp>
+
+using namespace weft;
+using namespace weft::jobs;
+using Catch::Matchers::Contains;
+
+namespace {
+JobList jsonl(std::string_view text) {
+  auto list = read_jsonl(text, "orders.jsonl", "orders");
+  complete(list);
+  return list;
+}
+JobList csv(std::string_view text) {
+  auto list = read_csv(text, "orders.csv", "orders");
+  complete(list);
+  return list;
+}
+}  // namespace
+
+TEST_CASE("jobs: a line of JSON is a job, with paths relative to the list") {
+  const auto good = jsonl(
+      "\xEF\xBB\xBF"
+      R"({"id": "a", "models": ["m/part.stl", "/abs.stl"], "profiles": ["p.ini"], "set": {"layer_height": 0.2, "bridges": false}, "center": [10, 20.5], "copies": 3})"
+      "\r\n\n"
+      R"({"models": ["b.stl"], "output": "deep/b.gcode", "rotate": -45, "scale": "50%", "audit": "annotate"})");
+  REQUIRE(good.errors.empty());
+  REQUIRE(good.jobs.size() == 2);
+  const auto& a = good.jobs[0];
+  CHECK(a.where == "orders.jsonl:1");
+  CHECK(a.models == std::vector<std::string>{"orders/m/part.stl", "/abs.stl"});
+  CHECK(a.profiles == std::vector<std::filesystem::path>{"orders/p.ini"});
+  CHECK(a.settings == std::vector<std::pair<std::string, std::string>>{{"layer_height", "0.2"}, {"bridges", "false"}});
+  CHECK(a.output == "a.gcode");
+  CHECK(a.placement.centre == Point{10'000, 20'500});
+  CHECK(a.placement.copies == 3);
+  const auto& b = good.jobs[1];
+  CHECK(b.where == "orders.jsonl:3");
+  CHECK(b.id == "deep/b");
+  CHECK(b.placement.rotate_deg == -45);
+  CHECK(b.placement.scale == 0.5);
+  CHECK(b.audit == audit::Mode::annotate);
+}
+
+TEST_CASE("jobs: everything wrong with a list is told with its line, and nothing is dropped silently") {
+  struct Case {
+    std::string line, said;
+  };
+  const std::vector<Case> cases{
+      {R"({"models": ["a.stl"], "colour": "red"})", "unknown name 'colour'"},
+      {R"({"models": ["a.stl"], "layer_height": 0.2})", "settings belong in \"set\""},
+      {R"({"models": ["a.stl"], "models": ["b.stl"]})", "'models' is given twice"},
+      {R"({"models": ["a.stl"], "set": {"a": 1, "a": 2}})", "'a' is given twice"},
+      {R"({"models": ["a.stl"], "set": [1]})", "not an object"},
+      {R"({"models": ["a.stl"], "set": {"a": null}})", "neither text"},
+      {R"({"models": []})", "names no model"},
+      {R"({"id": "x"})", "names no model"},
+      {R"([1])", "not a JSON object"},
+      {R"({"models": ["a.stl"])", "not JSON"},
+      {R"({"models": ["a.stl"], "copies": 0})", "copies: 0 is outside"},
+      {R"({"models": ["a.stl"], "copies": 1.5})", "whole number"},
+      {R"({"models": ["a.stl"], "scale": 0})", "factor above 0"},
+      {R"({"models": ["a.stl"], "center": [1]})", "center: "},
+      {R"({"models": ["a.stl"], "audit": "off"})", "reject, annotate"},
+      {R"({"models": ["a.stl"], "output": "../a.gcode"})", "not a file in the folder"},
+      {R"({"models": ["a.stl"], "output": "/a.gcode"})", "not a file in the folder"},
+      {R"({"models": ["a.stl"], "output": ".weft/a"})", "not a file in the folder"},
+      {R"({"models": ["a.stl"], "keep_position": true, "copies": 2})", "contradicts copies"},
+      {R"({"models": [""]})", "is empty"},
+  };
+  for (const auto& c : cases) {
+    const auto list = jsonl(R"({"models": ["fine.stl"]})"
+                            "\n" +
+                            c.line);
+    INFO(c.line);
+    REQUIRE(list.errors.size() == 1);
+    CHECK(list.errors[0].where() == "orders.jsonl:2");
+    CHECK_THAT(list.errors[0].problem(), Contains(c.said));
+  }
+}
+
+TEST_CASE("jobs: two jobs of one id or one output are refused, naming both lines") {
+  const auto ids =
+      jsonl("{\"models\": [\"x/a.stl\"]}\n{\"models\": [\"y/a.stl\"], \"output\": \"b.gcode\", \"id\": \"a\"}\n");
+  REQUIRE(ids.errors.size() == 1);
+  CHECK_THAT(ids.errors[0].what(), Contains("orders.jsonl:2") && Contains("orders.jsonl:1"));
+  const auto outputs = jsonl(
+      "{\"id\": \"a\", \"models\": [\"a.stl\"], \"output\": \"d/../o.gcode\"}\n{\"id\": \"b\", \"models\": "
+      "[\"a.stl\"], \"output\": \"o.gcode\"}\n");
+  REQUIRE(outputs.errors.size() == 1);
+  CHECK_THAT(outputs.errors[0].what(), Contains("output 'o.gcode'"));
+}
+
+TEST_CASE("jobs: a CSV has fields and settings as columns") {
+  const auto list =
+      csv("id,models,profiles,layer_height,machine_start_gcode,center\r\n"
+          "a,a.stl;b.stl,p.ini,0.2,\"G28\nM117 \"\"hello, you\"\"\",\"10,20\"\n"
+          "\n"
+          "b, c.stl ,,,,\n");
+  INFO((list.errors.empty() ? "" : list.errors[0].what()));
+  REQUIRE(list.errors.empty());
+  REQUIRE(list.jobs.size() == 2);
+  CHECK(list.jobs[0].models == std::vector<std::string>{"orders/a.stl", "orders/b.stl"});
+  CHECK(list.jobs[0].settings == std::vector<std::pair<std::string, std::string>>{
+                                     {"layer_height", "0.2"}, {"machine_start_gcode", "G28\nM117 \"hello, you\""}});
+  CHECK(list.jobs[0].placement.centre == Point{10'000, 20'000});
+  CHECK(list.jobs[1].where == "orders.csv:5");  // a cell and a blank line took two
+  CHECK(list.jobs[1].models == std::vector<std::string>{"orders/c.stl"});
+  CHECK(list.jobs[1].settings.empty());
+}
+
+TEST_CASE("jobs: a CSV with an unknown column, a missing cell or an open quote is refused") {
+  CHECK_THROWS_WITH(csv("id,models,layer_heigth\na,a.stl,0.2\n"),
+                    Contains("orders.csv:1") && Contains("did you mean 'layer_height'?"));
+  CHECK_THROWS_WITH(csv("id,models,id\n"), Contains("given twice"));
+  CHECK_THROWS_WITH(csv("id,models\na,\"a.stl\n\n"), Contains("orders.csv:2") && Contains("quote"));
+  const auto list = csv("id,models\na,a.stl\nb\n");
+  REQUIRE(list.errors.size() == 1);
+  CHECK_THAT(list.errors[0].what(), Contains("orders.csv:3") && Contains("1 cells"));
+}
