@@ -11,8 +11,6 @@
 #include "travel/travel.h"
 #include "walls/walls.h"
 
-#include <fuzzer/FuzzedDataProvider.h>
-
 #include <cstdint>
 #include <cstdlib>
 
@@ -24,32 +22,54 @@ void require(bool holds) {
   if (!holds) std::abort();
 }
 
-Settings settings_from(FuzzedDataProvider& data) {
+/// Choices taken from bytes in their order; zeros when there are no more.
+class Choices {
+ public:
+  Choices(const std::uint8_t* bytes, std::size_t size) : bytes_(bytes), left_(size) {}
+  /// One of low … high.
+  int of(int low, int high) {
+    const unsigned range = static_cast<unsigned>(high - low) + 1;
+    unsigned v = 0;
+    for (unsigned reach = 1; reach < range; reach *= 256) v = v * 256 + next();
+    return low + static_cast<int>(v % range);
+  }
+  bool yes() { return of(0, 1) == 1; }
+
+ private:
+  unsigned next() {
+    if (left_ == 0) return 0;
+    --left_;
+    return *bytes_++;
+  }
+  const std::uint8_t* bytes_;
+  std::size_t left_;
+};
+
+Settings settings_from(Choices& data) {
   Settings s;
   s.machine.home_position = Ring{{0, 0}};
-  s.walls.wall_line_count = data.ConsumeIntegralInRange<int>(0, 6);
-  if (data.ConsumeBool()) s.walls.wall_line_width_0 = data.ConsumeIntegralInRange<Um>(200, 1000);
-  s.walls.flow_compensation = data.ConsumeBool();
-  s.shells.top_layers = data.ConsumeIntegralInRange<int>(0, 3);
-  s.shells.bottom_layers = data.ConsumeIntegralInRange<int>(0, 3);
-  s.infill.infill_sparse_density = data.ConsumeIntegralInRange<int>(0, 100);
-  s.infill.infill_pattern = static_cast<InfillPattern>(data.ConsumeIntegralInRange<int>(0, 4));
-  s.retraction.retraction_hop = data.ConsumeBool() ? 400 : 0;
-  s.retraction.wipe = data.ConsumeBool();
+  s.walls.wall_line_count = data.of(0, 6);
+  if (data.yes()) s.walls.wall_line_width_0 = data.of(200, 1000);
+  s.walls.flow_compensation = data.yes();
+  s.shells.top_layers = data.of(0, 3);
+  s.shells.bottom_layers = data.of(0, 3);
+  s.infill.infill_sparse_density = data.of(0, 100);
+  s.infill.infill_pattern = static_cast<InfillPattern>(data.of(0, 4));
+  s.retraction.retraction_hop = data.yes() ? 400 : 0;
+  s.retraction.wipe = data.yes();
   return s;
 }
 
 /// Rings of any shape near the middle of the bed: points at random, some on a coarse grid so that they meet and line up. Within 10 mm, so that a run is short.
-Regions regions_from(FuzzedDataProvider& data) {
-  std::vector<Ring> rings(data.ConsumeIntegralInRange<std::size_t>(1, 4));
+Regions regions_from(Choices& data) {
+  std::vector<Ring> rings(static_cast<std::size_t>(data.of(1, 4)));
   for (auto& ring : rings) {
-    const Um step = data.ConsumeBool() ? 1 : 250;
-    const auto corners = data.ConsumeIntegralInRange<std::size_t>(3, 24);
+    const Um step = data.yes() ? 1 : 250;
+    const auto corners = static_cast<std::size_t>(data.of(3, 24));
     for (std::size_t i = 0; i < corners; ++i)
-      ring.push_back({100'000 + step * (data.ConsumeIntegral<std::int16_t>() % (5'000 / step)),
-                      100'000 + step * (data.ConsumeIntegral<std::int16_t>() % (5'000 / step))});
+      ring.push_back({100'000 + step * data.of(0, 10'000 / step), 100'000 + step * data.of(0, 10'000 / step)});
   }
-  return geometry::regions_from_rings(rings, data.ConsumeBool() ? geometry::WindingRule::nonzero : geometry::WindingRule::even_odd);
+  return geometry::regions_from_rings(rings, data.yes() ? geometry::WindingRule::nonzero : geometry::WindingRule::even_odd);
 }
 
 std::string gcode_of(const Settings& s, const std::vector<SlicedLayer>& layers) {
@@ -66,7 +86,8 @@ std::string gcode_of(const Settings& s, const std::vector<SlicedLayer>& layers) 
     auto fills = infill::fill(s.infill, s.shells,
                               {.areas = areas[i], .index = i, .z = layers[i].z, .height = layers[i].height,
                                .nozzle = s.machine.nozzle_diameter});
-    travel::ObjectLayer one{.outline = layers[i].regions};
+    travel::ObjectLayer one;
+    one.outline = layers[i].regions;
     one.beads = std::move(walls[i].beads);
     one.beads.insert(one.beads.end(), fills.beads.begin(), fills.beads.end());
     inputs[i].index = i, inputs[i].z = layers[i].z, inputs[i].height = layers[i].height;
@@ -89,11 +110,11 @@ std::string gcode_of(const Settings& s, const std::vector<SlicedLayer>& layers) 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
-  FuzzedDataProvider data(bytes, size);
+  Choices data(bytes, size);
   const auto settings = settings_from(data);
-  std::vector<SlicedLayer> layers(data.ConsumeIntegralInRange<std::size_t>(1, 3));
+  std::vector<SlicedLayer> layers(static_cast<std::size_t>(data.of(1, 3)));
   for (std::size_t i = 0; i < layers.size(); ++i)
-    layers[i] = {static_cast<Um>(200 * (i + 1)), 200, i > 0 && data.ConsumeBool() ? layers[i - 1].regions : regions_from(data)};
+    layers[i] = {static_cast<Um>(200 * (i + 1)), 200, i > 0 && data.yes() ? layers[i - 1].regions : regions_from(data)};
   const auto gcode = gcode_of(settings, layers);
   const auto report = audit::examine_text(settings.machine, settings.material, settings.audit, gcode);
   require(report.damaged_count == 0);
