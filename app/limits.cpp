@@ -1,12 +1,13 @@
 #include "limits.h"
 
+#include "jobs/memory.h"
+
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <csignal>
-#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <string_view>
@@ -40,7 +41,7 @@ Limits::~Limits() {
 bool Limits::reached() const {
   const auto elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
   if (timeout_s_ > 0 && elapsed > timeout_s_) note(Reached::timeout);
-  if (max_memory_mb_ > 0 && resident_memory_mb() > max_memory_mb_) note(Reached::memory);
+  if (max_memory_mb_ > 0 && static_cast<double>(jobs::resident_bytes()) > 1e6 * max_memory_mb_) note(Reached::memory);
   return reached_first != Reached::nothing;
 }
 
@@ -66,15 +67,6 @@ void explain_termination() {
     if (::write(STDERR_FILENO, text.data(), text.size()) < 0) std::_Exit(1);
     std::_Exit(limited ? exit_status(Error::Kind::interrupted) : 1);
   });
-}
-
-double resident_memory_mb() {
-  std::FILE* const file = std::fopen("/proc/self/statm", "re");
-  if (!file) return 0;
-  long total = 0, resident = 0;
-  const bool read = std::fscanf(file, "%ld %ld", &total, &resident) == 2;
-  std::fclose(file);
-  return read ? static_cast<double>(resident) * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e6 : 0;
 }
 
 }  // namespace weft::app

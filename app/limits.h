@@ -32,7 +32,4 @@ class Limits {
 /// thread library does not report otherwise: an error of one line and status 130; 1 for anything else.
 void explain_termination();
 
-/// Resident memory of this process now, MB; 0 where the system does not say.
-double resident_memory_mb();
-
 }  // namespace weft::app

@@ -16,6 +16,7 @@ int audit_verb(const Words& words);
 int inspect(const Words& words);
 int profile(const Words& words);
 int settings(const Words& words);
+int verify(const Words& words);
 
 struct Verb {
   std::string_view name;
@@ -26,6 +27,7 @@ inline constexpr std::array verbs{
     Verb{"slice", slice, "MODEL... -p PROFILE [-s KEY=VALUE]... -o OUT.gcode", "turn models into audited G-code"},
     Verb{"audit", audit_verb, "FILE.gcode... -p PROFILE", "check any slicer's G-code against a build volume"},
     Verb{"batch", batch, "JOBS -p PROFILE -o DIR", "many independent slice jobs: a list, a folder or a pattern"},
+    Verb{"verify", verify, "FILE.gcode [MODEL...]", "slice again from what the file says of itself, and compare"},
     Verb{"preview", preview, "FILE.gcode -o OUT.(html|svg|png)", "look at toolpaths"},
     Verb{"inspect", inspect, "MODEL...", "mesh facts and what a repair would do"},
     Verb{"profile", profile, "check|import|show FILE...", "validate, translate from PrusaSlicer, print resolved"},

@@ -124,7 +124,7 @@ std::string bottom_comments(const Job& job) {
     out += "; " + text.substr(i, end - i) + "\n";
     i = end + 1;
   }
-  return out + "; weft_settings = end\n";
+  return out + "; weft_settings = end\n" + job.provenance;
 }
 
 }  // namespace weft::gcode

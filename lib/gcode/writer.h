@@ -22,6 +22,7 @@ struct Job {
   const Statistics& statistics;  ///< of the whole plan
   std::string input_name;        ///< file name of the first model, without folder and extension; for placeholders
   std::vector<Thumbnail> thumbnails;
+  std::string provenance{};  ///< comment lines for the end of the file: what it was made of
 };
 
 /// The machine as the commands up to some place have left it.

@@ -6,6 +6,7 @@
 #include "motion/motion.h"
 #include "pipeline/parallel.h"
 #include "pipeline/plate.h"
+#include "pipeline/provenance.h"
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
 #include "preview/thumbnail.h"
@@ -131,7 +132,7 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
   report.warnings.insert(report.warnings.end(), plan.notices.begin(), plan.notices.end());
   begin("G-code", 0.85);
   auto text = write_gcode({job.settings, plan, statistics, std::filesystem::path(job.models.front()).stem().string(),
-                           thumbnails_of(job.settings, objects)},
+                           thumbnails_of(job.settings, objects), provenance_lines(report.models, job.placement)},
                           report);
   begin("audit", 0.95);
   auto passed = audit_gcode(job, std::move(text), report);
