@@ -117,7 +117,7 @@ function paint() {
   const index = +$('layer').value, layer = layers[index], runs = layer.runs.slice(0, +$('shown').value);
   if ($('below').checked && index > 0) beads(layers[index - 1].runs, 0.25);
   beads(runs, 1);
-  hairlines(runs.filter(run => run.compensated), page.colours.reduced, 1);
+  if (!page.overlay) hairlines(runs.filter(run => run.compensated), page.colours.reduced, 1);
   if ($('travels').checked) hairlines(runs.filter(run => run.width === 0), page.colours.travel, 1);
   hairlines(runs.filter(run => run.outside), page.colours.outside, 3);
   $('where').textContent = `${index} of ${layers.length}, z ${layer.z.toFixed(2)}, height ${layer.height.toFixed(2)} mm`;
@@ -128,7 +128,7 @@ function legend() {
   const key = $('colour').value, rows = [], row = (colour, text) => rows.push([colour, text]);
   if (key === 'feature') page.features.forEach(([name, colour], i) => { if (layers.some(layer => layer.runs.some(run => run.width > 0 && run.feature === i))) row(colour, name); });
   else { const [least, most] = ranges[key]; for (let i = 5; i >= 0; --i) row(page.ramp[Math.round(i * 32 / 5)], `${(least + (most - least) * i / 5).toFixed(key === 'speed' ? 0 : 2)} ${units[key]}`); }
-  if (layers.some(layer => layer.runs.some(run => run.compensated))) row(page.colours.reduced, 'flow reduced');
+  if (!page.overlay && layers.some(layer => layer.runs.some(run => run.compensated))) row(page.colours.reduced, 'flow reduced');
   if (layers.some(layer => layer.runs.some(run => run.outside))) row(page.colours.outside, 'outside');
   if (page.overlay && page.overlay.noGo.length) row(page.colours.noGo, 'no-go area');
   const box = $('legend'); box.textContent = '';

@@ -29,7 +29,8 @@ struct Overlay {
   std::vector<std::uint32_t> lines;  ///< of the file, ascending: their moves are drawn in red
 };
 
-/// Pictures of a layer: beads in their true width, legend, compensated beads marked by their centreline.
+/// Pictures of a layer: beads in their true width, legend, compensated beads marked by their centreline (not over a
+/// machine, where only what is outside is red).
 /// Pre: paths has a layer, view.layer is one of them, size in 16 … 8192.
 std::string svg(const Toolpaths& paths, const View& view, const std::optional<Overlay>& overlay = {});
 std::vector<std::uint8_t> png(const Toolpaths& paths, const View& view, const std::optional<Overlay>& overlay = {});

@@ -90,7 +90,8 @@ Scene scene_of(const Toolpaths& paths, const View& view, const std::optional<Ove
     const Rgb colour =
         by_feature ? colour_of(paths.features[stroke.feature]) : ramp(range.share(measure(stroke, view.colour)));
     append(scene.beads, stroke, stroke.width, colour);
-    if (stroke.compensated) append(scene.marks, stroke, 0, compensated_colour);
+    // marks are nearly as red as what is outside, which is what a picture with an overlay is asked about
+    if (stroke.compensated && !overlay) append(scene.marks, stroke, 0, compensated_colour);
   }
   scene.box = view.window.value_or(scene.box.grown(margin));
   if (!view.title.empty()) scene.title.push_back(view.title);
