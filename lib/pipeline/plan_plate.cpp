@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numbers>
 
 namespace weft::pipeline {
 namespace {
@@ -57,6 +58,13 @@ travel::LayerInput plate_layer(const std::vector<PlacedObject>& objects, const s
   return input;
 }
 
+/// Where the nozzle may go on a layer at z.
+travel::Room room_at(const MachineSettings& machine, Um z) {
+  travel::Room room{reach_area(machine), {}, reach_z_max(machine)};
+  if (z < exclude_height(machine)) room.no_go = machine.bed_exclude_areas;
+  return room;
+}
+
 /// Skirt and brim around everything, put before the other beads of their layers.
 void add_adhesion(const Settings& settings, std::vector<travel::LayerInput>& layers, Notices& notices) {
   const std::size_t count = std::min(layers.size(), adhesion::layers_needed(settings.adhesion));
@@ -83,8 +91,11 @@ PrintPlan plan_plate(const Settings& settings, const std::vector<PlacedObject>& 
   PrintPlan plan;
   plan.objects = labels_of(objects);
   add_adhesion(settings, inputs, plan.notices);
-  const Ring reach = reach_area(settings.machine);
-  for (auto& input : inputs) input.reach = reach;
+  const double filament_mm = to_mm(settings.material.filament_diameter);
+  for (auto& input : inputs) {
+    input.room = room_at(settings.machine, input.z);
+    input.filament_area_mm2 = std::numbers::pi / 4 * filament_mm * filament_mm;
+  }
   for (auto& notice : travel::check(settings.travel, settings.retraction)) plan.notices.push_back(std::move(notice));
 
   const auto prepared = parallel_map(count, [&](std::size_t i) {
@@ -98,10 +109,12 @@ PrintPlan plan_plate(const Settings& settings, const std::vector<PlacedObject>& 
   });
   std::vector<std::optional<Point>> from(count);
   for (std::size_t i = 1; i < count; ++i) from[i] = ordered[i - 1].end ? ordered[i - 1].end : from[i - 1];
-  plan.layers = parallel_map(count, [&](std::size_t i) {
+  auto routed = parallel_map(count, [&](std::size_t i) {
     stop_if_cancelled(watch);
     return travel::route(settings.travel, settings.retraction, prepared[i], ordered[i], from[i]);
   });
+  for (auto& notice : travel::notices_of(routed)) plan.notices.push_back(std::move(notice));
+  for (auto& layer : routed) plan.layers.push_back(std::move(layer.plan));
   return plan;
 }
 

@@ -64,7 +64,7 @@ Comb::Comb(const Regions& regions) {
   build_index();
 }
 
-void Comb::add_ring(const Ring& ring, bool, std::uint32_t part) {
+void Comb::add_ring(const Ring& ring, bool is_hole, std::uint32_t part) {
   const auto begin = static_cast<std::uint32_t>(points_.size());
   double length = 0;
   const std::size_t n = ring.size();
@@ -80,7 +80,7 @@ void Comb::add_ring(const Ring& ring, bool, std::uint32_t part) {
     return;
   }
   ring_of_.resize(end, static_cast<std::uint32_t>(rings_.size()));
-  rings_.push_back({begin, end, part, length});
+  rings_.push_back({begin, end, part, length, is_hole});
 }
 
 void Comb::build_index() {
@@ -157,14 +157,27 @@ bool Comb::visit_edges(Point a, Point b, const Visit& visit) const {
   return false;
 }
 
-bool Comb::sees(Point a, Point b) const {
+bool Comb::sees(Point a, Point b, IgnoredRings ignored) const {
   if (a == b) return true;
-  return !visit_edges(a, b, [&](std::uint32_t e) { return cross(a, b, moved_[e], moved_[next(e)]); });
+  return !visit_edges(
+      a, b, [&](std::uint32_t e) { return !ignored.has(ring_of_[e]) && cross(a, b, moved_[e], moved_[next(e)]); });
 }
 
 std::uint32_t Comb::part_of(Point p) const {
+  const std::uint32_t edge = edge_beside(p);
+  if (edge == outside || moved_[next(edge)].y < moved_[edge].y) return outside;  // the inside is left of a rising edge
+  return rings_[ring_of_[edge]].part;
+}
+
+std::uint32_t Comb::hole_around(Point p) const {
+  const std::uint32_t edge = edge_beside(p);
+  if (edge == outside || moved_[next(edge)].y > moved_[edge].y || !rings_[ring_of_[edge]].hole) return outside;
+  return ring_of_[edge];
+}
+
+/// The nearest edge to the right of p, half a micron up where no vertex lies: its direction tells the side.
+std::uint32_t Comb::edge_beside(Point p) const {
   if (points_.empty() || !box_.contains(p)) return outside;
-  // The nearest edge to the right of p, half a micron up where no vertex lies: its direction tells the side.
   const int row = std::min(rows_ - 1, static_cast<int>((std::int64_t{p.y} - box_.min.y) / cell_));
   const int column = static_cast<int>((std::int64_t{p.x} - box_.min.x) / cell_);
   double nearest = std::numeric_limits<double>::infinity();
@@ -182,9 +195,7 @@ std::uint32_t Comb::part_of(Point p) const {
       if (x >= p.x && (x < nearest || (x == nearest && edges_[k] < edge))) nearest = x, edge = edges_[k];
     }
   }
-  if (edge == outside || moved_[next(edge)].y < moved_[edge].y)
-    return outside;  // the inside is left of an edge that goes up
-  return rings_[ring_of_[edge]].part;
+  return edge;
 }
 
 std::optional<Point> Comb::nearest_on_boundary(Point p, Um within) const {
@@ -206,11 +217,11 @@ std::optional<Point> Comb::nearest_on_boundary(Point p, Um within) const {
   return best;
 }
 
-void Comb::hits(Point p, Point q, std::vector<Hit>& out) const {
+void Comb::hits(Point p, Point q, IgnoredRings ignored, std::vector<Hit>& out) const {
   out.clear();
   visit_edges(p, q, [&](std::uint32_t e) {
     const Point a = moved_[e], b = moved_[next(e)];
-    if (cross(p, q, a, b)) {
+    if (!ignored.has(ring_of_[e]) && cross(p, q, a, b)) {
       const auto from = static_cast<double>(orient(a, b, p)), to = static_cast<double>(orient(a, b, q));
       out.push_back({from / (from - to), e});
     }
@@ -267,7 +278,7 @@ Polyline Comb::along_rings(Point p, Point q, const std::vector<Hit>& found) cons
   return way;
 }
 
-bool Comb::pull_taut(Polyline& way) const {
+bool Comb::pull_taut(Polyline& way, IgnoredRings ignored) const {
   Polyline taut{way.front()};
   std::size_t at = 0;
   while (at + 1 < way.size()) {
@@ -275,7 +286,7 @@ bool Comb::pull_taut(Polyline& way) const {
     while (true) {  // gallop as far as one sees, then halve
       const std::size_t probe = std::min(reach + step, way.size() - 1);
       if (probe == reach) break;
-      if (sees(way[at], way[probe])) {
+      if (sees(way[at], way[probe], ignored)) {
         reach = probe, step *= 2;
       } else if (step == 1) {
         break;
@@ -283,7 +294,7 @@ bool Comb::pull_taut(Polyline& way) const {
         step = std::max<std::size_t>(1, step / 4);
       }
     }
-    if (reach == at + 1 && !sees(way[at], way[reach])) return false;
+    if (reach == at + 1 && !sees(way[at], way[reach], ignored)) return false;
     taut.push_back(way[reach]);
     at = reach;
   }
@@ -291,15 +302,15 @@ bool Comb::pull_taut(Polyline& way) const {
   return true;
 }
 
-std::optional<Polyline> Comb::way(Point p, Point q) const {
-  if (sees(p, q)) return Polyline{q};
+std::optional<Polyline> Comb::way(Point p, Point q, IgnoredRings ignored) const {
+  if (sees(p, q, ignored)) return Polyline{q};
   std::vector<Hit> found;
-  hits(p, q, found);
+  hits(p, q, ignored, found);
   Polyline way = along_rings(p, q, found);
-  if (!pull_taut(way)) return std::nullopt;
+  if (!pull_taut(way, ignored)) return std::nullopt;
   // A second pass from the other end straightens what the greedy first one left bent.
   std::reverse(way.begin(), way.end());
-  if (!pull_taut(way)) return std::nullopt;
+  if (!pull_taut(way, ignored)) return std::nullopt;
   std::reverse(way.begin(), way.end());
   way.erase(way.begin());
   return way;

@@ -1,5 +1,7 @@
 #include "travel/lift.h"
 
+#include "travel/way.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -29,9 +31,23 @@ std::vector<Point3> spiral(Point p, Point towards, double radius_um, bool left, 
   return turn;
 }
 
-bool inside(const std::vector<Point3>& points, const Ring& reach) {
-  if (reach.size() < 3) return true;
-  return std::all_of(points.begin(), points.end(), [&](Point3 p) { return side_of(reach, flat(p)) != Side::outside; });
+bool meets(Point a, Point b, const Ring& ring) {
+  for (std::size_t i = 0, k = ring.size() - 1; i < ring.size(); k = i++)
+    if (segments_touch(a, b, ring[k], ring[i])) return true;
+  return false;
+}
+
+/// A circle through p that touches the edge of the reach counts as leaving it.
+bool inside(Point from, const std::vector<Point3>& points, const Room& room) {
+  const bool bounded = room.reach.size() >= 3;
+  for (const Point3& to : points) {
+    const Point p = flat(to);
+    if (bounded && (side_of(room.reach, p) == Side::outside || meets(from, p, room.reach))) return false;
+    for (const auto& area : room.no_go)
+      if (side_of(area, p) != Side::outside || meets(from, p, area)) return false;
+    from = p;
+  }
+  return true;
 }
 
 /// Rises along the way at the slope until the hop is reached.
@@ -48,29 +64,32 @@ void slope(std::vector<Point3>& out, Point p, const Polyline& way, Um z, Um hop,
 
 }  // namespace
 
-std::vector<Point3> lifted(const RetractionSettings& settings, Point p, const Polyline& way, Um z, const Ring& reach) {
-  const Um hop = settings.retraction_hop;
-  std::vector<Point3> out;
+Lift lifted(const RetractionSettings& settings, Point p, const Polyline& way, Um z, const Room& room) {
+  Lift lift;
+  const Um hop = std::clamp<Um>(room.z_max - z, 0, settings.retraction_hop);
+  lift.lowered = hop < settings.retraction_hop;
+  auto& out = lift.path;
   const double per_height = 1.0 / std::tan(settings.travel_slope * std::numbers::pi / 180.0);
-  auto type = way.empty() || way.front() == p ? HopType::vertical : settings.retraction_hop_type;
-  if (type == HopType::spiral) {
+  lift.type = hop == 0 || way.empty() || way.front() == p ? HopType::vertical : settings.retraction_hop_type;
+  if (lift.type == HopType::spiral) {
     const double radius_um = hop * per_height / (2 * std::numbers::pi);
     for (const bool left : {true, false}) {
       if (!out.empty()) break;
       auto turn = spiral(p, way.front(), radius_um, left, z, hop);
-      if (inside(turn, reach)) out = std::move(turn);
+      if (inside(p, turn, room)) out = std::move(turn);
     }
-    if (out.empty()) type = HopType::slope;
+    if (out.empty()) lift.type = HopType::slope;
   }
-  if (type == HopType::slope) {
+  if (lift.type == HopType::slope && length_from(p, way) < hop * per_height) lift.type = HopType::vertical;
+  if (lift.type == HopType::slope) {
     slope(out, p, way, z, hop, hop * per_height);
   } else {
-    if (type == HopType::vertical) out.push_back(at(p, z + hop));
+    if (lift.type == HopType::vertical) out.push_back(at(p, z + hop));
     for (const Point q : way) out.push_back(at(q, z + hop));
   }
   const Point3 end = at(way.empty() ? p : way.back(), z);
   if (out.empty() || out.back() != end) out.push_back(end);
-  return out;
+  return lift;
 }
 
 }  // namespace weft::travel

@@ -1,17 +1,22 @@
 #pragma once
-#include "core/polygon.h"
 #include "settings/retraction.h"
+#include "travel/travel.h"
 
 #include <vector>
 
 namespace weft::travel {
 
+/// A travel that is lifted.
+struct Lift {
+  std::vector<Point3> path;
+  HopType type = HopType::vertical;  ///< what it has become
+  bool lowered = false;              ///< it is less high than asked, to stay in the room
+};
+
 /// The way of a travel at height z, lifted.
 /// @param way   the points after p, on the bed's plane
-/// @param reach where the nozzle may go; empty: anywhere
-/// Post: ends at the way's end at height z; stays inside `reach` where the way does: a circle that would leave it
-/// becomes
-///       a slope.
-std::vector<Point3> lifted(const RetractionSettings& settings, Point p, const Polyline& way, Um z, const Ring& reach);
+/// Post: ends at the way's end at height z; stays in the room where the way does: a circle that would leave it becomes
+///       one on the other side of the way, then a slope; a slope longer than the way becomes vertical.
+Lift lifted(const RetractionSettings& settings, Point p, const Polyline& way, Um z, const Room& room);
 
 }  // namespace weft::travel

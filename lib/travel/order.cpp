@@ -73,6 +73,14 @@ class BlockOrder {
     return turns;
   }
 
+  /// Lines side by side are printed in their order where it shows: on top, from below, and over air, where each leans
+  /// on the one before. Inside a part, and for a strip's only line, the shortest way is the better order.
+  bool in_sequence(const Bead& bead) const {
+    if (bead.sequence == 0) return false;
+    return bead.role == Role::top_skin || bead.role == Role::bridge ||
+           (layer_.input.index == 0 && bead.role != Role::gap_fill);
+  }
+
   std::optional<Point> fills(std::optional<Point> at, std::optional<Point> then) {
     std::vector<Stop> stops;
     std::vector<std::vector<Turn>> chains;  // of stops that are a sequence
@@ -81,7 +89,7 @@ class BlockOrder {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> sequenced;
     for (const std::uint32_t b : block_.fills) {
       const Bead& bead = beads_[b];
-      if (bead.sequence != 0) {
+      if (in_sequence(bead)) {
         sequenced.push_back({bead.sequence, b});
       } else {
         const Turn t = nearest_turn(beads_, index_, b, bead.closed ? at : std::nullopt);

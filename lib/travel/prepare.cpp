@@ -57,6 +57,35 @@ Comb comb_boundary(const TravelSettings& settings, const LayerInput& input, cons
   return Comb(geometry::offset(base, {.by = settings.retraction_combing_offset, .corner = geometry::Corner::round}));
 }
 
+/// Travels keep this far from the edges of the room, µm.
+constexpr Um clearance = 100;
+
+/// Where the nozzle may go at all; nothing where any straight way between two places of the room stays in it.
+Regions free_area(const Room& room) {
+  if (room.reach.size() < 3) return {};
+  bool convex = true;
+  const std::size_t n = room.reach.size();
+  for (std::size_t i = 0; i < n; ++i)
+    convex = convex && orient(room.reach[i], room.reach[(i + 1) % n], room.reach[(i + 2) % n]) >= 0;
+  if (convex && room.no_go.empty()) return {};
+  const Regions reach{{room.reach, {}}};
+  if (room.no_go.empty()) return reach;
+  return geometry::subtract(reach, geometry::offset(geometry::regions_from_rings(room.no_go), {.by = clearance}));
+}
+
+/// The same less the parts and what is to be kept from them.
+Regions area_around(const TravelSettings& settings, const Regions& outline, const Room& room, const Regions& free) {
+  if (!settings.travel_avoid_other_parts || outline.empty()) return {};
+  Regions place = free;
+  if (place.empty() && room.reach.size() >= 3) place = {{room.reach, {}}};
+  if (place.empty()) {
+    const Box box = box_of(outline).grown(2 * settings.travel_avoid_distance + 10000);
+    place = {{{box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}}, {}}};
+  }
+  return geometry::subtract(
+      place, geometry::offset(outline, {.by = settings.travel_avoid_distance, .corner = geometry::Corner::round}));
+}
+
 /// Of each ring, whether what it goes round is a hole: whether an odd number of the others is round it.
 std::vector<char> holes_among(const std::vector<Ring>& rings) {
   std::vector<Box> boxes;
@@ -105,24 +134,11 @@ Prepared prepare(const TravelSettings& settings, LayerInput input) {
   const auto outline = gathered(out.input, &ObjectLayer::outline);
   out.comb = comb_boundary(settings, out.input, outline);
   out.outline = Comb(outline);
+  const auto free = free_area(out.input.room);
+  out.free = Comb(free);
+  out.around = Comb(area_around(settings, outline, out.input.room, free));
   add_seams(settings, out);
   return out;
-}
-
-Notices check(const TravelSettings& settings, const RetractionSettings& retraction) {
-  Notices notices;
-  const auto say = [&](std::string message) { notices.push_back({"setting_without_effect", std::move(message)}); };
-  if (settings.retraction_combing_offset != 0 && settings.retraction_combing != Combing::all)
-    say("retraction_combing_offset has no effect: it moves the boundary of retraction_combing = all only");
-  if (settings.retraction_combing_max_distance && settings.retraction_combing == Combing::off)
-    say("retraction_combing_max_distance has no effect: retraction_combing is off");
-  if ((settings.z_seam_x != 0 || settings.z_seam_y != 0) && settings.z_seam_type != SeamType::user)
-    say("z_seam_x and z_seam_y have no effect: z_seam_type is not user");
-  if (retraction.wipe && retraction.firmware_retraction)
-    say("wipe has no effect: with firmware_retraction the firmware draws the filament back at once");
-  if (!retraction.retraction_enable && retraction.retraction_hop > 0)
-    say("retraction_hop has no effect: lifts go with retractions, and retraction_enable is off");
-  return notices;
 }
 
 }  // namespace weft::travel

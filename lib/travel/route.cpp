@@ -1,6 +1,8 @@
-#include "model/flow.h"
+#include "travel/bead_path.h"
 #include "travel/blocks.h"
 #include "travel/lift.h"
+#include "travel/retraction_window.h"
+#include "travel/scarf.h"
 #include "travel/way.h"
 
 #include <algorithm>
@@ -8,61 +10,24 @@
 namespace weft::travel {
 namespace {
 
-Junction between(const Junction& a, const Junction& b, Point at) {
-  const double whole = distance(a.at, b.at), t = whole > 0 ? std::min(1.0, distance(a.at, at) / whole) : 0.0;
-  return {at, rounded(a.width + t * (static_cast<double>(b.width) - a.width)),
-          a.flow + static_cast<float>(t) * (b.flow - a.flow)};
-}
+/// A bead that is about to be laid down, in the pieces it is printed in.
+struct Held {
+  std::vector<Extrude> pieces;
+  std::vector<Junction> onward;  ///< where a closed bead's end leads on: over what was printed first
+  bool closed_outer = false, scarf = false;
 
-/// The bead's path in the order it is printed; a closed one ends where it began.
-std::vector<Junction> path_of(const Bead& bead, const Turn& turn) {
-  const std::size_t n = bead.path.size();
-  if (!bead.closed) {
-    if (turn.reversed) return {bead.path.rbegin(), bead.path.rend()};
-    return bead.path;
-  }
-  std::vector<Junction> path;
-  path.reserve(n + 2);
-  const std::size_t i = turn.start.segment, next = (i + 1) % n;
-  const bool at_junction = turn.start.at == bead.path[i].at;
-  path.push_back(at_junction ? bead.path[i] : between(bead.path[i], bead.path[next], turn.start.at));
-  for (std::size_t k = next; k != i; k = (k + 1) % n) path.push_back(bead.path[k]);
-  if (!at_junction) path.push_back(bead.path[i]);
-  path.push_back(path.front());
-  return path;
-}
+  bool empty() const { return pieces.empty(); }
+  std::vector<Junction>& last() { return pieces.back().path; }
+  Point begin() const { return pieces.front().path.front().at; }
+  Point end() const { return pieces.back().path.back().at; }
+  Um drop() const { return pieces.front().below.empty() ? 0 : pieces.front().below.front(); }
+};
 
-/// The first `length_um` of the path, as the points after its first.
-Polyline first_of(const std::vector<Junction>& path, double length_um) {
-  Polyline line;
-  for (std::size_t i = 1; i < path.size() && length_um > 0; ++i) {
-    const double step = distance(path[i - 1].at, path[i].at);
-    line.push_back(step <= length_um ? path[i].at : lerp(path[i - 1].at, path[i].at, length_um / step));
-    length_um -= step;
-  }
-  return line;
-}
-
-/// Takes the last `length_um` off the path, as the points after its new last.
-Polyline cut_end(std::vector<Junction>& path, double length_um) {
-  Polyline tail;
-  while (path.size() > 1 && length_um >= 1) {
-    const Junction last = path.back(), before = path[path.size() - 2];
-    const double step = distance(before.at, last.at);
-    tail.insert(tail.begin(), last.at);
-    if (step > length_um) {
-      path.back() = between(before, last, lerp(last.at, before.at, length_um / step));
-      break;
-    }
-    length_um -= step;
-    path.pop_back();
-  }
-  return tail;
-}
-
-double length_um(const std::vector<Junction>& path) {
+double volume_mm3(const Extrude& bead) {
   double sum = 0;
-  for (std::size_t i = 1; i < path.size(); ++i) sum += distance(path[i - 1].at, path[i].at);
+  for (std::size_t i = 1; i < bead.path.size(); ++i)
+    sum += distance(bead.path[i - 1].at, bead.path[i].at) / 1000.0 *
+           mean_area_mm2(bead.path[i - 1], bead.path[i], to_mm(bead.height));
   return sum;
 }
 
@@ -71,39 +36,74 @@ class Writer {
  public:
   Writer(const TravelSettings& settings, const RetractionSettings& retraction, const Prepared& layer,
          std::optional<Point> from)
-      : settings_(settings), retraction_(retraction), layer_(layer), router_(settings, retraction, layer), at_(from) {
+      : settings_(settings),
+        retraction_(retraction),
+        layer_(layer),
+        router_(settings, retraction, layer),
+        window_(retraction),
+        at_(from) {
     plan_.z = layer.input.z, plan_.height = layer.input.height;
   }
 
   void print(const Turn& turn) {
     const Block& block = layer_.blocks[turn.block];
-    const Bead& bead = beads_of(layer_.input, block)[turn.bead];
-    Extrude next{path_of(bead, turn), bead.role, layer_.input.height, 0, {}};
-    const Point begin = next.path.front().at;
-    if (held_.path.empty()) {
+    Held next = held_of(beads_of(layer_.input, block)[turn.bead], turn);
+    drop_ = next.drop();
+    if (held_.empty()) {
       label(block.object);
-      first_travel(begin);
+      first_travel(next.begin());
     } else {
-      lay_down(begin, block.object);
+      lay_down(next.begin(), block.object);
     }
     held_ = std::move(next);
-    at_ = held_.path.back().at;
-    closed_outer_ = bead.closed && bead.role == Role::outer_wall;
+    at_ = held_.end();
   }
 
-  LayerPlan finish() {
-    if (!held_.path.empty()) {
-      const Polyline gap = closed_outer_ ? cut_end(held_.path, gap_um()) : Polyline{};
-      plan_.steps.push_back(std::move(held_));
-      travel(gap);  // the layer above counts on the bead's end
+  Routed finish() {
+    if (!held_.empty()) {
+      const Point counted_on = held_.begin();  // by the layer above, of a closed bead
+      const bool scarf = held_.scarf;
+      const Polyline gap = held_.closed_outer ? cut_end(held_.last(), gap_um()) : Polyline{};
+      put_down();
+      drop_ = 0;
+      travel(gap);
+      if (scarf) travel(router_.way(*at_, counted_on).points);
     }
     label(Block::adhesion);
-    return std::move(plan_);
+    return {std::move(plan_), departures_};
   }
 
  private:
-  /// Not more than a third of the bead goes to the gap.
-  double gap_um() const { return std::min<double>(settings_.seam_gap_distance, length_um(held_.path) / 3); }
+  Held held_of(const Bead& bead, const Turn& turn) const {
+    Held held;
+    const Um height = layer_.input.height;
+    auto path = path_of(bead, turn);
+    held.closed_outer = bead.closed && bead.role == Role::outer_wall;
+    // On the bed a ramp would begin in it.
+    held.scarf = held.closed_outer && settings_.scarf_joint_seam_length > 0 && layer_.input.index > 0;
+    if (held.scarf) {
+      auto scarf = scarfed(settings_, path, height);
+      held.pieces.push_back({std::move(scarf.ramp), bead.role, height, 0, {}});
+      held.pieces.back().below = std::move(scarf.below);
+      held.onward = scarf.body;
+      if (scarf.body.size() > 1) held.pieces.push_back({std::move(scarf.body), bead.role, height, 0, {}});
+      held.pieces.push_back({std::move(scarf.cover), bead.role, height, 0, {}});
+    } else {
+      if (bead.closed) held.onward = path;
+      held.pieces.push_back({std::move(path), bead.role, height, 0, {}});
+    }
+    return held;
+  }
+
+  void put_down() {
+    for (auto& piece : held_.pieces) plan_.steps.push_back(std::move(piece));
+    held_.pieces.clear();
+  }
+
+  /// Not more than a third of the bead goes to the gap; a slanting seam needs none.
+  double gap_um() {
+    return held_.scarf ? 0 : std::min<double>(settings_.seam_gap_distance, length_um(held_.last()) / 3);
+  }
 
   void label(std::uint32_t object) {
     if (object == object_) return;
@@ -126,91 +126,110 @@ class Writer {
            (!retraction_.retraction_hop_only_when_collides || way.crosses);
   }
 
-  void retracted(const Way& way, Polyline wipe) {
-    plan_.steps.push_back(Retract{std::move(wipe)});
+  Point3 here() const { return {at_->x, at_->y, plan_.z}; }
+
+  /// Whether filament may be drawn back once more.
+  bool draws_back() { return retraction_.retraction_enable && window_.take(); }
+
+  std::vector<Point3> lift(const Way& way) {
+    auto lift = lifted(retraction_, *at_, way.points, plan_.z, layer_.input.room);
+    if (lift.lowered) departures_.lowered.add(here());
+    if (lift.type != retraction_.retraction_hop_type)
+      (lift.type == HopType::slope ? departures_.sloped : departures_.vertical).add(here());
+    return std::move(lift.path);
+  }
+
+  /// To the next bead, with the filament drawn back or not.
+  void go(const Way& way, bool draw, Polyline wipe) {
+    if (way.outside) departures_.outside.add(here());
+    if (way.crosses && !draw && retraction_.retraction_enable) departures_.unretracted.add(here());
+    if (draw) plan_.steps.push_back(Retract{std::move(wipe)});
     Travel travel;
     travel.crosses_wall = way.crosses;
-    if (lifts(way)) {
-      travel.path = lifted(retraction_, *at_, way.points, plan_.z, layer_.input.reach);
+    if (draw && lifts(way)) {
+      travel.path = lift(way);
     } else {
       for (const Point p : way.points) travel.path.push_back({p.x, p.y, plan_.z});
     }
+    if (travel.path.empty()) return;
+    if (drop_ > 0) travel.path.push_back({travel.path.back().x, travel.path.back().y, plan_.z - drop_});
     plan_.steps.push_back(std::move(travel));
-    plan_.steps.push_back(Prime{});
+    if (draw) plan_.steps.push_back(Prime{});
   }
 
   void first_travel(Point begin) {
-    Way way = at_ ? router_.way(*at_, begin) : Way{{begin}, false, false};
-    if (at_ && retraction_.retraction_enable && (way.retract || retraction_.retract_at_layer_change)) {
-      retracted(way, {});
-    } else {
-      travel(way.points);
-      if (!plan_.steps.empty())
-        if (auto* t = std::get_if<Travel>(&plan_.steps.back())) t->crosses_wall = way.crosses;
-    }
+    const Way way = at_ ? router_.way(*at_, begin) : Way{{begin}, false, false, false};
+    if (at_ && begin == *at_) return;
+    go(way, at_ && (way.retract || retraction_.retract_at_layer_change) && draws_back(), {});
   }
 
   /// The end of a bead that the pressure in the nozzle prints.
   Polyline coast() {
-    if (!settings_.coasting_enable || held_.path.size() < 2) return {};
-    const auto& last = held_.path.back();
-    const double area_mm2 = to_mm(last.width) * to_mm(held_.height) * static_cast<double>(last.flow);
+    auto& path = held_.last();
+    if (!settings_.coasting_enable || path.size() < 2 || held_.scarf) return {};
+    const auto& end = path.back();
+    const double area_mm2 = to_mm(end.width) * to_mm(layer_.input.height) * static_cast<double>(end.flow);
     const double coast_um = area_mm2 > 0 ? 1000 * settings_.coasting_volume / area_mm2 : 0;
-    return coast_um * 3 > length_um(held_.path) ? Polyline{} : cut_end(held_.path, coast_um);
+    return coast_um * 3 > length_um(path) ? Polyline{} : cut_end(path, coast_um);
+  }
+
+  /// What the nozzle runs over while filament is drawn back: what was printed first, or back over what was last.
+  Polyline wipe(const Polyline& gap) {
+    if (!retraction_.wipe || retraction_.firmware_retraction) return {};
+    if (held_.onward.empty()) {
+      const std::vector<Junction> back(held_.last().rbegin(), held_.last().rend());
+      return first_of(back, retraction_.wipe_distance);
+    }
+    Polyline over = first_of(held_.onward, retraction_.wipe_distance);
+    if (!gap.empty()) over.insert(over.begin(), held_.onward.front().at);
+    return over;
   }
 
   /// Puts the held bead down and goes to where the next one begins.
   void lay_down(Point begin, std::uint32_t next_object) {
     Way way = begin == *at_ ? Way{} : router_.way(*at_, begin);
-    const bool retract = way.retract && retraction_.retraction_enable;
-    const bool closed = held_.path.front().at == held_.path.back().at;
-    const Polyline gap = closed_outer_ ? cut_end(held_.path, gap_um()) : Polyline{};
-    if (!gap.empty()) at_ = held_.path.back().at;
-    Polyline coasted = retract ? coast() : Polyline{};
-    Polyline wipe;
-    if (retract && retraction_.wipe && !retraction_.firmware_retraction) {
-      std::vector<Junction> back(held_.path.rbegin(), held_.path.rend());
-      wipe = first_of(closed ? held_.path : back, retraction_.wipe_distance);
-      if (closed && !gap.empty()) wipe.insert(wipe.begin(), held_.path.front().at);
-    }
+    for (const auto& piece : held_.pieces) window_.feed(volume_mm3(piece) / layer_.input.filament_area_mm2);
+    bool draw = way.retract && draws_back();
+    const Polyline gap = held_.closed_outer ? cut_end(held_.last(), gap_um()) : Polyline{};
+    if (!gap.empty()) at_ = held_.end();
+    const Polyline coasted = draw ? coast() : Polyline{};
+    Polyline over = draw ? wipe(gap) : Polyline{};
     const Polyline run_on =
-        closed_outer_ && wipe.empty() ? first_of(held_.path, settings_.wall_0_wipe_dist) : Polyline{};
-    plan_.steps.push_back(std::move(held_));
+        held_.closed_outer && over.empty() ? first_of(held_.onward, settings_.wall_0_wipe_dist) : Polyline{};
+    put_down();
     travel(coasted);
     if (!run_on.empty() && !gap.empty()) travel(gap);
     travel(run_on);
-    if (!wipe.empty()) at_ = wipe.back();
+    if (!over.empty()) at_ = over.back();
     label(next_object);
-    if (begin == *at_) return;
-    if (!gap.empty() || !run_on.empty() || !wipe.empty()) {
-      const bool must = way.retract;
+    if (begin == *at_) {
+      if (!over.empty()) go({}, true, std::move(over));
+      return;
+    }
+    if (!gap.empty() || !run_on.empty() || !over.empty()) {
       way = router_.way(*at_, begin);
-      way.retract = way.retract || must;
+      draw = draw || (way.retract && draws_back());
     }
-    if (way.retract && retraction_.retraction_enable) {
-      retracted(way, std::move(wipe));
-    } else {
-      const auto before = plan_.steps.size();
-      travel(way.points);
-      if (plan_.steps.size() > before) std::get<Travel>(plan_.steps.back()).crosses_wall = way.crosses;
-    }
+    go(way, draw, std::move(over));
   }
 
   const TravelSettings& settings_;
   const RetractionSettings& retraction_;
   const Prepared& layer_;
   Router router_;
+  RetractionWindow window_;
   LayerPlan plan_;
+  Departures departures_;
   std::optional<Point> at_;
-  Extrude held_;
-  bool closed_outer_ = false;
+  Held held_;
+  Um drop_ = 0;  ///< how far below the layer's top the next bead begins
   std::uint32_t object_ = Block::adhesion;
 };
 
 }  // namespace
 
-LayerPlan route(const TravelSettings& settings, const RetractionSettings& retraction, const Prepared& layer,
-                const Ordered& ordered, std::optional<Point> from) {
+Routed route(const TravelSettings& settings, const RetractionSettings& retraction, const Prepared& layer,
+             const Ordered& ordered, std::optional<Point> from) {
   Writer writer(settings, retraction, layer, from);
   for (const auto& turn : ordered.turns) writer.print(turn);
   return writer.finish();
@@ -225,7 +244,7 @@ std::vector<LayerPlan> plan(const TravelSettings& settings, const RetractionSett
   std::optional<Point> from;
   for (std::size_t i = 0; i < prepared.size(); ++i) {
     const auto ordered = order(settings, prepared[i], linked[i]);
-    plans.push_back(route(settings, retraction, prepared[i], ordered, from));
+    plans.push_back(route(settings, retraction, prepared[i], ordered, from).plan);
     if (ordered.end) from = ordered.end;
   }
   return plans;

@@ -30,13 +30,21 @@ struct ObjectLayer {
   Regions sparse;            ///< sparse infill: what combing = infill keeps to
 };
 
+/// Where the nozzle may go on a layer.
+struct Room {
+  Ring reach;               ///< empty: anywhere
+  std::vector<Ring> no_go;  ///< of this height
+  Um z_max = max_coord;     ///< of lifts
+};
+
 /// Everything that is printed at one height.
 struct LayerInput {
   std::size_t index = 0;
   Um z = 0, height = 0;
   Beads adhesion;  ///< skirt and brim: printed first
   std::vector<ObjectLayer> objects;
-  Ring reach;  ///< where the nozzle may go; empty: anywhere
+  Room room;
+  double filament_area_mm2 = 2.405;  ///< cross-section of the filament: 1.75 mm round
 };
 
 /// The beads of one part of one object, or the adhesion: printed before the next block begins.
@@ -54,6 +62,8 @@ struct Prepared {
   std::vector<SeamChoices> seams;  ///< one an outer wall that is closed
   Comb comb;                       ///< where travels may go unretracted
   Comb outline;                    ///< what a travel may not leave unretracted
+  Comb free;                       ///< where the nozzle may go at all; empty: wherever a straight way may lead
+  Comb around;  ///< the same less the parts and what is to be kept from them; empty: they are passed over
 };
 
 /// What the layers have agreed on.
@@ -79,6 +89,30 @@ struct Ordered {
   std::optional<Point> begin, end;  ///< where the first bead begins and the last one ends; absent without turns
 };
 
+/// Where a layer could not be travelled as asked, each with the first place.
+struct Departures {
+  struct Kind {
+    int count = 0;
+    Point3 first;
+    void add(Point3 at) {
+      if (count++ == 0) first = at;
+    }
+  };
+  Kind sloped;       ///< circles of a lift that became slopes, to stay in the room
+  Kind vertical;     ///< slopes and circles that became vertical
+  Kind lowered;      ///< lifts cut at the top of the room
+  Kind outside;      ///< travels that leave the room
+  Kind unretracted;  ///< travels that cross a wall unretracted because of retraction_count_max
+};
+
+struct Routed {
+  LayerPlan plan;
+  Departures departures;
+};
+
+/// One notice a kind for the whole print.
+Notices notices_of(std::span<const Routed> layers);
+
 /// What of the settings cannot have the effect the user may expect.
 Notices check(const TravelSettings& settings, const RetractionSettings& retraction);
 
@@ -91,15 +125,17 @@ std::vector<Linked> link(const TravelSettings& settings, std::span<const Prepare
 
 /// The order of all beads of a layer.
 /// Post: every bead has exactly one turn; beads of a part follow each other, its walls in their order where they touch,
-///       then its fills and open walls; beads of equal non-zero sequence keep their order (or, unless they are top
-///       skin, have it turned around as a whole).
+///       then its fills, with open walls anywhere between; beads of equal non-zero sequence keep their order where it
+///       shows: top skin, bridges and the first layer (all but top skin may have it turned around as a whole).
 Ordered order(const TravelSettings& settings, const Prepared& layer, const Linked& linked);
 
 /// The steps of the layer.
-/// Post: a travel that leaves the part is retracted; otherwise it stays inside the comb boundary, or is retracted.
+/// Post: a travel that leaves the part is retracted, but for retraction_enable and retraction_count_max; otherwise it
+///       stays inside the comb boundary, or is retracted. Travels stay in the room where their ends are in it and a way
+///       is found; departures say where not.
 /// @param from where the layer below ended; absent on the first layer
-LayerPlan route(const TravelSettings& settings, const RetractionSettings& retraction, const Prepared& layer,
-                const Ordered& ordered, std::optional<Point> from);
+Routed route(const TravelSettings& settings, const RetractionSettings& retraction, const Prepared& layer,
+             const Ordered& ordered, std::optional<Point> from);
 
 /// All of it, one layer after the other: for tests and for who has no threads.
 std::vector<LayerPlan> plan(const TravelSettings& settings, const RetractionSettings& retraction,

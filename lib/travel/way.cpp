@@ -15,16 +15,50 @@ double length_from(Point p, const Polyline& way) {
 }
 
 Way Router::way(Point p, Point q) const {
-  if (auto inside = combed(p, q)) {
-    const double length = length_from(p, *inside);
-    const bool far = settings_.retraction_combing_max_distance && length > *settings_.retraction_combing_max_distance;
-    const bool strict = !retraction_.retract_only_when_crossing && length >= retraction_.retraction_min_travel;
-    // Checked all the same: the boundary may be moved outwards, and an outer wall may leave the outline where it is thin.
-    const bool crosses = leaves_outline(p, *inside);
-    return {std::move(*inside), far || strict || crosses, crosses};
+  auto inside = combed(p, q);
+  if (!inside || leaves_room(p, *inside)) return direct(p, q);
+  const double length = length_from(p, *inside);
+  if (too_long(length, distance(p, q))) return direct(p, q);
+  const bool far = settings_.retraction_combing_max_distance && length > *settings_.retraction_combing_max_distance;
+  const bool strict = !retraction_.retract_only_when_crossing && length >= retraction_.retraction_min_travel;
+  // Checked all the same: the boundary may be moved outwards, and an outer wall may leave the outline where it is thin.
+  const bool crosses = leaves_outline(p, *inside);
+  return {std::move(*inside), far || strict || crosses, crosses, false};
+}
+
+/// A detour is worth a retraction's time and the strings it saves, and not more. Without retractions nothing else is
+/// left against strings.
+bool Router::too_long(double combed_um, double straight_um) const {
+  if (!settings_.retraction_combing_max_detour || !retraction_.retraction_enable) return false;
+  return combed_um - straight_um > settings_.retraction_combing_max_detour->of(rounded(straight_um));
+}
+
+/// Over the part's edge: round the other parts where asked, round what may not be entered in any case.
+Way Router::direct(Point p, Point q) const {
+  Way way{{q}, false, leaves_outline(p, {q}), false};
+  if (way.crosses && !layer_.around.empty()) {
+    if (auto round = layer_.around.way(p, q, {layer_.around.hole_around(p), layer_.around.hole_around(q)}))
+      way.points = std::move(*round);
   }
-  const bool crosses = leaves_outline(p, {q});
-  return {{q}, crosses || distance(p, q) >= retraction_.retraction_min_travel, crosses};
+  if (leaves_room(p, way.points)) {
+    const std::uint32_t part = layer_.free.part_of(p);
+    std::optional<Polyline> round;
+    if (part != Comb::outside && part == layer_.free.part_of(q)) round = layer_.free.way(p, q);
+    way.outside = !round;
+    way.points = round ? std::move(*round) : Polyline{q};
+    way.crosses = leaves_outline(p, way.points);
+  }
+  way.retract = way.crosses || length_from(p, way.points) >= retraction_.retraction_min_travel;
+  return way;
+}
+
+bool Router::leaves_room(Point p, const Polyline& way) const {
+  if (layer_.free.empty()) return false;
+  for (const Point q : way) {
+    if (!layer_.free.sees(p, q)) return true;
+    p = q;
+  }
+  return layer_.free.part_of(p) == Comb::outside;
 }
 
 bool Router::leaves_outline(Point p, const Polyline& way) const {

@@ -84,7 +84,9 @@ TEST_CASE("travel: the walls of one contour follow each other", "[travel]") {
 }
 
 TEST_CASE("travel: a travel that leaves the part is retracted, one inside is combed and not retracted", "[travel]") {
-  const auto plans = plan({}, {}, stack(4));
+  TravelSettings settings;
+  settings.retraction_combing_max_detour.reset();
+  const auto plans = plan(settings, {}, stack(4));
   bool retracted = false;
   for (const auto& p : plans) {
     for (const auto& step : p.steps) {
