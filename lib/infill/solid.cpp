@@ -21,7 +21,7 @@ constexpr double narrowest_strand = 0.6;  // bands, of one of two
 constexpr double longest_turn = 4;        // bands; edges shallower than asin(1/4) are not turned along
 constexpr double most_lean = 4;           // bands that a narrow strip may lean from line to line and still be one strip
 constexpr double deepest_bump = 0.25;     // bands that the edge may stand into a turn
-constexpr double shortest_bead_um = 50;   // less than that is a blob
+constexpr double shortest_bead = 1;       // in widths: less is a dab, and a stop of the nozzle for a thousandth of the volume
 
 /// Lines of a region in chains: intervals that lie over each other with no fork between them.
 struct Chains {
@@ -259,7 +259,7 @@ class Filler {
     double total = 0;
     for (std::size_t i = 1; i < path.size(); ++i)
       total += std::hypot(path[i].x - path[i - 1].x, path[i].y - path[i - 1].y);
-    if (total < shortest_bead_um) return;
+    if (total < shortest_bead * width_) return;
     Bead bead;
     bead.role = role, bead.part = style_.part, bead.sequence = style_.sequence;
     bead.path.reserve(path.size());

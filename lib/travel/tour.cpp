@@ -62,22 +62,67 @@ class Search {
 
   std::vector<Visit> run() {
     // A move shortens the way by at least a micron, and the budget bounds the worst case.
-    long budget = 40L * n_ + 1000;
-    std::vector<std::uint32_t> queue;
-    for (const auto& v : visits_) queue.push_back(v.stop);
-    for (std::size_t head = 0; head < queue.size() && budget > 0; ++head, --budget) {
-      const std::uint32_t stop = queue[head];
-      look_[stop] = 0;
-      while (budget > 0 && improve(stop)) --budget;
-      for (const std::uint32_t touched : touched_)
-        if (!look_[touched]) look_[touched] = 1, queue.push_back(touched);
-      touched_.clear();
-    }
+    queue_.clear();
+    for (const auto& v : visits_) queue_.push_back(v.stop);
+    settle(40L * n_ + 1000);
+    if (n_ >= fewest_to_kick && n_ <= most_to_kick) kick_and_settle();
     return std::move(visits_);
   }
 
  private:
+  /// Looks at the stops of the queue, and at those that moves touch, until nothing more is gained.
+  void settle(long budget) {
+    for (std::size_t head = 0; head < queue_.size() && budget > 0; ++head, --budget) {
+      const std::uint32_t stop = queue_[head];
+      look_[stop] = 0;
+      while (budget > 0 && improve(stop)) --budget;
+      for (const std::uint32_t touched : touched_)
+        if (!look_[touched]) look_[touched] = 1, queue_.push_back(touched);
+      touched_.clear();
+    }
+    for (const std::uint32_t stop : queue_) look_[stop] = 0;
+    queue_.clear();
+  }
+
+  /// Exchanges two neighbouring runs somewhere, which no single move can undo, lets the order settle, and keeps what is
+  /// shorter. Source: Martin, Otto & Felten 1991, "Large-step Markov chains for the TSP" (double bridge).
+  void kick_and_settle() {
+    double length = way(stops_, visits_, ends_);
+    auto kept = visits_;
+    for (int kick = 0; kick < kicks_a_stop * n_; ++kick) {
+      int cut[3];
+      const int window = std::min(n_, kick_window),
+                base = static_cast<int>(random(static_cast<std::uint32_t>(n_ - window + 1)));
+      for (int& c : cut) c = base + static_cast<int>(random(static_cast<std::uint32_t>(window + 1)));
+      std::sort(std::begin(cut), std::end(cut));
+      if (cut[0] == cut[1] || cut[1] == cut[2]) continue;
+      std::rotate(visits_.begin() + cut[0], visits_.begin() + cut[1], visits_.begin() + cut[2]);
+      for (int i = cut[0]; i < cut[2]; ++i) position_[visits_[at(i)].stop] = i;
+      for (const int c :
+           {cut[0] - 1, cut[0], cut[0] + cut[2] - cut[1] - 1, cut[0] + cut[2] - cut[1], cut[2] - 1, cut[2]})
+        if (c >= 0 && c < n_) queue_.push_back(visits_[at(c)].stop);
+      settle(1000);
+      const double now = way(stops_, visits_, ends_);
+      if (now < length - least_gain_um) {
+        length = now, kept = visits_;
+      } else {
+        visits_ = kept;
+        for (int i = 0; i < n_; ++i) position_[visits_[at(i)].stop] = i;
+      }
+    }
+  }
+
+  /// A number below `end`, from a sequence that is the same for every tour (splitmix64).
+  std::uint32_t random(std::uint32_t end) {
+    std::uint64_t x = seed_ += 0x9E3779B97F4A7C15ULL;
+    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ULL;
+    x = (x ^ (x >> 27)) * 0x94D049BB133111EBULL;
+    return static_cast<std::uint32_t>(((x ^ (x >> 31)) >> 32) * end >> 32);
+  }
+
   static constexpr int neighbour_count = 8;
+  static constexpr int fewest_to_kick = 5, most_to_kick = 400, kick_window = 50;
+  static constexpr int kicks_a_stop = 3;  // ten gain another 0.3 % at thrice the time
   static constexpr double least_gain_um = 1.0;
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -193,7 +238,8 @@ class Search {
   bool any_fixed_ = false;
   std::vector<int> position_;
   std::vector<char> look_;
-  std::vector<std::uint32_t> neighbours_, touched_;
+  std::vector<std::uint32_t> neighbours_, touched_, queue_;
+  std::uint64_t seed_ = 1;
 };
 
 }  // namespace
