@@ -1,5 +1,7 @@
 #include "gcode/dialect.h"
 
+#include "settings/value.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -53,17 +55,90 @@ void Dialect::fan(Text& out, double share) const {
 }
 
 void Dialect::print_acceleration(Text& out, std::int64_t mm_s2) const {
-  out << (firmware == Firmware::klipper ? "SET_VELOCITY_LIMIT ACCEL=" : "M204 P") << mm_s2 << '\n';
+  switch (firmware) {
+    case Firmware::klipper:
+      out << "SET_VELOCITY_LIMIT ACCEL=" << mm_s2 << '\n';
+      break;
+    case Firmware::marlin2:
+    case Firmware::reprapfirmware:
+      out << "M204 P" << mm_s2 << '\n';
+      break;
+    case Firmware::marlin:
+    case Firmware::smoothie:
+      out << "M204 S" << mm_s2 << '\n';
+      break;
+    case Firmware::repetier:
+      out << "M201 X" << mm_s2 << " Y" << mm_s2 << '\n';
+      break;
+  }
 }
 
 void Dialect::travel_acceleration(Text& out, std::int64_t mm_s2) const {
-  out << (firmware == Firmware::klipper ? "SET_VELOCITY_LIMIT ACCEL=" : "M204 T") << mm_s2 << '\n';
+  switch (firmware) {
+    case Firmware::marlin2:
+    case Firmware::reprapfirmware:
+      out << "M204 T" << mm_s2 << '\n';
+      break;
+    case Firmware::repetier:
+      out << "M202 X" << mm_s2 << " Y" << mm_s2 << '\n';
+      break;
+    default:
+      print_acceleration(out, mm_s2);
+  }
+}
+
+std::string Dialect::machine_limits(const MachineSettings& m) const {
+  const auto axes = [](double x, double y, double z, double e) {
+    return fmt::format(" X{} Y{} Z{} E{}", value::number(x, 3), value::number(y, 3), value::number(z, 3),
+                       value::number(e, 3));
+  };
+  const auto accelerations = "M201" + axes(m.machine_max_acceleration_x, m.machine_max_acceleration_y,
+                                           m.machine_max_acceleration_z, m.machine_max_acceleration_e);
+  const auto speeds = [&](double unit) {
+    return "M203" + axes(unit * m.machine_max_speed_x, unit * m.machine_max_speed_y, unit * m.machine_max_speed_z,
+                         unit * m.machine_max_speed_e);
+  };
+  const auto jerk = value::number(m.machine_max_jerk, 3);
+  const auto deviation = m.machine_junction_deviation ? value::number(*m.machine_junction_deviation, 4) : "";
+  switch (firmware) {
+    case Firmware::klipper:
+      return {};
+    case Firmware::marlin:
+      return fmt::format("{}\n{}\nM205 X{}\n", accelerations, speeds(1), jerk);  // X is X and Y
+    case Firmware::marlin2:
+      return fmt::format("{}\n{}\nM205 {}\n", accelerations, speeds(1),
+                         deviation.empty() ? fmt::format("X{} Y{}", jerk, jerk) : "J" + deviation);
+    case Firmware::reprapfirmware: {  // mm/min
+      const auto jerk_min = value::number(60 * m.machine_max_jerk, 3);
+      return fmt::format("{}\n{}\nM566 X{} Y{}\n", accelerations, speeds(60), jerk_min, jerk_min);
+    }
+    case Firmware::repetier:  // its M203 watches temperatures; speeds are of its configuration
+      return fmt::format("{}\nM207 X{}\n", accelerations, jerk);
+    case Firmware::smoothie:
+      return fmt::format("M203 X{} Y{} Z{}\n{}", value::number(m.machine_max_speed_x, 3),
+                         value::number(m.machine_max_speed_y, 3), value::number(m.machine_max_speed_z, 3),
+                         deviation.empty() ? "" : fmt::format("M205 X{}\n", deviation));
+  }
+  return {};
+}
+
+std::string Dialect::progress(Progress p) const {
+  if (firmware == Firmware::repetier || firmware == Firmware::smoothie) return {};
+  return fmt::format("M73 P{} R{}\n", p.percent, p.minutes);
+}
+
+bool Dialect::in_commands() const {
+  return labels == ObjectLabels::firmware &&
+         (firmware == Firmware::klipper || firmware == Firmware::marlin2 || firmware == Firmware::reprapfirmware);
+}
+bool Dialect::in_comments() const {
+  return labels != ObjectLabels::none && !in_commands();
 }
 
 void Dialect::define_objects(Text& out, const std::vector<ObjectLabel>& objects,
                              const std::vector<std::string>& names) const {
-  if (labels != ObjectLabels::firmware || objects.empty()) return;
-  if (firmware == Firmware::marlin) out << "M486 T" << static_cast<std::int64_t>(objects.size()) << '\n';
+  if (!in_commands() || objects.empty()) return;
+  if (firmware == Firmware::marlin2) out << "M486 T" << static_cast<std::int64_t>(objects.size()) << '\n';
   for (std::size_t i = 0; i < objects.size(); ++i) {
     switch (firmware) {
       case Firmware::klipper:
@@ -78,11 +153,13 @@ void Dialect::define_objects(Text& out, const std::vector<ObjectLabel>& objects,
         }
         out << "]\n";
         break;
-      case Firmware::marlin:
+      case Firmware::marlin2:
         out << "M486 S" << static_cast<std::int64_t>(i) << "\nM486 A" << names[i] << '\n';
         break;
       case Firmware::reprapfirmware:
         out << "M486 S" << static_cast<std::int64_t>(i) << " A\"" << names[i] << "\"\n";
+        break;
+      default:
         break;
     }
   }
@@ -91,7 +168,9 @@ void Dialect::define_objects(Text& out, const std::vector<ObjectLabel>& objects,
 
 void Dialect::object_start(Text& out, std::uint32_t object, const std::vector<std::string>& names) const {
   if (labels == ObjectLabels::none || object >= names.size()) return;
-  if (labels == ObjectLabels::comments)
+  if (in_comments() && comments == CommentDialect::cura)
+    out << ";MESH:" << names[object] << '\n';
+  else if (in_comments())
     out << "; printing object " << names[object] << " id:" << std::int64_t{object} << " copy 0\n";
   else if (firmware == Firmware::klipper)
     out << "EXCLUDE_OBJECT_START NAME=" << names[object] << '\n';
@@ -101,7 +180,9 @@ void Dialect::object_start(Text& out, std::uint32_t object, const std::vector<st
 
 void Dialect::object_end(Text& out, std::uint32_t object, const std::vector<std::string>& names) const {
   if (labels == ObjectLabels::none || object >= names.size()) return;
-  if (labels == ObjectLabels::comments)
+  if (in_comments() && comments == CommentDialect::cura)
+    out << ";MESH:NONMESH\n";
+  else if (in_comments())
     out << "; stop printing object " << names[object] << " id:" << std::int64_t{object} << " copy 0\n";
   else if (firmware == Firmware::klipper)
     out << "EXCLUDE_OBJECT_END NAME=" << names[object] << '\n';

@@ -4,25 +4,49 @@
 #include "settings/gcode.h"
 #include "settings/machine.h"
 
+#include <string>
+#include <vector>
+
 namespace weft::gcode {
 
+/// Percent done and minutes left, as displays show them.
+struct Progress {
+  std::int64_t percent, minutes;
+  bool operator==(const Progress&) const = default;
+};
+
 /// What firmwares write differently. One function a command.
+/// Source: the G-code pages of Marlin, Klipper, RepRapFirmware, Repetier-Firmware and Smoothieware.
 struct Dialect {
-  Firmware firmware = Firmware::marlin;
+  Firmware firmware = Firmware::marlin2;
   ObjectLabels labels = ObjectLabels::firmware;
+  CommentDialect comments = CommentDialect::prusaslicer;
 
   /// @param share 0 … 1
   void fan(Text& out, double share) const;
 
   /// Is the acceleration of travels a value of its own, which stays while printing?
-  bool separate_travel_acceleration() const { return firmware != Firmware::klipper; }
+  bool separate_travel_acceleration() const {
+    return firmware == Firmware::marlin2 || firmware == Firmware::reprapfirmware || firmware == Firmware::repetier;
+  }
   void print_acceleration(Text& out, std::int64_t mm_s2) const;
   void travel_acceleration(Text& out, std::int64_t mm_s2) const;
+
+  /// Limits of speed, acceleration and jerk; nothing for Klipper, which has them in its own configuration.
+  std::string machine_limits(const MachineSettings& machine) const;
+
+  /// Nothing where the firmware knows no M73.
+  std::string progress(Progress p) const;
 
   /// Names of the objects, before the first of them is printed.
   void define_objects(Text& out, const std::vector<ObjectLabel>& objects, const std::vector<std::string>& names) const;
   void object_start(Text& out, std::uint32_t object, const std::vector<std::string>& names) const;
   void object_end(Text& out, std::uint32_t object, const std::vector<std::string>& names) const;
+
+ private:
+  /// Firmwares that cannot cancel objects get comments, by which OctoPrint can.
+  bool in_commands() const;
+  bool in_comments() const;
 };
 
 /// Names that every firmware takes as one word, and no two of them alike: letters, digits, '_' and what is not ASCII,

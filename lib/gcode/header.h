@@ -21,6 +21,9 @@ struct Extents {
 };
 Extents extents_of(const PrintPlan& plan);
 
+/// Z of the highest layer; 0 without layers.
+Um top_of(const PrintPlan& plan);
+
 /// What the beads of the first layer cover, their width included.
 Box first_layer_box(const PrintPlan& plan);
 

@@ -6,11 +6,14 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
+
 namespace weft::gcode {
 namespace {
 
-/// Widths in comments differ at least by this; viewers do not show less.
-constexpr Um width_step = 5;
+/// Widths in comments differ at least by this: a viewer's eye sees no less, and the audit, which judges by them how far
+/// a bead reaches, is off by a quarter of it at most on average and half in the worst case.
+constexpr Um width_step = 20;
 
 /// E in units of its last decimal.
 constexpr double units_per_mm = 1e5;
@@ -46,18 +49,16 @@ class LayerText {
       }
       std::visit([&](const auto& s) { print(s); }, step);
     }
+    if (job_.comments.dialect == CommentDialect::cura)
+      out_ << ";TIME_ELAPSED:" << fmt::format("{:.6f}", job_.end_s) << '\n';
     return std::move(out_).take();
   }
 
  private:
   void head() {
-    out_ << ";LAYER_CHANGE\n;Z:";
-    out_.spelled(job_.plan.z) << "\n;HEIGHT:";
-    out_.spelled(height_ = job_.plan.height) << '\n';
-    if (job_.before_layer.find(";BEFORE_LAYER_CHANGE") == std::string_view::npos) {
-      out_ << ";BEFORE_LAYER_CHANGE\n;";  // where print servers look for the height of the object
-      out_.spelled(job_.plan.z) << '\n';
-    }
+    height_ = job_.plan.height;
+    job_.comments.layer(out_, job_.index, job_.plan.z, job_.plan.height,
+                        job_.before_layer.find(";BEFORE_LAYER_CHANGE") != std::string_view::npos);
     out_ << job_.preamble;
     if (!job_.settings.gcode.relative_extrusion) out_ << "G92 E0\n";
     custom(job_.before_layer);
@@ -65,7 +66,8 @@ class LayerText {
 
   void custom(std::string_view code) {
     if (code.empty()) return;
-    out_ << ";TYPE:Custom\n" << code;
+    job_.comments.custom(out_);
+    out_ << code;
     if (code.back() != '\n') out_ << '\n';
     role_ = -1;
     feed_ = 0;
@@ -124,10 +126,10 @@ class LayerText {
     travel_to(place_of(bead, 0, job_.plan.z), job_.settings.speeds.speed_travel);
     if (role_ != static_cast<int>(bead.role)) {
       role_ = static_cast<int>(bead.role);
-      out_ << ";TYPE:" << name_of(bead.role).comment << '\n';
-      if (bead.role == Role::brim) out_ << "; brim\n";  // PrusaSlicer has one name for both; the audit tells them apart
+      job_.comments.feature(out_, bead.role);
     }
-    if (bead.height != height_) (out_ << ";HEIGHT:").spelled(height_ = bead.height) << '\n';
+    if (bead.height != height_ && job_.comments.says_sizes())
+      (out_ << ";HEIGHT:").spelled(height_ = bead.height) << '\n';
     accelerate(bead.acceleration_mm_s2, false);
     const double height_mm = to_mm(bead.height);
     const bool varies = !bead.segment_speed_mm_s.empty(), flow_comments = job_.settings.gcode.gcode_flow_comments;
@@ -150,7 +152,7 @@ class LayerText {
   }
 
   void width(Um band, Um height) {
-    if (std::abs(band - band_) < width_step) return;
+    if (std::abs(band - band_) < width_step || !job_.comments.says_sizes()) return;
     band_ = band;
     (out_ << ";WIDTH:").spelled(flow::line_width(band, height)) << '\n';
   }

@@ -1,4 +1,5 @@
 #pragma once
+#include "gcode/comments.h"
 #include "gcode/writer.h"
 
 #include <string_view>
@@ -9,12 +10,15 @@ namespace weft::gcode {
 struct LayerJob {
   const Settings& settings;
   const Dialect& dialect;
+  Comments comments;
   const LayerPlan& plan;
+  std::size_t index;  ///< of the layer, from 0
   const MachineState& entry;
   const std::vector<std::string>& names;
   std::string_view preamble;      ///< after ;LAYER_CHANGE, before the first move
   std::string_view before_layer;  ///< custom G-code
   std::string_view after_layer;
+  double end_s = 0;  ///< time of the print when the layer is done
 };
 
 std::string layer_text(const LayerJob& job);

@@ -40,30 +40,34 @@ struct MachineState {
 class Writer {
  public:
   /// Expands all custom G-code and finds what is in force when each layer begins. The job must outlive the writer.
-  /// @throws Error{settings} naming setting, line and column: an unknown placeholder, or one without value
-  explicit Writer(const Job& job);
+  /// @throws Error{settings} naming setting, line and column: what is wrong with custom G-code (macro/macro.h)
+  explicit Writer(const Job& job) : Writer(job, false) {}
 
   std::string head() const;
   std::string layer(std::size_t index) const;
   std::string tail() const;
 
  private:
+  friend void check_custom_code(const Settings& settings);
+  Writer(const Job& job, bool lenient);
   void expand_custom_code();
 
   const Job& job_;
+  bool lenient_;  // a trial: the figures of the print are not the real ones
   Dialect dialect_;
   std::vector<MachineState> entries_;                    // when each layer begins
   std::vector<double> elapsed_s_;                        // then; one more for the end
   std::vector<std::string> before_layer_, after_layer_;  // custom G-code, expanded; empty where there is none
   std::vector<std::string> names_;                       // of the objects
   std::string start_, end_;
-  bool start_sets_nozzle_ = false, start_sets_bed_ = false;
+  bool start_sets_nozzle_ = false, start_sets_bed_ = false, start_sets_chamber_ = false;
 };
 
 /// The whole file.
 std::string write(const Job& job);
 
-/// Expands all custom G-code for an empty print: what is wrong with it is known before the first model is read.
+/// Checks all custom G-code, and expands it for a print that there might be: what is wrong with it is known before the
+/// first model is read, but for what hangs on the numbers of the print (a division by zero).
 /// @throws Error{settings} as Writer does
 void check_custom_code(const Settings& settings);
 

@@ -213,6 +213,8 @@ class Evaluation {
     const auto a = scalar(node.kids[0]);
     const auto b = scalar(node.kids[1]);
     try {
+      const bool divides = node.kind == Kind::divide || node.kind == Kind::modulo;
+      if (scope_.lenient && divides && number_of(b) == 0) return std::int64_t{1};
       return node.kind >= Kind::equal ? Scalar(compared(node.kind, a, b)) : arithmetic(node.kind, a, b);
     } catch (const std::invalid_argument& e) {
       program_.refuse(node.at, e.what());

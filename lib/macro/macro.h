@@ -28,6 +28,7 @@ struct Program;
 struct Scope {
   Variables globals;
   std::uint64_t random = 0;  ///< state of random(); the same seed gives the same numbers
+  bool lenient = false;      ///< a trial with figures that are not the real ones: a division by zero gives 1
 };
 
 /// A text that has been read. Cheap to copy.

@@ -103,7 +103,7 @@ class Reading {
       open.otherwise = op == Op::otherwise;
       program_.statements[open.branch].next = here;
       open.branch = here;
-      open.branches.push_back(here);
+      if (op != Op::end_if) open.branches.push_back(here);
       if (op == Op::end_if) {
         for (const auto branch : open.branches) program_.statements[branch].end = here;
         statement.end = here;

@@ -12,6 +12,13 @@ constexpr auto choices_of(ObjectLabels) {
                     Choice<ObjectLabels>{ObjectLabels::comments, "comments"}};
 }
 
+/// Whose comments the file speaks in, so that viewers and print servers find layers, features and metadata.
+enum class CommentDialect { prusaslicer, cura, orca };
+constexpr auto choices_of(CommentDialect) {
+  return std::array{Choice<CommentDialect>{CommentDialect::prusaslicer, "prusaslicer"}, Choice<CommentDialect>{CommentDialect::cura, "cura"},
+                    Choice<CommentDialect>{CommentDialect::orca, "orca"}};
+}
+
 /// What the file holds besides moves.
 struct GcodeSettings {
   bool relative_extrusion = true;
@@ -19,8 +26,12 @@ struct GcodeSettings {
   std::string machine_end_gcode = "M104 S0\nM140 S0\nM84";
   std::string before_layer_gcode;
   std::string layer_gcode;
+  std::string tool_change_gcode;
+  std::string between_objects_gcode;
   ObjectLabels gcode_label_objects = ObjectLabels::firmware;
+  CommentDialect gcode_comment_dialect = CommentDialect::prusaslicer;
   bool gcode_progress = true;
+  bool gcode_machine_limits = false;
   bool gcode_flow_comments = false;
   PictureSizes thumbnails = {{32, 32}, {300, 300}};
 };
@@ -36,9 +47,18 @@ inline constexpr std::tuple gcode_schema{
     setting("before_layer_gcode", &GcodeSettings::before_layer_gcode, "G-code before the move to each layer: {layer_num}, {layer_z}.",
             "before_layer_gcode"),
     setting("layer_gcode", &GcodeSettings::layer_gcode, "G-code after the move to each layer: {layer_num}, {layer_z}.", "layer_gcode"),
+    setting("tool_change_gcode", &GcodeSettings::tool_change_gcode,
+            "G-code at changes of the tool: {previous_extruder}, {next_extruder}. Checked; without effect while there is one extruder.", "toolchange_gcode"),
+    setting("between_objects_gcode", &GcodeSettings::between_objects_gcode,
+            "G-code between objects that are printed one after the other, before the first layer of the next.", "between_objects_gcode"),
     setting("gcode_label_objects", &GcodeSettings::gcode_label_objects,
             "Objects are named in the file: firmware (EXCLUDE_OBJECT for Klipper, M486 for others), comments, or none.", "gcode_label_objects"),
-    setting("gcode_progress", &GcodeSettings::gcode_progress, "Progress and remaining time are written as M73."),
+    setting("gcode_comment_dialect", &GcodeSettings::gcode_comment_dialect,
+            "Whose comments the file speaks in: prusaslicer, cura or orca. Print servers and viewers tell by them what they read."),
+    setting("gcode_progress", &GcodeSettings::gcode_progress,
+            "Progress and remaining time are written as M73, for Marlin, Klipper and RepRapFirmware."),
+    setting("gcode_machine_limits", &GcodeSettings::gcode_machine_limits,
+            "The machine's limits of speed, acceleration and jerk are written at the top, in the firmware's commands; Klipper has none."),
     setting("gcode_flow_comments", &GcodeSettings::gcode_flow_comments, "Moves of beads with flow compensation carry their ratio as a comment."),
     setting("thumbnails", &GcodeSettings::thumbnails, "Sizes of the pictures of the plate in the head of the file, PNG; empty: none.", "thumbnails"),
 };

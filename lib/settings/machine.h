@@ -13,10 +13,11 @@ constexpr auto choices_of(BedShape) {
 }
 
 /// The firmware that will read the file.
-enum class Firmware { marlin, klipper, reprapfirmware };
+enum class Firmware { marlin, marlin2, klipper, reprapfirmware, repetier, smoothie };
 constexpr auto choices_of(Firmware) {
-  return std::array{Choice<Firmware>{Firmware::marlin, "marlin"}, Choice<Firmware>{Firmware::klipper, "klipper"},
-                    Choice<Firmware>{Firmware::reprapfirmware, "reprapfirmware"}};
+  return std::array{Choice<Firmware>{Firmware::marlin, "marlin"},     Choice<Firmware>{Firmware::marlin2, "marlin2"},
+                    Choice<Firmware>{Firmware::klipper, "klipper"},   Choice<Firmware>{Firmware::reprapfirmware, "reprapfirmware"},
+                    Choice<Firmware>{Firmware::repetier, "repetier"}, Choice<Firmware>{Firmware::smoothie, "smoothie"}};
 }
 
 /// The printer: what it can reach, its nozzle, its limits.
@@ -36,7 +37,7 @@ struct MachineSettings {
   std::optional<Ring> home_position;
   Ring nozzle_offsets;
   Um nozzle_diameter = 0.4_mm;
-  Firmware firmware = Firmware::marlin;
+  Firmware firmware = Firmware::marlin2;
   double machine_max_speed_x = 300;
   double machine_max_speed_y = 300;
   double machine_max_speed_z = 10;
@@ -71,7 +72,7 @@ inline constexpr std::tuple machine_schema{
     setting("nozzle_offsets", &MachineSettings::nozzle_offsets,
             "Where each nozzle stands from the first, in order of tool number, when the firmware does not allow for it.", "extruder_offset"),
     setting("nozzle_diameter", &MachineSettings::nozzle_diameter, Unit::mm, 0.05_mm, 5_mm, "Diameter of the nozzle's opening.", "nozzle_diameter"),
-    setting("firmware", &MachineSettings::firmware, "The firmware that reads the file.", "gcode_flavor"),
+    setting("firmware", &MachineSettings::firmware, "The firmware that reads the file; marlin is Marlin 1 and what descends from it.", "gcode_flavor"),
     setting("machine_max_speed_x", &MachineSettings::machine_max_speed_x, Unit::mm_s, 1, 5000, "Speed limit of X.", "machine_max_feedrate_x"),
     setting("machine_max_speed_y", &MachineSettings::machine_max_speed_y, Unit::mm_s, 1, 5000, "Speed limit of Y.", "machine_max_feedrate_y"),
     setting("machine_max_speed_z", &MachineSettings::machine_max_speed_z, Unit::mm_s, 0.1, 5000, "Speed limit of Z.", "machine_max_feedrate_z"),

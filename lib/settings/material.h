@@ -15,6 +15,9 @@ struct MaterialSettings {
   std::optional<int> material_print_temperature_layer_0;
   int material_bed_temperature = 60;
   std::optional<int> material_bed_temperature_layer_0;
+  int build_volume_temperature = 0;
+  bool material_print_temp_wait = true;
+  bool material_bed_temp_wait = true;
 };
 
 inline constexpr std::tuple material_schema{
@@ -31,6 +34,12 @@ inline constexpr std::tuple material_schema{
             "bed_temperature"),
     setting("material_bed_temperature_layer_0", &MaterialSettings::material_bed_temperature_layer_0, Unit::celsius, 0, 200,
             "Bed temperature of the first layer; auto is material_bed_temperature.", "first_layer_bed_temperature"),
+    setting("build_volume_temperature", &MaterialSettings::build_volume_temperature, Unit::celsius, 0, 200,
+            "Temperature of the chamber; 0 leaves it alone.", "chamber_temperature"),
+    setting("material_print_temp_wait", &MaterialSettings::material_print_temp_wait,
+            "The print begins when the nozzle is hot (M109); off: it is only told to heat (M104)."),
+    setting("material_bed_temp_wait", &MaterialSettings::material_bed_temp_wait,
+            "The start G-code begins when bed and chamber are warm (M190, M191); off: they are only told to heat (M140, M141)."),
 };
 static_assert(complete<MaterialSettings>(material_schema));
 

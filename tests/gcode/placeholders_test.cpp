@@ -1,11 +1,11 @@
 #include "gcode/placeholders.h"
 
 #include "core/error.h"
+#include "gcode/custom_code.h"
 #include "gcode/writer.h"
 #include "settings/profile.h"
 
 #include <filesystem>
-#include <functional>
 
 #include <catch2/catch.hpp>
 
@@ -13,12 +13,19 @@ using namespace weft;
 using namespace weft::gcode;
 
 namespace {
+std::string expanded(std::string_view text, const Settings& settings) {
+  auto variables = variables_of(settings);
+  variables["first_layer_print_min"] = macro::variable_of("10.5, 20");
+  macro::Scope scope;
+  macro::Variables globals;
+  const macro::Template read(text, "machine_start_gcode");
+  read.check(variables, globals);
+  return read.expand(variables, scope);
+}
 std::string expanded(std::string_view text) {
   Settings s;
   s.material.material_type = "PETG";
-  auto variables = variables_of(s);
-  variables["first_layer_print_min"] = {"10.5", "20"};
-  return expand(text, variables, "machine_start_gcode").text;
+  return expanded(text, s);
 }
 std::string message_of(std::string_view text) {
   try {
@@ -37,29 +44,40 @@ TEST_CASE("gcode: placeholders take weft's names and PrusaSlicer's, in braces an
   CHECK(expanded("M140 S{ first_layer_bed_temperature[0] }") == "M140 S60");
   CHECK(expanded("[first_layer_temperature_0]") == "210");
   CHECK(expanded("X{first_layer_print_min[0]} Y{first_layer_print_min[1]}") == "X10.5 Y20");
-  CHECK(expanded("{first_layer_print_min}") == "10.5,20");
+  CHECK(expanded("[first_layer_print_min]") == "10.5, 20");
   CHECK(expanded("[first_layer_print_min_1]") == "20");
   CHECK(expanded("{filament_type}") == "PETG");
-  CHECK(expanded("{extrusion_multiplier} {material_flow}") == "1 100");
+  CHECK(expanded("{if filament_type[0] == \"PETG\" and layer_height < 0.25}M900 K0.08{else}M900 K0.04{endif}") ==
+        "M900 K0.08");
+}
+
+TEST_CASE("gcode: under PrusaSlicer's names values have PrusaSlicer's units and words") {
+  Settings s;
+  s.walls.wall_order = WallOrder::outside_in;
+  s.cooling.cool_fan_always_on = true;
+  s.machine.firmware = Firmware::marlin2;
+  CHECK(expanded("{extrusion_multiplier} {material_flow}", s) == "1 100");
+  CHECK(expanded("{deretract_speed} {retraction_retract_speed}", s) == "0 40");
+  CHECK(expanded("{fan_always_on[0]} [fan_always_on] {cool_fan_always_on}", s) == "true 1 true");
+  CHECK(expanded("{gcode_flavor} {firmware}", s) == "marlin2 marlin2");
+  CHECK(expanded("{external_perimeters_first} {wall_order}", s) == "1 outside_in");
+  CHECK(expanded("{fill_density} [fill_density]", s) == "20 20%");
+  CHECK(expanded("{retract_length[0]}", s) == "1");
+  s.retraction.retraction_enable = false;
+  CHECK(expanded("{retract_length[0]}", s) == "0");
 }
 
 TEST_CASE("gcode: a first-layer value that is auto stands for what it resolves to") {
   CHECK(expanded("{material_print_temperature_layer_0} {initial_layer_height}") == "210 0.2");
 }
 
-TEST_CASE("gcode: brackets that hold no name stand for themselves") {
-  CHECK(expanded("POLYGON=[[1,2],[3,4]] [ [a") == "POLYGON=[[1,2],[3,4]] [ [a");
-  CHECK(expanded("") == "");
-}
-
 TEST_CASE("gcode: an unknown placeholder is an error with its line and column, and the nearest name") {
   CHECK(message_of("G28\nM109 S{first_layer_temprature}") ==
-        "machine_start_gcode:2:7: unknown placeholder 'first_layer_temprature'; did you mean "
-        "'material_print_temperature_layer_0'?");
-  CHECK(message_of("[nonsense_and_more_nonsense]").find("machine_start_gcode:1:1: unknown placeholder") == 0);
+        "machine_start_gcode:2:8: unknown placeholder 'first_layer_temprature'; did you mean "
+        "'first_layer_temperature'?");
+  CHECK(message_of("[nonsense_and_more_nonsense]").find("machine_start_gcode:1:2: unknown placeholder") == 0);
   CHECK(message_of("{first_layer_print_min[2]}").find("has 2 values") != std::string::npos);
-  CHECK(message_of("{if layer_num == 0}").find("expressions are not supported") != std::string::npos);
-  CHECK(message_of("G1 X{1+").find("'{' without '}'") != std::string::npos);
+  CHECK(message_of("G1 X{1+").find("expected a value") != std::string::npos);
   CHECK(message_of("{machine_reach_z_max}").find("is auto") != std::string::npos);
 }
 
@@ -67,7 +85,22 @@ TEST_CASE("gcode: no name smuggles a command in") {
   CHECK(escaped_name("part\nM104 S300;\"x\"{y}") == "part_M104 S300__x__y_");
   Settings s;
   s.material.material_type = "PLA\nM104 S300";
-  CHECK(expand("; {material_type}", variables_of(s), "x").text.find('\n') == std::string::npos);
+  for (const auto* code : {"; {material_type}", "; [material_type]", "; [filament_type]", "; {\"\" + filament_type}"})
+    CHECK(expanded(code, s).find('\n') == std::string::npos);
+  PrintPlan plan;
+  plan.layers.resize(1);
+  plan.objects.push_back({"a\nM112 {1+1} [x]", {}, {{0, 0}, {1000, 0}, {0, 1000}}});
+  const Statistics none;
+  s.gcode.machine_start_gcode = "M117 {input_filename_base} [input_filename_base] {input_filename}\nG28";
+  for (const auto dialect : {CommentDialect::prusaslicer, CommentDialect::cura, CommentDialect::orca})
+    for (const auto labels : {ObjectLabels::firmware, ObjectLabels::comments}) {
+      s.gcode.gcode_comment_dialect = dialect;
+      s.gcode.gcode_label_objects = labels;
+      const auto text = write({s, plan, none, "x\nM104 S300\r{1+1};[layer_num]\"", {}});
+      CHECK(!has_command(text, "M104 S300"));
+      CHECK(!has_command(text, "M112"));
+      CHECK(text.find("M117 x_M104 S300__1+1___layer_num__ x_M104 S300__1+1___layer_num__ x_M") != std::string::npos);
+    }
 }
 
 TEST_CASE("gcode: the custom G-code of every profile expands") {

@@ -234,8 +234,8 @@ TEST_CASE("gcode: fan, accelerations and labels in each firmware's words") {
       if (auto* b = std::get_if<Extrude>(&step)) b->acceleration_mm_s2 = b->role == Role::infill ? 2000 : 1000;
       if (auto* t = std::get_if<Travel>(&step)) t->acceleration_mm_s2 = 3000;
     }
-  SECTION("Marlin") {
-    sample.settings.machine.firmware = Firmware::marlin;
+  SECTION("Marlin 2") {
+    sample.settings.machine.firmware = Firmware::marlin2;
     const auto text = sample.text();
     CHECK(has_line(text, "M106 S128"));
     CHECK(has_line(text, "M107"));
@@ -265,6 +265,25 @@ TEST_CASE("gcode: fan, accelerations and labels in each firmware's words") {
     CHECK(has_line(text, "M106 S0.502"));
     CHECK(has_line(text, "M106 S0"));
     CHECK(has_line(text, "M486 S0 A\"bracket_1_stl\""));
+  }
+  SECTION("Marlin 1 and Smoothie have one acceleration, and cancel no objects") {
+    sample.settings.machine.firmware = GENERATE(Firmware::marlin, Firmware::smoothie);
+    const auto text = sample.text();
+    CHECK(has_line(text, "M204 S1000"));
+    CHECK(has_line(text, "M204 S3000"));
+    CHECK_THAT(text, !Contains("M486") && !Contains("M204 P"));
+    CHECK(has_line(text, "; printing object bracket_1_stl id:0 copy 0"));
+    const auto layer = sample.layer(1);
+    CHECK(place(layer, "M204 S3000") < place(layer, "G0 X0"));
+    CHECK(place(layer, "M204 S1000") < place(layer, "X10"));
+  }
+  SECTION("Repetier") {
+    sample.settings.machine.firmware = Firmware::repetier;
+    const auto text = sample.text();
+    CHECK(has_line(text, "M201 X1000 Y1000"));
+    CHECK(has_line(text, "M202 X3000 Y3000"));
+    CHECK(text.find("M202 X3000") == text.rfind("M202 X3000"));
+    CHECK_THAT(text, !Contains("M204") && !Contains("M486") && !Contains("M73"));
   }
   SECTION("comments") {
     sample.settings.gcode.gcode_label_objects = ObjectLabels::comments;
@@ -331,7 +350,7 @@ TEST_CASE("gcode: custom G-code is expanded for each layer, around the move to i
   CHECK(place(layer, "; after 1 of 2") < place(layer, ";TYPE:External perimeter"));
   CHECK(sample.message() == "nothing was thrown");
   sample.settings.gcode.layer_gcode = "M117 {layer_nun}";
-  CHECK_THAT(sample.message(), Contains("layer_gcode:1:6: unknown placeholder 'layer_nun'"));
+  CHECK_THAT(sample.message(), Contains("layer_gcode:1:7: unknown placeholder 'layer_nun'"));
 }
 
 TEST_CASE("gcode: custom G-code can be checked before there is anything to print") {
@@ -341,7 +360,7 @@ TEST_CASE("gcode: custom G-code can be checked before there is anything to print
   CHECK_NOTHROW(check_custom_code(s));
   s.gcode.machine_end_gcode = "[nozle_diameter]";
   CHECK_THROWS_WITH(check_custom_code(s),
-                    Contains("machine_end_gcode:1:1") && Contains("did you mean 'nozzle_diameter'?"));
+                    Contains("machine_end_gcode:1:2") && Contains("did you mean 'nozzle_diameter'?"));
 }
 
 TEST_CASE("gcode: print variables come from the plan") {
@@ -369,40 +388,115 @@ TEST_CASE("gcode: flow ratios are written when asked") {
 TEST_CASE("gcode: widths are rounded line widths, said where they change") {
   Sample sample;
   Extrude wedge{.path = {}, .role = Role::inner_wall, .height = 200, .speed_mm_s = 30};
-  for (Um i = 0; i <= 5; ++i) wedge.path.push_back({{i * 1000, 0}, flow::band(450, 200) + (i < 3 ? 0 : 100), 1.F});
+  for (Um i = 0; i <= 9; ++i) wedge.path.push_back({{i * 1000, 0}, flow::band(450, 200) + (i < 3 ? 0 : 12 * i), 1.F});
   sample.plan.layers[0].steps = {Step{wedge}};
   const auto text = sample.layer(0);
-  const std::regex line(";WIDTH:[^\n]*");
-  std::vector<std::string> found;
+  const std::regex line(";WIDTH:([^\n]*)");
+  std::vector<double> found;
   for (auto it = std::sregex_iterator(text.begin(), text.end(), line); it != std::sregex_iterator(); ++it)
-    found.push_back(it->str());
-  CHECK(found == std::vector<std::string>{";WIDTH:0.45", ";WIDTH:0.5", ";WIDTH:0.55"});
+    found.push_back(std::stod((*it)[1]));
+  REQUIRE(found.size() >= 4);
+  CHECK(found.size() < 9);  // not at every step of 12 µm
+  CHECK(found[0] == 0.45);
+  for (std::size_t i = 1; i < found.size(); ++i) CHECK(found[i] - found[i - 1] > 0.0199);
+  CHECK(found.back() == Approx(0.558).margin(0.021));
 }
 
-TEST_CASE("gcode: what Moonraker looks for is found in the first and last MiB") {
+TEST_CASE("gcode: machine limits are said in each firmware's commands, when asked") {
   Sample sample;
-  sample.settings.machine.firmware = Firmware::klipper;
+  auto& m = sample.settings.machine;
+  m.machine_max_jerk = 8, m.machine_max_speed_z = 12.5;
+  CHECK_THAT(sample.text(), !Contains("M203"));
+  sample.settings.gcode.gcode_machine_limits = true;
+  SECTION("Marlin 1") {
+    m.firmware = Firmware::marlin;
+    CHECK_THAT(Writer(sample.job()).head(),
+               Contains("M201 X3000 Y3000 Z100 E5000\nM203 X300 Y300 Z12.5 E60\nM205 X8\n"));
+  }
+  SECTION("Marlin 2") {
+    CHECK(has_line(sample.text(), "M205 X8 Y8"));
+    m.machine_junction_deviation = 0.013;
+    CHECK(has_line(sample.text(), "M205 J0.013"));
+    CHECK_THAT(sample.text(), !Contains("M205 X"));
+  }
+  SECTION("RepRapFirmware counts in minutes") {
+    m.firmware = Firmware::reprapfirmware;
+    CHECK_THAT(Writer(sample.job()).head(),
+               Contains("M201 X3000 Y3000 Z100 E5000\nM203 X18000 Y18000 Z750 E3600\nM566 X480 Y480\n"));
+  }
+  SECTION("Repetier's M203 watches temperatures") {
+    m.firmware = Firmware::repetier;
+    CHECK_THAT(Writer(sample.job()).head(), Contains("M201 X3000 Y3000 Z100 E5000\nM207 X8\n") && !Contains("M203"));
+  }
+  SECTION("Smoothie") {
+    m.firmware = Firmware::smoothie;
+    m.machine_junction_deviation = 0.05;
+    CHECK_THAT(Writer(sample.job()).head(), Contains("M203 X300 Y300 Z12.5\nM205 X0.05\n") && !Contains("M201"));
+  }
+  SECTION("Klipper has none") {
+    m.firmware = Firmware::klipper;
+    CHECK_THAT(sample.text(), !Contains("M201") && !Contains("M203") && !Contains("M205"));
+  }
+}
+
+TEST_CASE("gcode: the chamber is heated where the start G-code does not, and waiting is a choice") {
+  Sample sample;
+  auto& m = sample.settings.material;
+  CHECK_THAT(sample.text(), !Contains("M141") && !Contains("M191"));
+  m.build_volume_temperature = 45;
+  const auto head = Writer(sample.job()).head();
+  CHECK(place(head, "M141 S45") < place(head, "M190 S60"));
+  CHECK(place(head, "M190 S60") < place(head, "M191 S45"));
+  CHECK(place(head, "M191 S45") < place(head, "G28"));
+  m.material_bed_temp_wait = m.material_print_temp_wait = false;
+  const auto eager = Writer(sample.job()).head();
+  CHECK_THAT(eager, Contains("M141 S45\nM140 S60\nM104 S210\nG28\n") && !Contains("M190") && !Contains("M191") &&
+                        !Contains("M109"));
+  sample.settings.gcode.machine_start_gcode = "START CHAMBER={chamber_temperature[0]}";
+  CHECK_THAT(Writer(sample.job()).head(), Contains("START CHAMBER=45") && !Contains("M141"));
+}
+
+TEST_CASE("gcode: between objects that are printed one after the other there is G-code of its own") {
+  Sample sample;
+  const auto layers = sample.plan.layers;
+  sample.plan.layers.insert(sample.plan.layers.end(), layers.begin(), layers.end());
+  sample.statistics.layer_s = {90, 60, 90, 60};
+  sample.settings.gcode.between_objects_gcode = "; next object, {layer_num}";
+  sample.settings.gcode.before_layer_gcode = "; before";
+  sample.settings.gcode.tool_change_gcode = "T{next_extruder}";
+  for (const std::size_t i : {0u, 1u, 3u}) CHECK_THAT(sample.layer(i), !Contains("; next object"));
+  CHECK_THAT(sample.layer(2), Contains("; next object, 2\n; before\n"));
+  CHECK_THAT(sample.text(), !Contains("\nT0"));
+  sample.settings.gcode.tool_change_gcode = "T{nxt_extruder}";
+  CHECK_THAT(sample.message(),
+             Contains("tool_change_gcode:1:3: unknown placeholder 'nxt_extruder'") && Contains("'next_extruder'"));
+}
+
+TEST_CASE("gcode: global variables count through the layers, and random numbers are the same again") {
+  Sample sample;
+  sample.settings.gcode.machine_start_gcode = "{global seen = 0}; {random(0, 1000000)}";
+  sample.settings.gcode.before_layer_gcode = "{seen = seen + 1}; seen {seen}";
+  sample.settings.gcode.machine_end_gcode = "; in all {seen}, {layer_num}";
   const auto text = sample.text();
-  const auto field = [&](const char* pattern) {
-    std::smatch m;
-    return std::regex_search(text, m, std::regex(pattern)) ? m[1].str() : std::string("not found: ") + pattern;
-  };
-  CHECK(text.rfind("; generated by weft ", 0) == 0);
-  CHECK(field(R"(PrusaSlicer\s(.*)\son)") == "2.9");
-  CHECK(field(R"(; first_layer_height = ([0-9]*\.?[0-9]+)%?)") == "0.2");
-  CHECK(field(R"(; layer_height = ([0-9]*\.?[0-9]+)%?)") == "0.2");
-  CHECK(field(R"(filament\sused\s\[mm\]\s=\s(.*)\n)") == "1234.50");
-  CHECK(field(R"(; filament\sused\s\[g\]\s=\s(.*)\n)") == "3.68");
-  CHECK(field(R"(total\sfilament\sused\s\[g\]\s=\s([0-9]*\.?[0-9]+))") == "3.68");
-  CHECK(field(R"(;\sfilament_type\s=\s(.*)\n)") == "PLA");
-  CHECK(field(R"(;\sestimated\sprinting\stime.*= (.*)\n)") == "2m 30s");
-  CHECK(field(R"(; first_layer_temperature = ([0-9]+))") == "210");
-  CHECK(field(R"(; first_layer_bed_temperature = ([0-9]+))") == "60");
-  CHECK(field(R"(;\snozzle_diameter\s=\s(.*)\n)") == "0.4");
-  CHECK(field(R"(; total layers count = ([0-9]+))") == "2");
-  CHECK(field(R"(\n((?:DEFINE_OBJECT)|(?:EXCLUDE_OBJECT_DEFINE)) NAME=)") == "EXCLUDE_OBJECT_DEFINE");
-  // Height of the object: the greatest of these.
-  CHECK(field(R"(;BEFORE_LAYER_CHANGE\n(?:.*\n)?;(\d+\.?\d*))") == "0.2");
+  CHECK(has_line(text, "; seen 1"));
+  CHECK(has_line(text, "; seen 2"));
+  CHECK(has_line(text, "; in all 2, 1"));
+  CHECK(text == sample.text());
+}
+
+TEST_CASE("gcode: what would differ from run to run has no value, but may be given one") {
+  Settings s;
+  s.gcode.machine_start_gcode = "; {timestamp}";
+  CHECK_THROWS_WITH(check_custom_code(s),
+                    Contains("machine_start_gcode:1:4: 'timestamp' would differ from run to run"));
+}
+
+TEST_CASE("gcode: a division that may be by zero is not told before the print is known") {
+  Settings s;
+  s.gcode.layer_gcode = "; {100 / (total_layer_count - 100)}";
+  CHECK_NOTHROW(check_custom_code(s));
+  s.gcode.layer_gcode = "{if layer_num > 1000}{\"a\" * 2}{endif}{true and 5}";
+  CHECK_THROWS_WITH(check_custom_code(s), Contains("layer_gcode") && Contains("neither true nor false"));
 }
 
 TEST_CASE("gcode: a thumbnail is a PNG in base64, in rows of 78, with its length") {

@@ -1,0 +1,152 @@
+#include "gcode/custom_code.h"
+
+#include "gcode/header.h"
+#include "gcode/placeholders.h"
+#include "settings/value.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace weft::gcode {
+namespace {
+
+using macro::Scalar;
+using macro::Variable;
+using macro::Variables;
+
+char upper(char c) {
+  return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+}
+
+Variable pair_of(Um a, Um b) {
+  Variable out;
+  out.values = {to_mm(a), to_mm(b)};
+  return out;
+}
+Variable count(std::size_t n) {
+  return macro::variable(static_cast<std::int64_t>(n));
+}
+
+/// To so many decimals: no false precision in comments and on displays.
+Variable rounded_to(double v, int decimals) {
+  return macro::variable_of(value::number(v, decimals));
+}
+
+void add_boxes(const Job& job, Variables& out) {
+  const auto box = first_layer_box(job.plan);
+  const Box covered = box.empty() ? Box{{0, 0}, {0, 0}} : box;
+  out["first_layer_print_min"] = pair_of(covered.min.x, covered.min.y);
+  out["first_layer_print_max"] = pair_of(covered.max.x, covered.max.y);
+  out["first_layer_print_size"] = pair_of(covered.size().x, covered.size().y);
+  const auto bed = box_of(print_surface(job.settings.machine));
+  out["print_bed_min"] = pair_of(bed.min.x, bed.min.y);
+  out["print_bed_max"] = pair_of(bed.max.x, bed.max.y);
+  out["print_bed_size"] = pair_of(bed.size().x, bed.size().y);
+}
+
+void add_figures(const Job& job, Variables& out) {
+  const auto& t = job.statistics;
+  out["print_time"] = out["normal_print_time"] = out["silent_print_time"] = macro::variable(duration(t.print_time_s));
+  out["print_time_s"] = rounded_to(t.print_time_s, 0);
+  out["used_filament"] = out["total_used_filament"] = rounded_to(t.filament_mm / 1000, 2);  // metres, as in PrusaSlicer
+  out["extruded_volume"] = out["extruded_volume_total"] = rounded_to(t.filament_mm3, 2);
+  out["total_weight"] = out["extruded_weight_total"] = out["extruded_weight"] = rounded_to(t.filament_g, 2);
+  double cost_per_kg = 0;
+  if (const auto cost = out.find("filament_cost"); cost != out.end() && !cost->second.values.empty()) {
+    const auto& first = cost->second.values[0];
+    if (const auto* whole = std::get_if<std::int64_t>(&first)) cost_per_kg = static_cast<double>(*whole);
+    if (const auto* real = std::get_if<double>(&first)) cost_per_kg = *real;
+  }
+  out["total_cost"] = rounded_to(t.filament_g / 1000 * cost_per_kg, 2);
+  out["total_toolchanges"] = count(0);
+  out["has_wipe_tower"] = macro::variable(false);
+  out["has_single_extruder_multi_material_priming"] = macro::variable(false);
+}
+
+void add_names(const Job& job, Variables& out) {
+  const auto base = escaped_name(job.input_name);
+  out["input_filename_base"] = macro::variable(base);
+  out["input_filename"] = macro::variable(base + ".gcode");
+  for (const auto* preset : {"print_preset", "filament_preset", "printer_preset", "physical_printer_preset"})
+    out.emplace(preset, macro::variable(std::string()));
+  // What would differ from run to run has no value; gcode_variables may give it one.
+  Variable never;
+  never.missing = "would differ from run to run";
+  for (const auto* time : {"timestamp", "year", "month", "day", "hour", "minute", "second"}) out.emplace(time, never);
+}
+
+}  // namespace
+
+CustomCode::CustomCode(const GcodeSettings& g)
+    : start(g.machine_start_gcode, "machine_start_gcode"),
+      before_layer(g.before_layer_gcode, "before_layer_gcode"),
+      layer(g.layer_gcode, "layer_gcode"),
+      tool_change(g.tool_change_gcode, "tool_change_gcode"),
+      between_objects(g.between_objects_gcode, "between_objects_gcode"),
+      end(g.machine_end_gcode, "machine_end_gcode") {}
+
+void CustomCode::check(const Variables& variables) const {
+  Variables globals;
+  for (const auto* code : {&start, &before_layer, &layer, &tool_change, &between_objects, &end})
+    code->check(variables, globals);
+}
+
+Variables print_variables(const Job& job) {
+  auto out = variables_of(job.settings);
+  add_boxes(job, out);
+  add_figures(job, out);
+  add_names(job, out);
+  out["total_layer_count"] = count(job.plan.layers.size());
+  out["max_layer_z"] = macro::variable(to_mm(top_of(job.plan)));
+  out["num_objects"] = out["num_instances"] = count(job.plan.objects.size());
+  out["num_extruders"] = out["num_printing_extruders"] = count(1);
+  out["is_extruder_used"] = macro::variable(true);
+  for (const auto* tool : {"initial_tool", "initial_extruder", "current_extruder", "previous_extruder", "next_extruder",
+                           "filament_extruder_id", "current_object_idx"})
+    out[tool] = count(0);
+  out["toolchange_z"] = macro::variable(0.0);
+  set_layer(out, 0, 0);
+  return out;
+}
+
+void set_layer(Variables& variables, std::size_t index, Um z) {
+  variables["layer_num"] = count(index);
+  variables["layer_z"] = macro::variable(to_mm(z));
+}
+
+bool has_command(std::string_view code, std::string_view command) {
+  while (!code.empty()) {
+    const auto end = std::min(code.find('\n'), code.size());
+    const auto line = value::trimmed(code.substr(0, end));
+    const bool same = line.size() >= command.size() && std::equal(command.begin(), command.end(), line.begin(),
+                                                                  [](char a, char b) { return a == upper(b); });
+    if (same && (line.size() == command.size() || line[command.size()] < '0' || line[command.size()] > '9'))
+      return true;
+    code.remove_prefix(std::min(end + 1, code.size()));
+  }
+  return false;
+}
+
+Heating heating_in(std::string_view code, const macro::Template& read) {
+  const auto any_command = [&](std::initializer_list<std::string_view> commands) {
+    return std::any_of(commands.begin(), commands.end(), [&](auto command) { return has_command(code, command); });
+  };
+  const auto mentions = [&](std::initializer_list<std::string_view> names) {  // a macro that is handed it sets it
+    return std::any_of(read.names().begin(), read.names().end(), [&](const std::string& used) {
+      return std::any_of(names.begin(), names.end(), [&](std::string_view name) {
+        return used == name || (used.starts_with(name) && used.size() > name.size() && used[name.size()] == '_' &&
+                                used.find_first_not_of("0123456789", name.size() + 1) == std::string::npos);
+      });
+    });
+  };
+  return {any_command({"M104", "M109", "M568", "SET_HEATER_TEMPERATURE HEATER=EXTRUDER"}) ||
+              mentions({"material_print_temperature", "material_print_temperature_layer_0", "temperature",
+                        "first_layer_temperature"}),
+          any_command({"M140", "M190", "SET_HEATER_TEMPERATURE HEATER=HEATER_BED"}) ||
+              mentions({"material_bed_temperature", "material_bed_temperature_layer_0", "bed_temperature",
+                        "first_layer_bed_temperature"}),
+          any_command({"M141", "M191"}) || mentions({"build_volume_temperature", "chamber_temperature"})};
+}
+
+}  // namespace weft::gcode

@@ -1,0 +1,35 @@
+#pragma once
+#include "gcode/writer.h"
+#include "macro/macro.h"
+
+#include <string_view>
+
+/// The G-code that a profile brings with it, and what it may name of the print.
+namespace weft::gcode {
+
+/// The texts, read. Expanded in this order they share global variables.
+struct CustomCode {
+  macro::Template start, before_layer, layer, tool_change, between_objects, end;
+
+  /// @throws Error{settings} for syntax
+  explicit CustomCode(const GcodeSettings& settings);
+
+  /// @throws Error{settings} for names and functions that do not exist, in branches not taken too
+  void check(const macro::Variables& variables) const;
+};
+
+/// Settings, and what is known of the whole print. There is no date and no time of day: the same input gives the same
+/// bytes. layer_num, layer_z and the numbers of the tools are those of the start; set_layer changes them.
+macro::Variables print_variables(const Job& job);
+void set_layer(macro::Variables& variables, std::size_t index, Um z);
+
+/// Does a line of the code begin with that command, such as "M104"?
+bool has_command(std::string_view code, std::string_view command);
+
+/// What the start G-code takes care of, by its commands or because a macro is handed the temperature.
+struct Heating {
+  bool nozzle = false, bed = false, chamber = false;
+};
+Heating heating_in(std::string_view expanded, const macro::Template& read);
+
+}  // namespace weft::gcode
