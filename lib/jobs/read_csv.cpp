@@ -70,6 +70,12 @@ std::vector<std::string> items_of(const std::string& name, const std::string& ce
   return out;
 }
 
+std::string listed(const std::vector<std::string>& names) {
+  std::string out;
+  for (const auto& name : names) out += (out.empty() ? "" : ", ") + name;
+  return out;
+}
+
 void check_header(const Row& header, const std::string& path) {
   std::set<std::string> seen;
   const auto where = fmt::format("{}:{}", path, header.line);
@@ -79,7 +85,7 @@ void check_header(const Row& header, const std::string& path) {
       const auto near = nearest_setting(name);
       throw Error{
           Error::Kind::usage, fmt::format("column '{}' is neither a field of a job nor a setting", name), where,
-          near.empty() ? fmt::format("fields: {}", fmt::join(fields, ", ")) : fmt::format("did you mean '{}'?", near)};
+          near.empty() ? "fields: " + listed(fields) : fmt::format("did you mean '{}'?", near)};
     }
     if (!seen.insert(name).second)
       throw Error{Error::Kind::usage, fmt::format("column '{}' is given twice", name), where};
