@@ -70,9 +70,9 @@ std::vector<std::string> items_of(const std::string& name, const std::string& ce
   return out;
 }
 
-std::string listed(const std::vector<std::string>& names) {
+std::string listed(const std::vector<std::string_view>& names) {
   std::string out;
-  for (const auto& name : names) out += (out.empty() ? "" : ", ") + name;
+  for (const auto name : names) (out += out.empty() ? "" : ", ") += name;
   return out;
 }
 
