@@ -305,9 +305,9 @@ class Planner {
 
   void ramps() {
     blend_.assign(core_.size(), Blend{});
-    const auto halves = static_cast<std::uint32_t>(s_.halves.size());
-    // The stretch of equal count that begins with a half, until its count changes, branches, or the core ends.
-    for (std::uint32_t h = 0; h < halves; ++h) {
+    // The stretch of equal count that begins with a half, until its count changes, branches, or the core ends. A ramp
+    // at one end of an edge leaves its other end to a new edge, which is looked at in its turn.
+    for (std::uint32_t h = 0; h < s_.halves.size(); ++h) {
       if (!core_[h / 2]) continue;
       const Count mine = count_[h / 2];
       Count other = mine;

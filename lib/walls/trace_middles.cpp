@@ -1,4 +1,4 @@
-#include "walls/trace.h"
+#include "walls/strip.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,9 +15,6 @@ double distance(Place a, Place b) {
 }
 double cross(Place o, Place a, Place b) {
   return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
-}
-double quad_area(Place a, Place b, Place c, Place d) {
-  return 0.5 * std::abs(cross(a, b, c) + cross(a, c, d));
 }
 Place unit(Place from, Place to) {
   const double d = std::max(1e-9, distance(from, to));
@@ -42,9 +39,17 @@ class Tracer {
   }
 
  private:
-  bool middle(std::uint32_t h) const { return laying_.spans[h / 2].middle; }
+  bool middle(std::uint32_t h) const { return laying_.spans[h / 2].middle && !dot_edge(h); }
+  /// A node where more than three parts meet is several nodes in one place.
+  bool dot_edge(std::uint32_t h) const { return s_.length(h / 2) < 2; }
+  /// The half that leaves a node after h, counter-clockwise.
+  std::uint32_t turn_from(std::uint32_t h) const {
+    std::uint32_t g = s_.halves[Skeleton::twin(h)].next;
+    for (int i = 0; i < 20 && dot_edge(g); ++i) g = s_.halves[g].next;
+    return g;
+  }
 
-  /// At each node the two middles that are straightest to each other go on in one another.
+  /// At each node the two middles that are straightest to each other go on in one another; others end there.
   void join_nodes() {
     std::vector<std::uint8_t> done(s_.halves.size(), 0);
     std::vector<std::uint32_t> leaving;
@@ -57,168 +62,180 @@ class Tracer {
           leaving.push_back(h);
           done[h] = 1;
         }
-        h = s_.halves[Skeleton::twin(h)].next;
-      } while (h != start);
-      while (leaving.size() > 1) {
-        std::size_t a = 0, b = 1;
-        double best = 2;
-        for (std::size_t i = 0; i < leaving.size(); ++i)
-          for (std::size_t j = i + 1; j < leaving.size(); ++j) {
-            if (laying_.spans[leaving[i] / 2].pairs != laying_.spans[leaving[j] / 2].pairs) continue;
-            const Place u = direction(leaving[i]), v = direction(leaving[j]);
-            const double c = u.x * v.x + u.y * v.y;
-            if (c < best) best = c, a = i, b = j;
-          }
-        if (best > 1.5) break;
-        onward_[Skeleton::twin(leaving[a])] = leaving[b];
-        onward_[Skeleton::twin(leaving[b])] = leaving[a];
-        leaving.erase(leaving.begin() + static_cast<long>(b));
-        leaving.erase(leaving.begin() + static_cast<long>(a));
-      }
+        h = turn_from(h);
+      } while (h != start && leaving.size() < 100);
+      join_straightest(leaving);
     }
+  }
+
+  void join_straightest(const std::vector<std::uint32_t>& leaving) {
+    std::uint32_t a = none, b = none;
+    double best = 0.3;  // a sharper turn is none
+    for (std::size_t i = 0; i < leaving.size(); ++i)
+      for (std::size_t j = i + 1; j < leaving.size(); ++j) {
+        if (laying_.spans[leaving[i] / 2].pairs != laying_.spans[leaving[j] / 2].pairs) continue;
+        const Place u = direction(leaving[i]), v = direction(leaving[j]);
+        const double c = u.x * v.x + u.y * v.y;
+        if (c < best) best = c, a = leaving[i], b = leaving[j];
+      }
+    if (a == none) return;
+    onward_[Skeleton::twin(a)] = b;
+    onward_[Skeleton::twin(b)] = a;
   }
 
   Place direction(std::uint32_t h) const { return unit(s_.start(h).at, s_.end(h).at); }
 
-  Vertex vertex(Place at, double width) const { return {at, width}; }
+  bool leaves_strip(std::uint32_t g) const { return laying_.spans[g / 2].core || laying_.spans[g / 2].mouth; }
 
-  /// Where the part widens abruptly: the area between the ribs, as a share of the bead's.
-  double fit(std::uint32_t h, double a, double b, double bead) const {
-    const auto &p = s_.start(h), &q = s_.end(h);
-    const std::uint32_t t = Skeleton::twin(h);
-    a = std::min(a, p.clearance), b = std::min(b, q.clearance);
-    const double area = quad_area(s_.on_start_rib(h, a), s_.on_end_rib(h, b), q.at, p.at) +
-                        quad_area(s_.on_start_rib(t, b), s_.on_end_rib(t, a), p.at, q.at);
-    return bead > 1 ? std::clamp(area / bead, 0.5, 1.1) : 1.0;
-  }
-
+  /// The halves of a line, in order, and how it ends.
   void follow(std::uint32_t h, bool closed, std::vector<std::uint8_t>& seen) {
-    Line line;
-    line.closed = closed;
-    line.inset = laying_.spans[h / 2].pairs;
-    const std::uint32_t begin = h;
-    std::uint32_t last = h;
+    std::vector<std::uint32_t> chain;
+    const int inset = laying_.spans[h / 2].pairs;
     while (h != none && !seen[h / 2]) {
       seen[h / 2] = 1;
-      const auto k = static_cast<std::size_t>(laying_.spans[h / 2].pairs);
-      const double a = laying_.start(h)[k], b = laying_.end(h)[k];
-      const auto &p = s_.start(h), &q = s_.end(h);
-      double wa = 2 * std::max(0.0, p.clearance - a), wb = 2 * std::max(0.0, q.clearance - b);
-      // The ribs lean against the axis by the angle at which the part tapers; the bead is measured across the axis.
-      const double length = distance(p.at, q.at), lean = std::abs(q.clearance - p.clearance) / std::max(1.0, length);
-      const double f = lean < 0.35 ? 1 / std::sqrt(1 - lean * lean) : fit(h, a, b, (wa + wb) / 2 * length);
-      wa *= f, wb *= f;
-      append(line.path, {p.at, wa}, {q.at, wb});
-      last = h;
+      chain.push_back(h);
       h = onward_[h];
     }
+    Strip strip;
+    strip.closed = closed;
     if (!closed) {
-      lead_on(line.path, last);
-      std::reverse(line.path.begin(), line.path.end());
-      lead_on(line.path, Skeleton::twin(begin));
-      if (line.path.size() < 2) return;
-    } else if (line.path.size() > 2) {
-      line.path.front().width = (line.path.front().width + line.path.back().width) / 2;
-      line.path.pop_back();
+      strip.skip_last = into_mouth(chain, strip.turn_last);
+      for (auto& g : chain) g = Skeleton::twin(g);
+      std::reverse(chain.begin(), chain.end());
+      strip.skip_first = into_mouth(chain, strip.turn_first);
+      for (auto& g : chain) g = Skeleton::twin(g);
+      std::reverse(chain.begin(), chain.end());
     }
-    out_.push_back(std::move(line));
+    fill(strip, chain);
+    if (!closed) {
+      strip.last_tip = tip_of(chain.back(), level(chain.back(), false));
+      const std::uint32_t first = Skeleton::twin(chain.front());
+      strip.first_tip = tip_of(first, level(first, false));
+    }
+    Line line;
+    line.closed = closed;
+    line.inset = inset;
+    line.path = strip.bead();
+    if (line.path.size() >= 2) out_.push_back(std::move(line));
+  }
+
+  /// Distance from the outline at which the walls around the middle end.
+  double level(std::uint32_t h, bool at_start) const {
+    const Span& span = laying_.spans[h / 2];
+    const auto k = static_cast<std::size_t>(std::min(span.pairs, inset_limit(h)));
+    return at_start ? laying_.start(h)[k] : laying_.end(h)[k];
+  }
+  int inset_limit(std::uint32_t h) const { return laying_.spans[h / 2].pairs; }
+
+  void fill(Strip& strip, const std::vector<std::uint32_t>& chain) const {
+    // Left first: its points are found walking back, so they are kept until their turn.
+    std::vector<std::vector<Place>> left(chain.size());
+    for (std::size_t j = chain.size(); j-- > 0;) {
+      const std::uint32_t t = Skeleton::twin(chain[j]);
+      const std::size_t before = j > 0 ? j - 1 : chain.size() - 1;
+      left[j].push_back(side(t, true));
+      left[j].push_back(side(t, false));
+      if (j > 0 || strip.closed) around(t, Skeleton::twin(chain[before]), left[j]);
+      std::reverse(left[j].begin(), left[j].end());
+    }
+    for (std::size_t j = 0; j < chain.size(); ++j) {
+      const std::uint32_t h = chain[j];
+      const auto& from = s_.start(h);
+      strip.add_axis(from.at, std::max(1.0, from.clearance - level(h, true)));
+      for (const Place p : left[j]) strip.add_left(p);
+      std::vector<Place> right{side(h, true), side(h, false)};
+      if (j + 1 < chain.size() || strip.closed) around(h, chain[(j + 1) % chain.size()], right);
+      for (const Place p : right) strip.add_right(p);
+    }
+    const auto& to = s_.end(chain.back());
+    strip.add_axis(to.at, std::max(1.0, to.clearance - level(chain.back(), false)));
+  }
+
+  Place side(std::uint32_t h, bool at_start) const {
+    const double d = level(h, at_start);
+    return at_start ? s_.on_start_rib(h, std::min(d, s_.start(h).clearance))
+                    : s_.on_end_rib(h, std::min(d, s_.end(h).clearance));
+  }
+
+  /// What lies right of the axis between the end of h and the start of g: corners are followed, mouths are passed.
+  void around(std::uint32_t h, std::uint32_t g, std::vector<Place>& out) const {
+    const double inner = level(h, false);
+    for (std::uint32_t x = s_.halves[h].next; x != g;) {
+      if (dot_edge(x)) {
+        x = s_.halves[x].next;
+      } else if (leaves_strip(x)) {
+        x = s_.halves[Skeleton::twin(x)].next;
+      } else {
+        add_piece(x, inner, out);
+        x = s_.halves[x].next;
+      }
+    }
+  }
+
+  /// Where a line ends because a part opens into a thicker one, it goes on to the wall that turns back there; where it
+  /// ends at a line that passes by, it ends at its own mouth. Returns how much to leave out before the end, µm.
+  double into_mouth(std::vector<std::uint32_t>& chain, bool& turn) const {
+    const std::uint32_t h = chain.back();
+    const auto k = static_cast<std::size_t>(laying_.spans[h / 2].pairs);
+    if (ends_at_fork(h)) return mouth_before_end(h);
+    std::uint32_t g = climbing_from(Skeleton::twin(h));
+    if (g == none) return 0;
+    while (g != none && static_cast<std::size_t>(laying_.spans[g / 2].pairs) == k && chain.size() < 100'000) {
+      chain.push_back(g);
+      g = climbing_from(Skeleton::twin(g));
+    }
+    if (g == none || static_cast<std::size_t>(laying_.spans[g / 2].pairs) <= k) return 0;
+    turn = true;
+    return (laying_.start(g)[k + 1] - laying_.start(g)[k]) / 2;
+  }
+
+  std::uint32_t climbing_from(std::uint32_t half) const {
+    std::uint32_t h = half;
+    do {
+      if (laying_.spans[h / 2].mouth && s_.end(h).clearance > s_.start(h).clearance) return h;
+      h = s_.halves[Skeleton::twin(h)].next;
+    } while (h != half);
+    return none;
   }
 
   /// What lies beyond the end of a middle that ends because the part ends: the outline of it, at the distance of the
   /// walls around the middle.
   std::vector<Place> tip_of(std::uint32_t h, double inner) const {
-    std::vector<Place> ring{s_.on_end_rib(h, std::min(inner, s_.end(h).clearance))};
+    std::vector<Place> ring;
+    if (s_.end(h).clearance - inner < 5) return {};
     for (std::uint32_t g = s_.halves[h].next; g != Skeleton::twin(h); g = s_.halves[g].next) {
-      if (laying_.spans[g / 2].core || laying_.spans[g / 2].mouth) return {};
+      if (leaves_strip(g)) return {};
       add_piece(g, inner, ring);
     }
-    ring.push_back(s_.end(h).at);
     return ring;
   }
 
   /// The line at distance `inner` over one half, up to where the axis comes nearer to the outline than that.
   void add_piece(std::uint32_t g, double inner, std::vector<Place>& ring) const {
     const double a = s_.start(g).clearance, b = s_.end(g).clearance;
-    const auto level = [&] {
+    const auto crossing = [&] {
       const double t = (inner - a) / (b - a);
       const Place p = s_.start(g).at, q = s_.end(g).at;
       return Place{p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)};
     };
     if (a < inner && b < inner) return;
-    ring.push_back(a < inner ? level() : s_.on_start_rib(g, inner));
-    ring.push_back(b < inner ? level() : s_.on_end_rib(g, inner));
+    ring.push_back(a < inner ? crossing() : s_.on_start_rib(g, inner));
+    ring.push_back(b < inner ? crossing() : s_.on_end_rib(g, inner));
   }
 
   bool ends_at_fork(std::uint32_t h) const {
     int others = 0;
-    for (std::uint32_t g = s_.halves[h].next; g != Skeleton::twin(h); g = s_.halves[Skeleton::twin(g)].next)
+    for (std::uint32_t g = turn_from(Skeleton::twin(h)); g != Skeleton::twin(h); g = turn_from(g))
       others += laying_.spans[g / 2].core ? 1 : 0;
     return others >= 2;
   }
 
-  /// Where other beads pass by the end of a branch, it ends at its mouth: between the feet of its last ribs.
-  void make_room(std::vector<Vertex>& path, std::uint32_t h) const {
+  /// How far before its end the mouth of a branch lies: the line between the feet of its last ribs.
+  double mouth_before_end(std::uint32_t h) const {
     const Place right = s_.halves[s_.halves[h].next].foot, left = s_.halves[Skeleton::twin(h)].foot,
                 node = s_.end(h).at;
     const Place back = unit(node, s_.start(h).at);
-    double by = ((right.x + left.x) / 2 - node.x) * back.x + ((right.y + left.y) / 2 - node.y) * back.y;
-    while (by > 0 && path.size() > 1) {
-      const Vertex last = path.back(), before = path[path.size() - 2];
-      const double d = distance(last.at, before.at);
-      if (d > by) {
-        const double t = by / d;
-        path.back() = {{last.at.x + t * (before.at.x - last.at.x), last.at.y + t * (before.at.y - last.at.y)},
-                       last.width + t * (before.width - last.width)};
-        return;
-      }
-      by -= d;
-      path.pop_back();
-    }
-  }
-
-  void lead_on(std::vector<Vertex>& path, std::uint32_t h) const {
-    const auto k = static_cast<std::size_t>(laying_.spans[h / 2].pairs);
-    const double inner = laying_.end(h)[k];
-    if (ends_at_fork(h)) {
-      make_room(path, h);
-      return;
-    }
-    if (s_.end(h).clearance - inner < 5) return;
-    const auto ring = tip_of(h, inner);
-    if (ring.size() < 3) return;
-    // The direction over the last stretch as long as the part is thick.
-    std::size_t back = path.size() - 1;
-    while (back > 0 && distance(path[back].at, path.back().at) < s_.end(h).clearance) --back;
-    const Place d = unit(path[back].at, path.back().at);
-    slice(ring, path.back().at, d, path);
-  }
-
-  /// Continues a path from `from` along d over a ring: the chords across give places and widths.
-  void slice(const std::vector<Place>& ring, Place from, Place d, std::vector<Vertex>& path) const {
-    auto along = [&](Place p) { return (p.x - from.x) * d.x + (p.y - from.y) * d.y; };
-    auto across = [&](Place p) { return (p.y - from.y) * d.x - (p.x - from.x) * d.y; };
-    double reach = 0;
-    for (const Place p : ring) reach = std::max(reach, along(p));
-    if (reach < 5) return;
-    const int pieces = std::clamp(static_cast<int>(std::ceil(reach / 40)), 2, 40);
-    for (int i = 0; i <= pieces; ++i) {
-      const double x = std::clamp(reach * i / pieces, 0.5, reach - 0.5);
-      double low = 1e18, high = -1e18;
-      for (std::size_t j = 0; j < ring.size(); ++j) {
-        const Place p = ring[j], q = ring[(j + 1) % ring.size()];
-        const double a = along(p), b = along(q);
-        if ((a < x) == (b < x)) continue;
-        const double y = across(p) + (x - a) / (b - a) * (across(q) - across(p));
-        low = std::min(low, y), high = std::max(high, y);
-      }
-      if (high <= low) continue;
-      const double y = (low + high) / 2, at = reach * i / pieces;
-      if (i == 0) {
-        path.back().width = (path.back().width + high - low) / 2;
-        continue;
-      }
-      path.push_back({{from.x + at * d.x - y * d.y, from.y + at * d.y + y * d.x}, high - low});
-    }
+    return std::max(0.0, ((right.x + left.x) / 2 - node.x) * back.x + ((right.y + left.y) / 2 - node.y) * back.y);
   }
 
   /// A part as long as it is wide, with a single bead: laid along its longest edge.

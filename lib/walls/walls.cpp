@@ -5,6 +5,7 @@
 #include "geometry/offset.h"
 #include "model/flow.h"
 #include "walls/finish.h"
+#include "walls/fit_ends.h"
 
 #include <algorithm>
 #include <cmath>
@@ -114,8 +115,10 @@ Part build_part(const WallSettings& settings, const Widths& widths, const Region
   finishing.stable_inner = std::max<double>(settings.min_output_width, widths.inner / 4);
   finishing.least_flow = settings.min_flow_ratio / 100;
   finishing.most_flow = settings.max_flow_ratio / 100;
-  for (auto& line : trace_pairs(skeleton, laying)) finish(std::move(line), finishing, out.beads, out.dropped_mm);
-  for (auto& line : trace_middles(skeleton, laying)) finish(std::move(line), finishing, out.beads, out.dropped_mm);
+  auto pairs = trace_pairs(skeleton, laying), middles = trace_middles(skeleton, laying);
+  fit_ends(middles, pairs);
+  for (auto* lines : {&pairs, &middles})
+    for (Line& line : *lines) finish(std::move(line), finishing, out.beads, out.dropped_mm);
   out.inside = rest_of(skeleton, laying, axis.origin);
   keep_volume(region, out);
   return out;

@@ -1,0 +1,12 @@
+#pragma once
+#include "walls/trace.h"
+
+#include <vector>
+
+/// Private to walls: the ends of beads on the axis give way to walls that turn back in front of them.
+namespace weft::walls {
+
+/// Cuts from the ends of open lines what lies under a closed one of the same inset.
+void fit_ends(std::vector<Line>& middles, const std::vector<Line>& pairs);
+
+}  // namespace weft::walls
