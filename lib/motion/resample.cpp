@@ -20,7 +20,9 @@ struct Span {
 
 class Thinner {
  public:
-  explicit Thinner(const std::vector<Junction>& path) : path_(path), keep_(path.size(), 0), volume_(path.size(), 0.0) {
+  explicit Thinner(const std::vector<Junction>& path)
+      : path_(path), keep_(path.size(), 0), band_(path.size()), volume_(path.size(), 0.0) {
+    std::transform(path.begin(), path.end(), band_.begin(), band_um);
     for (std::size_t i = 1; i < path.size(); ++i)
       volume_[i] = volume_[i - 1] + distance(path[i - 1].at, path[i].at) * mean_area_mm2(path[i - 1], path[i], 1.0);
   }
@@ -52,14 +54,17 @@ class Thinner {
     const auto &a = path_[span.first], &b = path_[span.last];
     const double x = b.at.x - a.at.x, y = b.at.y - a.at.y, length2 = x * x + y * y;
     const double qa = band_um(a), qb = band_um(b);
-    double most = 1;
+    constexpr double per_place = 1.0 / (static_cast<double>(tolerances::path) * tolerances::path),
+                     per_band = 4.0 / (static_cast<double>(tolerances::band_step) * tolerances::band_step);
+    const double per_length2 = length2 > 0 ? 1 / length2 : 0;
+    double most = 1;  // of the squares: no root is drawn
     std::size_t worst = 0;
     for (std::size_t i = span.first + 1; i < span.last; ++i) {
       const double px = path_[i].at.x - a.at.x, py = path_[i].at.y - a.at.y;
-      const double t = length2 > 0 ? std::clamp((px * x + py * y) / length2, 0.0, 1.0) : 0.0;
-      const double off = std::hypot(px - t * x, py - t * y) / tolerances::path;
-      const double change = std::abs(qa + t * (qb - qa) - band_um(path_[i])) / (0.5 * tolerances::band_step);
-      if (const double error = std::max(off, change); error > most) most = error, worst = i;
+      const double t = std::clamp((px * x + py * y) * per_length2, 0.0, 1.0);
+      const double dx = px - t * x, dy = py - t * y, dq = qa + t * (qb - qa) - band_[i];
+      const double error = std::max((dx * dx + dy * dy) * per_place, dq * dq * per_band);
+      if (error > most) most = error, worst = i;
     }
     if (worst != 0) return worst;
     const double was = volume_[span.last] - volume_[span.first], is = std::sqrt(length2) * mean_area_mm2(a, b, 1.0);
@@ -68,6 +73,7 @@ class Thinner {
 
   const std::vector<Junction>& path_;
   std::vector<char> keep_;
+  std::vector<double> band_;
   std::vector<double> volume_;  // from the first junction, at height 1
 };
 
