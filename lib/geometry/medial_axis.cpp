@@ -77,8 +77,12 @@ using Vertex = Graph::Vertex_handle;
 
 using Site = MedialAxis::Site;
 
+double length_of(double x, double y) {  // std::hypot guards against overflow that microns cannot reach, at four times the cost
+  return std::sqrt(x * x + y * y);
+}
+
 double distance_between(Place p, Place q) {
-  return std::hypot(q.x - p.x, q.y - p.y);
+  return length_of(q.x - p.x, q.y - p.y);
 }
 
 /// Distance from p to the line of a site's edge, or to its corner: inside a cell of the diagram the nearest point of
@@ -86,7 +90,7 @@ double distance_between(Place p, Place q) {
 double distance_to(const Site& site, Place p) {
   if (site.corner) return distance_between(site.a, p);
   const double ux = site.b.x - site.a.x, uy = site.b.y - site.a.y;
-  return std::abs(ux * (p.y - site.a.y) - uy * (p.x - site.a.x)) / std::hypot(ux, uy);
+  return std::abs(ux * (p.y - site.a.y) - uy * (p.x - site.a.x)) / length_of(ux, uy);
 }
 
 bool same(Place p, Place q) {
@@ -132,7 +136,7 @@ void refine(const Diagram& diagram, Vortex& v) {
         const double d = std::max(1e-9, distance_between(s.a, v.at));
         gx = (v.at.x - s.a.x) / d, gy = (v.at.y - s.a.y) / d;
       } else {
-        const double ux = s.b.x - s.a.x, uy = s.b.y - s.a.y, length = std::hypot(ux, uy);
+        const double ux = s.b.x - s.a.x, uy = s.b.y - s.a.y, length = length_of(ux, uy);
         const double side = ux * (v.at.y - s.a.y) - uy * (v.at.x - s.a.x) < 0 ? -1 : 1;
         gx = -uy / length * side, gy = ux / length * side;
       }
@@ -148,7 +152,7 @@ void refine(const Diagram& diagram, Vortex& v) {
     const double d = det(0, 1, 2);
     if (std::abs(d) < 1e-9) return;
     const double dx = det(3, 1, 2) / d, dy = det(0, 3, 2) / d, dr = det(0, 1, 3) / d;
-    if (std::hypot(dx, dy) > 1000) return;
+    if (length_of(dx, dy) > 1000) return;
     v.at.x += dx, v.at.y += dy, v.clearance += dr;
   }
 }
