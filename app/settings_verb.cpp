@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.h"
+#include "core/join.h"
 #include "settings/catalogue.h"
 #include "verbs.h"
 
@@ -13,7 +14,7 @@ namespace weft::app {
 namespace {
 
 std::string range_of(const CatalogueEntry& e) {
-  if (!e.choices.empty()) return fmt::format("{}", fmt::join(e.choices, " | "));
+  if (!e.choices.empty()) return joined(e.choices, " | ");
   if (e.least.empty()) return e.type == "flag" ? "true | false" : std::string(e.type);
   return fmt::format("{} … {}{}{}{}", e.least, e.most, e.unit.empty() ? "" : " ", e.unit, e.automatic ? ", or auto" : "");
 }

@@ -1,3 +1,4 @@
+#include "core/join.h"
 #include "jobs/job_list.h"
 #include "settings/catalogue.h"
 
@@ -70,12 +71,6 @@ std::vector<std::string> items_of(const std::string& name, const std::string& ce
   return out;
 }
 
-std::string listed(const std::vector<std::string_view>& names) {
-  std::string out;
-  for (const auto name : names) (out += out.empty() ? "" : ", ") += name;
-  return out;
-}
-
 void check_header(const Row& header, const std::string& path) {
   std::set<std::string> seen;
   const auto where = fmt::format("{}:{}", path, header.line);
@@ -83,9 +78,8 @@ void check_header(const Row& header, const std::string& path) {
     const auto& fields = field_names();
     if (std::find(fields.begin(), fields.end(), name) == fields.end() && !find_setting(name)) {
       const auto near = nearest_setting(name);
-      throw Error{
-          Error::Kind::usage, fmt::format("column '{}' is neither a field of a job nor a setting", name), where,
-          near.empty() ? "fields: " + listed(fields) : fmt::format("did you mean '{}'?", near)};
+      throw Error{Error::Kind::usage, fmt::format("column '{}' is neither a field of a job nor a setting", name), where,
+                  near.empty() ? "fields: " + joined(fields) : fmt::format("did you mean '{}'?", near)};
     }
     if (!seen.insert(name).second)
       throw Error{Error::Kind::usage, fmt::format("column '{}' is given twice", name), where};

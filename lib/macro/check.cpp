@@ -1,5 +1,6 @@
 // What is wrong with a program whatever the values are: unknown names, functions called wrongly, patterns that are
 // none.
+#include "core/join.h"
 #include "macro/functions.h"
 #include "macro/macro.h"
 #include "macro/program.h"
@@ -67,9 +68,8 @@ class Checking {
       std::vector<std::string_view> names;
       for (const auto& s : all) names.push_back(s.name);
       const auto near = nearest_name(node.name, names);
-      program_.refuse(
-          node.at, fmt::format("unknown function '{}'", node.name),
-          near.empty() ? fmt::format("there are {}", fmt::join(names, ", ")) : fmt::format("did you mean '{}'?", near));
+      program_.refuse(node.at, fmt::format("unknown function '{}'", node.name),
+                      near.empty() ? "there are " + joined(names) : fmt::format("did you mean '{}'?", near));
     }
     if (node.kids.size() < found->least || node.kids.size() > found->most)
       program_.refuse(node.at, fmt::format("{} takes {} arguments, not {}", node.name,

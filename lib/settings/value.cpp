@@ -1,5 +1,7 @@
 #include "settings/value.h"
 
+#include "core/join.h"
+
 #include <fmt/format.h>
 
 #include <charconv>
@@ -191,7 +193,7 @@ std::size_t parse_choice(std::string_view text, const std::vector<std::string_vi
   const auto t = trimmed(text);
   for (std::size_t i = 0; i < names.size(); ++i)
     if (same_word(t, names[i])) return i;
-  refuse(t, fmt::format("one of {}", fmt::join(names, ", ")));
+  refuse(t, "one of " + joined(names));
 }
 
 std::string number(double v, int decimals) {
