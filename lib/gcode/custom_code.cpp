@@ -5,6 +5,7 @@
 #include "settings/value.h"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -64,6 +65,26 @@ void add_figures(const Job& job, Variables& out) {
   out["has_single_extruder_multi_material_priming"] = macro::variable(false);
 }
 
+/// Names that Cura's start G-code uses and that are called otherwise here.
+void add_aliases_of_cura(const Job& job, Variables& out) {
+  constexpr std::array<std::array<std::string_view, 2>, 10> aliases{{
+      {"machine_nozzle_size", "nozzle_diameter"},
+      {"layer_height_0", "initial_layer_height"},
+      {"material_diameter", "filament_diameter"},
+      {"retraction_speed", "retraction_retract_speed"},
+      {"line_width", "wall_line_width_x"},
+      {"speed_print", "speed_infill"},
+      {"infill_density", "infill_sparse_density"},
+      {"initial_extruder_nr", "initial_extruder"},
+      {"extruder_nr", "initial_extruder"},
+      {"jobname", "input_filename_base"},
+  }};
+  for (const auto& [theirs, ours] : aliases)
+    if (const auto found = out.find(ours); found != out.end()) out.emplace(std::string(theirs), found->second);
+  out["filament_amount"] = rounded_to(job.statistics.filament_mm / 1000, 2);
+  out["filament_weight"] = rounded_to(job.statistics.filament_g, 2);
+}
+
 void add_names(const Job& job, Variables& out) {
   const auto base = escaped_name(job.input_name);
   out["input_filename_base"] = macro::variable(base);
@@ -106,6 +127,7 @@ Variables print_variables(const Job& job) {
                            "filament_extruder_id", "current_object_idx"})
     out[tool] = count(0);
   out["toolchange_z"] = macro::variable(0.0);
+  add_aliases_of_cura(job, out);
   set_layer(out, 0, 0);
   return out;
 }

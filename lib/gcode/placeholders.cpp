@@ -44,7 +44,8 @@ Variable in_their_words(const prusaslicer::SameRow& row, const Variable& ours, c
   switch (row.form) {
     case Form::times_100:
       if (ours.values.empty()) return ours;
-      if (const auto* whole = std::get_if<std::int64_t>(&ours.values[0])) return number(static_cast<double>(*whole) / 100);
+      if (const auto* whole = std::get_if<std::int64_t>(&ours.values[0]))
+        return number(static_cast<double>(*whole) / 100);
       if (const auto* real = std::get_if<double>(&ours.values[0])) return number(*real / 100);
       return ours;
     case Form::zero_is_auto:

@@ -62,7 +62,8 @@ class Evaluation {
           break;
       }
       ++i;
-      if (out.size() > most_output) program_.refuse(s.at, "custom G-code becomes longer than 64 MB");
+      if (out.size() > most_output + program_.text.size())
+        program_.refuse(s.at, "custom G-code becomes longer than 1 MB");
     }
     return out;
   }
@@ -77,7 +78,8 @@ class Evaluation {
   }
 
  private:
-  static constexpr std::size_t most_output = std::size_t{1} << 26, most_elements = 100'000;
+  // A variable can be doubled again and again: without limits a few lines fill any memory.
+  static constexpr std::size_t most_output = std::size_t{1} << 20, most_elements = 100'000;
 
   static Variable list(std::vector<Scalar> values) {
     Variable out;
@@ -240,7 +242,11 @@ class Evaluation {
     const auto* text = std::get_if<std::string>(&v);
     if (!text)
       program_.refuse(node.at, fmt::format("'{}' is not a text to compare with a regular expression", text_of(v)));
-    return matches(*text, program_.nodes[node.kids[1]].name) == (node.kind == Kind::matches);
+    try {
+      return matches(*text, program_.nodes[node.kids[1]].name) == (node.kind == Kind::matches);
+    } catch (const std::invalid_argument& e) {
+      program_.refuse(node.at, e.what());
+    }
   }
 
   Scalar unary(const Node& node) {
@@ -258,9 +264,14 @@ class Evaluation {
     program_.refuse(node.at, fmt::format("'{}' is not a number", text_of(v)));
   }
 
+  static std::string joined(std::string a, const std::string& b) {
+    if (a.size() + b.size() > most_output) throw std::invalid_argument("the text becomes longer than 1 MB");
+    return a += b;
+  }
+
   static Scalar arithmetic(Kind kind, const Scalar& a, const Scalar& b) {
     if (kind == Kind::add && (std::holds_alternative<std::string>(a) || std::holds_alternative<std::string>(b)))
-      return text_of(a) + text_of(b);
+      return joined(text_of(a), text_of(b));
     const auto *i = std::get_if<std::int64_t>(&a), *k = std::get_if<std::int64_t>(&b);
     if (i && k) return whole(kind, *i, *k);
     const double x = number_of(a), y = number_of(b);

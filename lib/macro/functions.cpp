@@ -98,7 +98,12 @@ double interpolated(const std::vector<Argument>& a) {
   return y0;
 }
 
+/// Longer ones are none that a person writes; the library reads them by recursion.
+constexpr std::size_t most_pattern = 1000, most_subject = 100'000;
+
 std::regex compiled(const std::string& pattern) {
+  if (pattern.size() > most_pattern)
+    throw std::invalid_argument(fmt::format("a regular expression of more than {} characters", most_pattern));
   std::string spelled;
   bool in_class = false;
   for (std::size_t i = 0; i < pattern.size(); ++i) {
@@ -147,6 +152,9 @@ double number_of(const Scalar& value) {
 }
 
 bool matches(const std::string& text, const std::string& pattern) {
+  if (text.size() > most_subject)
+    throw std::invalid_argument(
+        fmt::format("a text of more than {} characters for a regular expression", most_subject));
   return std::regex_match(text, compiled(pattern));
 }
 
@@ -164,6 +172,7 @@ Scalar call(std::string_view name, const std::vector<Argument>& a, std::uint64_t
   if (name == "interpolate_table") return interpolated(a);
   if (name == "regex_replace") {
     if (!a[1].regex) throw std::invalid_argument("regex_replace(text, /pattern/, text)");
+    if (text(a[0]).size() > most_subject) throw std::invalid_argument("the text is too long");
     return std::regex_replace(text(a[0]), compiled(text({a[1].values})), text(a[2]));
   }
   throw std::logic_error("a function without body");

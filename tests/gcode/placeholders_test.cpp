@@ -114,3 +114,9 @@ TEST_CASE("gcode: the custom G-code of every profile expands") {
   }
   CHECK(count >= 5);
 }
+
+TEST_CASE("gcode: the example of custom G-code is sound") {
+  Profile profile;
+  apply_file(profile, std::string(WEFT_SOURCE_DIR) + "/examples/custom-gcode.ini");
+  CHECK_NOTHROW(check_custom_code(profile.settings));
+}

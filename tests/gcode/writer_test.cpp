@@ -371,6 +371,19 @@ TEST_CASE("gcode: print variables come from the plan") {
   CHECK(has_line(sample.text(), "; -0.2 10.2 0.4 2 part 2m 30s"));
 }
 
+TEST_CASE("gcode: start G-code of Cura's finds its names") {
+  Sample sample;
+  sample.settings.gcode.machine_start_gcode =
+      "; {material_print_temperature_layer_0} {material_bed_temperature_layer_0} {machine_width} {machine_depth}\n"
+      "; {machine_nozzle_size} {layer_height_0} {material_diameter} {retraction_amount} {retraction_speed} "
+      "{speed_travel}\n"
+      "; {initial_extruder_nr} {jobname} {filament_amount} {filament_weight} {material_type}";
+  const auto text = sample.text();
+  CHECK(has_line(text, "; 210 60 220 220"));
+  CHECK(has_line(text, "; 0.4 0.2 1.75 0.8 40 150"));
+  CHECK(has_line(text, "; 0 part 1.23 3.68 PLA"));
+}
+
 TEST_CASE("gcode: speeds change only where they change, and lifts are as slow as Z needs") {
   const auto f = words(Sample{}.layer(0), 'F');
   // first travel (from an unknown place), wall, retraction, lift, travel, descent, priming, infill

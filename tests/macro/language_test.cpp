@@ -178,6 +178,17 @@ TEST_CASE("macro: no text exhausts the stack or takes forever") {
   CHECK_THAT(message("{local s = repeat(1000000000, 1)}"), Contains("repeat takes"));
 }
 
+TEST_CASE("macro: no text fills the memory") {
+  std::string doubled = "{local s = \"0123456789\"";
+  for (int i = 0; i < 60; ++i) doubled += "; s = s + s";
+  CHECK_THAT(message(doubled + "}"), Contains("longer than 1 MB"));
+  std::string printed = "{local s = \"" + std::string(100'000, 'x') + "\"}";
+  for (int i = 0; i < 100; ++i) printed += "{s}";
+  CHECK_THAT(message(printed), Contains("longer than 1 MB"));
+  CHECK_THAT(message("{\"a\" =~ /" + std::string(5'000, '(') + "/}"), Contains("more than 1000 characters"));
+  CHECK_THAT(message("{\"a\" =~ /(a{900}){900}/}"), Contains("is not a regular expression"));
+}
+
 TEST_CASE("macro: no bytes whatever crash the reader") {
   std::mt19937 random(11);
   const std::string_view parts[] = {
