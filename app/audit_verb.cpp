@@ -7,6 +7,7 @@
 
 #include "audit_report.h"
 #include "command.h"
+#include "pipeline/profile_file.h"
 #include "verbs.h"
 
 namespace po = boost::program_options;
@@ -26,8 +27,8 @@ std::vector<Printer> printers_of(const Command& command, Console& console) {
   if (command.options.count("against")) {
     for (const auto& file : command.options["against"].as<std::vector<std::string>>()) {
       Profile profile;
-      for (const auto& p : command.profiles) apply_file(profile, p);
-      apply_file(profile, file);
+      for (const auto& p : command.profiles) apply_profile(profile, p, command.import);
+      apply_profile(profile, file, command.import);
       for (const auto& [key, text] : command.settings) apply_value(profile, key, text, "--set " + key);
       check_consistency(profile);
       out.push_back({file, profile.settings});

@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "pipeline/profile_file.h"
 #include "pipeline/write_file.h"
 #include "settings/catalogue.h"
 #include "settings/value.h"
@@ -21,6 +22,8 @@ po::options_description common_options() {
   out.add_options()
     ("profile,p", po::value<std::vector<std::string>>()->value_name("FILE"), "an ini profile; repeatable, a later one overrides an earlier one")
     ("load", po::value<std::vector<std::string>>()->value_name("FILE"), "the same")
+    ("preset", po::value<std::vector<std::string>>()->value_name("KIND=NAME"), "which preset of a PrusaSlicer bundle: print=NAME, filament=NAME, printer=NAME; repeatable")
+    ("strict", po::bool_switch(), "what a PrusaSlicer profile would lose is an error, not a warning")
     ("set,s", po::value<std::vector<std::string>>()->value_name("KEY=VALUE"), "one setting; repeatable; overrides every profile. `--key VALUE` does the same")
     ("output,o", po::value<std::string>()->value_name("PATH"), "where the result goes; - is standard output")
     ("report", po::value<std::string>()->value_name("FILE"), "machine-readable JSON report; - is standard output")
@@ -85,6 +88,15 @@ std::pair<std::string, std::string> assignment(const std::string& text) {
   return {std::string(value::trimmed(text.substr(0, equals))), text.substr(equals + 1)};
 }
 
+void take_preset(prusaslicer::PresetChoice& presets, const std::string& text) {
+  const auto equals = text.find('=');
+  const auto kind = text.substr(0, equals);
+  auto* name = kind == "print" ? &presets.print : kind == "filament" ? &presets.filament : kind == "printer" ? &presets.printer : nullptr;
+  if (!name || equals == std::string::npos || equals + 1 == text.size())
+    throw Error{Error::Kind::usage, fmt::format("'{}' is not print=NAME, filament=NAME or printer=NAME", text), "--preset"};
+  *name = text.substr(equals + 1);
+}
+
 [[noreturn]] void rethrow_as_usage(const po::error& problem) {
   if (const auto* unknown = dynamic_cast<const po::unknown_option*>(&problem)) {
     const auto name = unknown->get_option_name();
@@ -128,6 +140,9 @@ Command parse_command(const std::vector<std::string>& words, const po::options_d
     command.threads = o["threads"].as<unsigned>();
     if (command.threads == 0 || command.threads > 1024) throw Error{Error::Kind::usage, "must be 1 … 1024", "--threads"};
   }
+  command.import.strict = o["strict"].as<bool>();
+  if (o.count("preset"))
+    for (const auto& text : o["preset"].as<std::vector<std::string>>()) take_preset(command.import.presets, text);
   command.help = o["help"].as<bool>();
   command.console.verbosity = o["quiet"].as<bool>() ? Verbosity::quiet : o["verbose"].as<bool>() ? Verbosity::detail : Verbosity::normal;
   command.console.format = choice<LogFormat>("--log-format", o["log-format"].as<std::string>(), {{"text", LogFormat::text}, {"json", LogFormat::json}});
@@ -145,7 +160,7 @@ std::string common_help() {
 
 Profile resolve(const Command& command) {
   Profile profile;
-  for (const auto& file : command.profiles) apply_file(profile, file);
+  for (const auto& file : command.profiles) apply_profile(profile, file, command.import);
   for (const auto& [key, text] : command.settings) apply_value(profile, key, text, "--set " + key);
   check_consistency(profile);
   return profile;

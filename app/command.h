@@ -15,6 +15,7 @@ struct Command {
   std::vector<std::string> inputs;                            ///< positional arguments, in order
   std::vector<std::filesystem::path> profiles;                ///< -p, --load
   std::vector<std::pair<std::string, std::string>> settings;  ///< -s KEY=VALUE and --key value, in the order typed
+  ImportOptions import;                                       ///< --preset, --strict
   std::optional<std::string> output, report;
   unsigned threads = 0;  ///< 0: all cores
   ConsoleOptions console;

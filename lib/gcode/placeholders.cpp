@@ -1,6 +1,7 @@
 #include "gcode/placeholders.h"
 
 #include "settings/catalogue.h"
+#include "settings/gcode_variables.h"
 #include "settings/prusaslicer_keys.h"
 #include "settings/value.h"
 
@@ -94,6 +95,12 @@ Variables variables_of(const Settings& settings) {
   // A switch there, a length of 0 here.
   out["retract_length"] =
       number(settings.retraction.retraction_enable ? to_mm(settings.retraction.retraction_amount) : 0);
+  for (const auto& further : parse_gcode_variables(settings.gcode.gcode_variables)) {
+    std::string values;
+    for (const auto& e : further.elements)
+      values += (values.empty() ? "" : ", ") + (e.quoted ? quoted_variable(e.text) : e.text);
+    out.emplace(further.name, macro::variable_of(values));  // a setting of that name is nearer
+  }
   return out;
 }
 

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <stdexcept>
+
+#include "settings/near.h"
 
 namespace weft {
 namespace {
@@ -126,22 +127,6 @@ std::vector<CatalogueEntry> every_entry() {
   };
   std::apply([&](const auto&... section) { (add_section(section), ...); }, sections);
   return out;
-}
-
-/// Levenshtein distance. Source: Wagner & Fischer 1974, two rows.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t above = row[j];
-      row[j] = std::min({row[j - 1] + 1, above + 1, diagonal + (a[i - 1] == b[j - 1] ? 0u : 1u)});
-      diagonal = above;
-    }
-  }
-  return row.back();
 }
 
 std::string underscored(std::string_view key) {

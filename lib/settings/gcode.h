@@ -28,6 +28,7 @@ struct GcodeSettings {
   std::string layer_gcode;
   std::string tool_change_gcode;
   std::string between_objects_gcode;
+  std::string gcode_variables;
   ObjectLabels gcode_label_objects = ObjectLabels::firmware;
   CommentDialect gcode_comment_dialect = CommentDialect::prusaslicer;
   bool gcode_progress = true;
@@ -51,6 +52,9 @@ inline constexpr std::tuple gcode_schema{
             "G-code at changes of the tool: {previous_extruder}, {next_extruder}. Checked; without effect while there is one extruder.", "toolchange_gcode"),
     setting("between_objects_gcode", &GcodeSettings::between_objects_gcode,
             "G-code between objects that are printed one after the other, before the first layer of the next.", "between_objects_gcode"),
+    setting("gcode_variables", &GcodeSettings::gcode_variables,
+            "Further names that custom G-code may use: lines `name = value`, lists between commas, texts in quotes. On import from PrusaSlicer, those "
+            "of its keys that the custom G-code names."),
     setting("gcode_label_objects", &GcodeSettings::gcode_label_objects,
             "Objects are named in the file: firmware (EXCLUDE_OBJECT for Klipper, M486 for others), comments, or none.", "gcode_label_objects"),
     setting("gcode_comment_dialect", &GcodeSettings::gcode_comment_dialect,

@@ -30,6 +30,8 @@ std::size_t utf8_length(std::string_view text) {
   return 0;
 }
 
+}  // namespace
+
 bool is_utf8(std::string_view text) {
   while (!text.empty()) {
     const auto n = utf8_length(text);
@@ -38,8 +40,6 @@ bool is_utf8(std::string_view text) {
   }
   return true;
 }
-
-}  // namespace
 
 std::vector<IniEntry> parse_ini(std::string_view text, const std::string& path) {
   std::vector<IniEntry> entries;

@@ -10,11 +10,120 @@
 #include "settings/catalogue.h"
 #include "settings/ini.h"
 #include "settings/prusaslicer.h"
+#include "settings/prusaslicer_embedded.h"
+#include "settings/gcode_variables.h"
 
 namespace weft {
 namespace {
 
-std::string contents_of(const std::filesystem::path& path) {
+/// A configuration of PrusaSlicer's family as flat lines.
+struct Foreign {
+  std::vector<IniEntry> lines;
+  prusaslicer::PresetValues histories;  ///< of a bundle: where each line comes from, and what it shadows
+  bool complete = false;                ///< what is not said is PrusaSlicer's default
+  Notices notices;
+};
+
+void refuse_twice(const std::vector<IniEntry>& entries, const std::string& path) {
+  std::map<std::string_view, int> seen;
+  for (const auto& e : entries) {
+    const auto [first, is_new] = seen.emplace(e.key, e.line);
+    if (!is_new)
+      throw Error{Error::Kind::settings, fmt::format("'{}' was already given on line {}", e.key, first->second), fmt::format("{}:{}", path, e.line), "keep one of the two"};
+  }
+}
+
+Foreign chosen_of(const std::vector<IniEntry>& entries, const std::string& path, const ImportOptions& options) {
+  const auto bundle = prusaslicer::read_bundle(entries, path);
+  auto selection = prusaslicer::select(bundle, options.presets);
+  Foreign out{{}, prusaslicer::flattened(selection), true, std::move(selection.notices)};
+  for (const auto& [key, history] : out.histories) out.lines.push_back(history.back());
+  return out;
+}
+
+prusaslicer::Translation apply_foreign(Profile& profile, Foreign foreign, const std::string& path) {
+  const auto translated = prusaslicer::translate(std::move(foreign.lines), path, foreign.complete);
+  for (const auto& a : translated.assignments) {
+    if (const auto known = foreign.histories.find(a.theirs); known != foreign.histories.end())
+      for (const auto& e : known->second)
+        if (e.line != a.line)
+          profile.origins[a.key].push_back({fmt::format("{}:{}", path, e.line), e.value, fmt::format("[{}] {} = {}", e.section, e.key, e.value)});
+    apply_value(profile, a.key, a.text, a.line == 0 ? path + ", PrusaSlicer's default" : fmt::format("{}:{}", path, a.line));
+    profile.origins[a.key].back().source = a.source;
+    if (a.key == "machine_reach")
+      profile.notices.push_back({"reach_derived", fmt::format("{}: machine_reach = {}: PrusaSlicer's profiles hold no reach, {}; set machine_reach to what the printer can do",
+                                                              path, a.text, a.source.substr(a.source.find(", and ") + 6))});
+  }
+  profile.notices.insert(profile.notices.end(), foreign.notices.begin(), foreign.notices.end());
+  return translated;
+}
+
+/// All the keys of one fate in one notice, each with its line, so that none is silent and none buries another.
+void note(Profile& profile, const char* code, const std::vector<prusaslicer::Remark>& remarks, const std::string& path, std::string_view what, std::size_t most) {
+  if (remarks.empty()) return;
+  std::string list;
+  for (std::size_t i = 0; i < remarks.size() && i < most; ++i)
+    list += fmt::format("{}{} = {} (line {}{}{})", i == 0 ? "" : ", ", remarks[i].key, remarks[i].text.substr(0, 40), remarks[i].line, remarks[i].why.empty() ? "" : ": ", remarks[i].why);
+  if (remarks.size() > most) list += fmt::format(" and {} more, which `weft profile import` lists", remarks.size() - most);
+  profile.notices.push_back({code, fmt::format("{}: {}: {}", path, what, list)});
+}
+
+void note_losses(Profile& profile, const prusaslicer::Translation& translated, const std::string& path) {
+  note(profile, "prusaslicer_key_approximated", translated.approximated, path, "translated to the nearest", 1000);
+  note(profile, "prusaslicer_key_unsupported", translated.unsupported, path, "would change the print and has no effect here", 1000);
+  note(profile, "prusaslicer_key_unknown", translated.unknown, path, "not one of PrusaSlicer's keys, without effect", 12);
+}
+
+void refuse_losses(const prusaslicer::Translation& translated, const std::string& path) {
+  for (const auto& [list, what] : {std::pair{&translated.unsupported, "is not supported and would change the print"}, {&translated.approximated, "can only be translated to the nearest"},
+                                   {&translated.unknown, "is not one of PrusaSlicer's keys"}})
+    if (!list->empty()) {
+      const auto& r = list->front();
+      const auto all = translated.unsupported.size() + translated.approximated.size() + translated.unknown.size();
+      throw Error{Error::Kind::settings, fmt::format("{} = {} {}", r.key, r.text.substr(0, 40), what), fmt::format("{}:{}", path, r.line),
+                  all > 1 ? fmt::format("--strict; {} more such lines, `weft profile import` lists them", all - 1) : "--strict"};
+    }
+}
+
+/// The text as lines of PrusaSlicer's family, or nothing when it is weft's own.
+std::optional<Foreign> foreign_of(std::string_view text, const std::string& path, const std::vector<IniEntry>& entries, bool embedded, const ImportOptions& options) {
+  if (!embedded && prusaslicer::is_bundle(entries)) return chosen_of(entries, path, options);
+  if (!prusaslicer::recognises(embedded ? std::string_view() : text, entries)) return std::nullopt;
+  return Foreign{entries, {}, false, {}};
+}
+
+void apply_text(Profile& profile, std::string_view text, const std::filesystem::path& path, const ImportOptions& options, std::vector<std::filesystem::path>& chain) {
+  const auto name = path.string();
+  auto embedded = prusaslicer::embedded_config(text, name);
+  const auto entries = embedded ? std::move(*embedded) : parse_ini(text, name);
+  const bool bundle = !embedded && prusaslicer::is_bundle(entries);
+  if (!bundle) refuse_twice(entries, name);
+  if (auto foreign = foreign_of(text, name, entries, embedded.has_value(), options)) {
+    const auto translated = apply_foreign(profile, std::move(*foreign), name);
+    if (options.strict) refuse_losses(translated, name);
+    return note_losses(profile, translated, name);
+  }
+  chain.push_back(std::filesystem::weakly_canonical(path));
+  for (const auto& e : entries) {
+    if (e.key != "inherits") continue;
+    const auto parent = path.parent_path() / e.value;
+    const auto where = fmt::format("{}:{}", name, e.line);
+    const auto canonical = std::filesystem::weakly_canonical(parent);
+    for (const auto& above : chain)
+      if (above == canonical) throw Error{Error::Kind::settings, fmt::format("inherits '{}', which inherits this file", e.value), where, "break the circle"};
+    if (chain.size() > 100) throw Error{Error::Kind::settings, "more than 100 generations of ancestors", where, {}};
+    if (!std::filesystem::is_regular_file(parent))
+      throw Error{Error::Kind::settings, fmt::format("inherits '{}', which is not there", parent.string()), where, "the path is relative to this file"};
+    apply_text(profile, read_profile(parent), parent, options, chain);
+  }
+  for (const auto& e : entries)
+    if (e.key != "inherits") apply_value(profile, e.key, e.value, fmt::format("{}:{}", name, e.line));
+  chain.pop_back();
+}
+
+}  // namespace
+
+std::string read_profile(const std::filesystem::path& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) throw Error{Error::Kind::file, "is a folder, not a profile", path.string(), "name an ini file in it"};
   std::ifstream in(path, std::ios::binary);
@@ -22,72 +131,23 @@ std::string contents_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// A bundle holds many presets under one key each; which of them is meant cannot be guessed.
-void refuse_bundle(const std::vector<IniEntry>& entries, const std::string& path) {
-  for (const auto& e : entries)
-    if (e.section.find(':') != std::string::npos)
-      throw Error{Error::Kind::settings, fmt::format("is a bundle of presets, as [{}] shows", e.section), fmt::format("{}:{}", path, e.line),
-                  "export one configuration from PrusaSlicer: File, Export, Export Config"};
-}
-
-prusaslicer::Translation apply_prusaslicer(Profile& profile, const std::vector<IniEntry>& entries, const std::string& path) {
-  auto translated = prusaslicer::translate(entries, path);
-  for (const auto& a : translated.assignments) apply_value(profile, a.key, a.text, fmt::format("{}:{}", path, a.line));
-  return translated;
-}
-
-void note_losses(Profile& profile, const prusaslicer::Translation& translated, const std::string& path) {
-  const auto note = [&](const char* code, const prusaslicer::Remark& r, std::string_view what) {
-    profile.notices.push_back({code, fmt::format("{}:{}: {} = {}: {}{}{}", path, r.line, r.key, r.text.substr(0, 40), what, r.why.empty() ? "" : ": ", r.why)});
-  };
-  for (const auto& r : translated.approximated) note("prusaslicer_key_approximated", r, "is translated to the nearest");
-  for (const auto& r : translated.unsupported) note("prusaslicer_key_unsupported", r, "has no effect here");
-  for (const auto& r : translated.unknown) note("prusaslicer_key_unknown", r, "is not one of PrusaSlicer's keys and has no effect");
-}
-
-void apply_file(Profile& profile, const std::filesystem::path& path, std::vector<std::filesystem::path>& chain) {
-  const auto text = contents_of(path);
-  const auto entries = parse_ini(text, path.string());
-  refuse_bundle(entries, path.string());
-  std::map<std::string, int> seen;
-  for (const auto& e : entries) {
-    const auto [first, is_new] = seen.emplace(e.key, e.line);
-    if (!is_new)
-      throw Error{Error::Kind::settings, fmt::format("'{}' was already given on line {}", e.key, first->second),
-                  fmt::format("{}:{}", path.string(), e.line), "keep one of the two"};
-  }
-  if (prusaslicer::recognises(text, entries)) return note_losses(profile, apply_prusaslicer(profile, entries, path.string()), path.string());
-  chain.push_back(std::filesystem::weakly_canonical(path));
-  for (const auto& e : entries) {
-    if (e.key != "inherits") continue;
-    const auto parent = path.parent_path() / e.value;
-    const auto where = fmt::format("{}:{}", path.string(), e.line);
-    const auto canonical = std::filesystem::weakly_canonical(parent);
-    for (const auto& above : chain)
-      if (above == canonical) throw Error{Error::Kind::settings, fmt::format("inherits '{}', which inherits this file", e.value), where, "break the circle"};
-    if (!std::filesystem::is_regular_file(parent))
-      throw Error{Error::Kind::settings, fmt::format("inherits '{}', which is not there", parent.string()), where, "the path is relative to this file"};
-    apply_file(profile, parent, chain);
-  }
-  for (const auto& e : entries)
-    if (e.key != "inherits") apply_value(profile, e.key, e.value, fmt::format("{}:{}", path.string(), e.line));
-  chain.pop_back();
-}
-
-}  // namespace
-
-void apply_file(Profile& profile, const std::filesystem::path& path) {
+void apply_text(Profile& profile, std::string_view text, const std::filesystem::path& path, const ImportOptions& options) {
   std::vector<std::filesystem::path> chain;
-  apply_file(profile, path, chain);
+  apply_text(profile, text, path, options, chain);
 }
 
-prusaslicer::Translation import_prusaslicer(Profile& profile, const std::filesystem::path& path) {
-  const auto text = contents_of(path);
-  const auto entries = parse_ini(text, path.string());
-  refuse_bundle(entries, path.string());
-  if (!prusaslicer::recognises(text, entries))
-    throw Error{Error::Kind::settings, "is not a PrusaSlicer, SuperSlicer or Slic3r config.ini", path.string(), "weft's own profiles need no import"};
-  return apply_prusaslicer(profile, entries, path.string());
+void apply_file(Profile& profile, const std::filesystem::path& path, const ImportOptions& options) { apply_text(profile, read_profile(path), path, options); }
+
+prusaslicer::Translation import_prusaslicer(Profile& profile, std::string_view text, const std::filesystem::path& path, const ImportOptions& options) {
+  const auto name = path.string();
+  auto embedded = prusaslicer::embedded_config(text, name);
+  const auto entries = embedded ? std::move(*embedded) : parse_ini(text, name);
+  if (embedded || !prusaslicer::is_bundle(entries)) refuse_twice(entries, name);
+  auto foreign = foreign_of(text, name, entries, embedded.has_value(), options);
+  if (!foreign) throw Error{Error::Kind::settings, "holds no configuration of PrusaSlicer, SuperSlicer or Slic3r", name, "weft's own profiles need no import"};
+  const auto translated = apply_foreign(profile, std::move(*foreign), name);
+  if (options.strict) refuse_losses(translated, name);
+  return translated;
 }
 
 void apply_value(Profile& profile, const std::string& key, const std::string& text, const std::string& where) {
@@ -105,7 +165,7 @@ void apply_value(Profile& profile, const std::string& key, const std::string& te
                                      : fmt::format("range {} … {}{}{}, default {}{}", entry->least, entry->most, entry->unit.empty() ? "" : " ", entry->unit,
                                                    entry->default_text, entry->automatic ? ", or auto" : "")};
   }
-  profile.origins[std::string(entry->key)].push_back({where, text});
+  profile.origins[std::string(entry->key)].push_back({where, text, {}});
 }
 
 std::string origin_of(const Profile& profile, const std::string& key) {
@@ -152,6 +212,11 @@ void check_consistency(const Profile& profile) {
   if (s.machine.bed_shape == BedShape::polygon && s.machine.bed_polygon.size() < 3)
     refuse("bed_polygon", "a bed of shape polygon needs at least three corners", "give them as 0x0, 220x0, 220x220, 0x220");
   check_areas(s.machine, refuse);
+  try {
+    (void)parse_gcode_variables(s.gcode.gcode_variables);
+  } catch (const std::invalid_argument& problem) {
+    refuse("gcode_variables", problem.what(), "as in: purge_length = 30");
+  }
 }
 
 }  // namespace weft

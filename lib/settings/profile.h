@@ -6,14 +6,16 @@
 
 #include "core/notice.h"
 #include "settings/prusaslicer.h"
+#include "settings/prusaslicer_bundle.h"
 #include "settings/settings.h"
 
 namespace weft {
 
 /// Where a value came from.
 struct Origin {
-  std::string where;  ///< "farm.ini:12" or "--set"
-  std::string text;   ///< the value as it stood there
+  std::string where;   ///< "farm.ini:12" or "--set"
+  std::string text;    ///< the value as it stood there
+  std::string source;  ///< what was translated: "[print:*common*] perimeter_speed = 45"; empty: nothing was
 };
 
 /// Settings on their way from defaults through profiles and options, with the history of each value.
@@ -23,15 +25,28 @@ struct Profile {
   Notices notices;
 };
 
+/// How profiles of PrusaSlicer's family are read.
+struct ImportOptions {
+  prusaslicer::PresetChoice presets;  ///< which presets of a bundle are meant
+  bool strict = false;                ///< what would be lost is an error
+};
+
 /// Lays an ini file over `profile`. `inherits = other.ini` (relative to the file) is laid down before the file's own values.
+/// A configuration or bundle of PrusaSlicer's family, or G-code that holds one, is translated, with a notice for what it loses.
 /// @throws Error{file} when the file cannot be read; Error{settings} with path:line for unknown keys (with the nearest known
 ///         one), values of wrong type or range, a key given twice, an inheritance that is missing or runs in a circle
-void apply_file(Profile& profile, const std::filesystem::path& path);
+void apply_file(Profile& profile, const std::filesystem::path& path, const ImportOptions& options = {});
 
-/// Lays a PrusaSlicer config.ini over `profile`; apply_file does so too, with a notice for each line that loses something.
+/// The same of a file's bytes. @param path for messages, and what inheritance is relative to
+void apply_text(Profile& profile, std::string_view text, const std::filesystem::path& path, const ImportOptions& options = {});
+
+/// Lays a configuration of PrusaSlicer's family over `profile`: a config.ini, a bundle, or G-code that holds one.
 /// @return the fate of its lines
-/// @throws as apply_file; Error{settings} as well when the file is not PrusaSlicer's
-prusaslicer::Translation import_prusaslicer(Profile& profile, const std::filesystem::path& path);
+/// @throws as apply_file; Error{settings} as well when the text is not PrusaSlicer's
+prusaslicer::Translation import_prusaslicer(Profile& profile, std::string_view text, const std::filesystem::path& path, const ImportOptions& options = {});
+
+/// The bytes of a profile. @throws Error{file}
+std::string read_profile(const std::filesystem::path& path);
 
 /// Lays one value over `profile`.
 /// @param where what to name in messages: the option, or path:line

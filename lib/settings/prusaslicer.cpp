@@ -5,11 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
 
 #include "core/error.h"
+#include "settings/prusaslicer_custom.h"
+#include "settings/prusaslicer_defaults.h"
 #include "settings/prusaslicer_keys.h"
+#include "settings/prusaslicer_lines.h"
+#include "settings/prusaslicer_text.h"
 #include "settings/value.h"
 
 namespace weft::prusaslicer {
@@ -18,273 +23,341 @@ namespace {
 using value::number;
 using value::trimmed;
 
-/// A number, or a share in percent.
-struct Figure {
-  double v = 0;
-  bool percent = false;
-};
-
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> out;
-  for (;;) {
-    const auto at = text.find(separator);
-    out.push_back(trimmed(text.substr(0, at)));
-    if (at == std::string_view::npos) return out;
-    text.remove_prefix(at + 1);
-  }
+/// The first of a list of texts; of a text that is no list, all of it.
+std::string first_text(const IniEntry& e) {
+  const auto all = elements_of(e.key, e.value);
+  return all.empty() ? std::string() : all.front();
 }
 
-/// The first element of PrusaSlicer's list of texts, which are quoted when they hold what would split them.
-std::string first_text(std::string_view text) {
-  text = trimmed(text);
-  if (text.empty() || text.front() != '"') return std::string(trimmed(text.substr(0, text.find(';'))));
-  std::string out;
-  for (std::size_t i = 1; i < text.size() && text[i] != '"'; ++i) {
-    if (text[i] == '\\' && i + 1 < text.size()) {
-      const char c = text[++i];
-      if (c == '"') out += '"';
-      else (out += '\\') += c;  // \n, \r and \\ mean the same to weft
-    } else {
-      out += text[i];
-    }
-  }
-  return out;
-}
-
-/// The lines of a config.ini by key, and the arithmetic between them.
+/// The arithmetic between the lines of a configuration.
 class Translator {
  public:
-  Translator(const std::vector<IniEntry>& entries, const std::string& path) : path_(path) {
-    for (const auto& e : entries) by_key_[std::string(current_name(e.key))] = &e;
-  }
+  Translator(Lines lines, const std::string& path) : lines_(std::move(lines)), path_(path) {}
 
   Translation run() {
     machine();
     widths();
     speeds();
+    accelerations();
     fills();
     extrusion();
+    cooling();
     texts();
     for (const auto& row : same_rows) copy(row);
+    custom();
+    for (const auto& e : lines_.commented()) approximate(e, "what stands behind the number is taken for a comment");
     sort_out_the_rest();
     return std::move(out_);
   }
 
  private:
-  const IniEntry* find(std::string_view key) {
-    const auto at = by_key_.find(std::string(key));
-    if (at == by_key_.end()) return nullptr;
-    seen_.push_back(at->first);
-    return at->second;
+  void set(std::string_view key, std::string text, const IniEntry& e) {
+    out_.assignments.push_back({std::string(key), std::move(text), e.line, e.key, fmt::format("{}{} = {}", e.section.empty() ? "" : "[" + e.section + "] ", e.key, e.value)});
   }
-
-  [[noreturn]] void refuse(const IniEntry& e, const char* what) const {
-    throw Error{Error::Kind::settings, fmt::format("{}: '{}' is not {}", e.key, e.value, what), fmt::format("{}:{}", path_, e.line),
-                "PrusaSlicer would read it as another number or drop it"};
+  void approximate(const IniEntry& e, std::string why) {
+    if (e.line > 0) out_.approximated.push_back({e.key, e.value, e.line, std::move(why)});
   }
-
-  /// The first element: weft prints with one extruder, and of pairs for normal and silent mode the first is the normal one.
-  Figure figure(const IniEntry& e) const {
-    auto text = split(e.value, ',').front();
-    Figure out;
-    if (!text.empty() && text.back() == '%') out.percent = true, text.remove_suffix(1);
-    try {
-      value::parse(text, Unit::none, out.v);
-    } catch (const std::invalid_argument&) {
-      refuse(e, "a number");
-    }
-    return out;
-  }
-  std::optional<Figure> figure(std::string_view key) {
-    const auto* e = find(key);
-    return e ? std::optional(figure(*e)) : std::nullopt;
-  }
-  double plain(std::string_view key, double otherwise) {
-    const auto f = figure(key);
-    return f ? f->v : otherwise;
-  }
-  bool flag(const IniEntry& e) const {
-    const auto text = split(e.value, ',').front();
-    if (text != "0" && text != "1") refuse(e, "0 or 1");
-    return text == "1";
-  }
-
-  void set(std::string_view key, std::string text, int line) { out_.assignments.push_back({std::string(key), std::move(text), line}); }
-  void approximate(const IniEntry& e, std::string why) { out_.approximated.push_back({e.key, e.value, e.line, std::move(why)}); }
+  void unsupported(const IniEntry& e, std::string why) { out_.unsupported.push_back({e.key, e.value, e.line, std::move(why)}); }
 
   void copy(const SameRow& row) {
-    const auto* e = find(row.theirs);
-    if (!e || e->value == "nil") return;
+    const auto* e = lines_.look(row.theirs);
+    if (!e || done_.count(row.theirs) != 0) return;
+    e = lines_.find(row.theirs);
+    if (e->value == "nil") return;
     switch (row.form) {
-      case Form::length: return set(row.ours, number(figure(*e).v, 3), e->line);
-      case Form::number: return set(row.ours, number(figure(*e).v), e->line);
-      case Form::times_100: return set(row.ours, number(figure(*e).v * 100), e->line);
-      case Form::zero_is_auto: return set(row.ours, figure(*e).v == 0 ? "auto" : number(figure(*e).v, 3), e->line);
+      case Form::length: return set(row.ours, number(lines_.figure(*e).v, 3), *e);
+      case Form::number: return set(row.ours, number(lines_.figure(*e).v), *e);
+      case Form::times_100: return set(row.ours, number(lines_.figure(*e).v * 100), *e);
+      case Form::zero_is_auto: return set(row.ours, lines_.figure(*e).v == 0 ? "auto" : number(lines_.figure(*e).v, 3), *e);
       case Form::share: {
-        const auto f = figure(*e);
-        return set(row.ours, number(f.v, 3) + (f.percent ? "%" : ""), e->line);
+        const auto f = lines_.figure(*e);
+        return set(row.ours, number(f.v, 3) + (f.percent ? "%" : ""), *e);
       }
-      case Form::flag: return set(row.ours, flag(*e) ? "true" : "false", e->line);
-      case Form::text: return set(row.ours, first_text(e->value), e->line);
-      case Form::choice:
-        for (const auto& c : choice_rows) {
-          if (c.key != row.theirs || c.theirs != e->value) continue;
-          set(row.ours, std::string(c.ours), e->line);
-          if (!c.loss.empty()) approximate(*e, std::string(c.loss));
-          return;
-        }
-        refuse(*e, "one of the values PrusaSlicer knows");
+      case Form::flag: return set(row.ours, lines_.flag(*e) ? "true" : "false", *e);
+      case Form::text: return set(row.ours, first_text(*e), *e);
+      case Form::choice: return choose(row, *e);
     }
+  }
+  void choose(const SameRow& row, const IniEntry& e) {
+    for (const auto& c : choice_rows) {
+      if (c.key != row.theirs || c.theirs != e.value) continue;
+      set(row.ours, std::string(c.ours), e);
+      if (!c.loss.empty()) approximate(e, std::string(c.loss));
+      return;
+    }
+    std::string known;
+    for (const auto& c : choice_rows)
+      if (c.key == row.theirs) known += fmt::format("{}{}", known.empty() ? "" : ", ", c.theirs);
+    lines_.refuse(e, fmt::format("one of {}", known));
   }
 
   void machine() {
-    if (const auto* e = find("bed_shape")) {
+    if (const auto* e = lines_.find("bed_shape")) {
       Ring bed;
       try {
         value::parse(e->value, Unit::mm, bed);
       } catch (const std::invalid_argument&) {
-        refuse(*e, "a list of points in mm");
+        lines_.refuse(*e, "a list of points in mm");
       }
       const Box box = box_of(bed);
-      const bool rectangle = bed.size() == 4 && box.min == Point{0, 0} && std::abs(double_area(bed)) == 2 * std::int64_t{box.max.x} * box.max.y;
-      set("bed_shape", rectangle ? "rectangle" : "polygon", e->line);
-      if (rectangle) {
-        set("machine_width", value::print(box.max.x, Unit::mm), e->line);
-        set("machine_depth", value::print(box.max.y, Unit::mm), e->line);
-      } else {
-        set("bed_polygon", value::print(bed, Unit::mm), e->line);
+      const Point size = bed.empty() ? Point{} : box.max - box.min;
+      const bool four = bed.size() == 4 && std::abs(double_area(bed)) == 2 * std::int64_t{size.x} * size.y;
+      const bool centred = four && box.min.x == -box.max.x && box.min.y == -box.max.y;
+      const bool rectangle = four && (box.min == Point{} || centred);
+      set("bed_shape", rectangle ? "rectangle" : "polygon", *e);
+      set("bed_polygon", rectangle ? "" : value::print(bed, Unit::mm), *e);
+      set("machine_center_is_zero", centred ? "true" : "false", *e);
+      if (size.x >= 1000 && size.y >= 1000) {  // of another shape, what surrounds it; less is nobody's bed and refused as a polygon
+        set("machine_width", value::print(size.x, Unit::mm), *e);
+        set("machine_depth", value::print(size.y, Unit::mm), *e);
       }
     }
     for (const auto* axis : {"x", "y", "z", "e"})
       for (const auto& [theirs, ours] : {std::pair{"machine_max_feedrate_", "machine_max_speed_"}, {"machine_max_acceleration_", "machine_max_acceleration_"}})
-        if (const auto* e = find(std::string(theirs) + axis)) set(std::string(ours) + axis, number(figure(*e).v), e->line);
+        if (const auto* e = lines_.find(std::string(theirs) + axis)) limit(std::string(ours) + axis, *e);
+    if (const auto* e = lines_.look("nozzle_diameter"); e && e->line > 0)
+      if (const auto n = elements_of(e->key, e->value).size(); n > 1) approximate(*e, fmt::format("weft prints with the first of {} extruders", n));
+    if (const auto* e = lines_.look("max_print_height"); e && lines_.figure(*e).v == 0) {
+      lines_.find("max_print_height");
+      done_.insert("max_print_height");
+      approximate(*e, "no limit: machine_height stays what it is");
+    }
   }
 
-  /// Widths: a share is of the layer height, 0 is automatic: the general width, else 1.125 × nozzle (1 × for tops).
+  /// A limit that no machine reaches is none: it is kept as the highest that weft takes.
+  void limit(const std::string& ours, const IniEntry& e) {
+    const double v = lines_.figure(e).v, most = ours.find("speed") != std::string::npos ? 5000 : 100'000;
+    if (v > most) approximate(e, fmt::format("{} is as high as weft goes", number(most)));
+    set(ours, number(std::min(v, most)), e);
+  }
+
+  /// Widths: a share is of the layer's height, 0 is automatic: the general width, else 1.125 × nozzle (1 × for tops).
   void widths() {
-    const double nozzle = plain("nozzle_diameter", 0.4), height = plain("layer_height", 0.2);
-    const auto in_mm = [&](Figure f) { return f.percent ? f.v / 100 * height : f.v; };
-    if (const auto* e = find("first_layer_height")) {
-      const auto f = figure(*e);
-      set("initial_layer_height", number(f.percent ? f.v / 100 * height : f.v, 3), e->line);
+    nozzle_ = lines_.look("nozzle_diameter") ? lines_.figure(*lines_.look("nozzle_diameter")).v : 0.4;
+    height_ = lines_.look("layer_height") ? lines_.figure(*lines_.look("layer_height")).v : 0.2;
+    double first_height = height_;
+    if (const auto* e = lines_.find("first_layer_height")) {
+      first_height = lines_.figure(*e).of(height_);
+      set("initial_layer_height", number(first_height, 3), *e);
     }
-    const auto general = figure("extrusion_width");
+    const auto* general = lines_.find("extrusion_width");
+    const auto width_of = [&](const IniEntry* own, double automatic) {
+      double width = own ? lines_.figure(*own).of(height_) : 0;
+      if (width == 0 && general) width = lines_.figure(*general).of(height_);
+      return width == 0 ? automatic * nozzle_ : width;
+    };
     for (const auto& row : width_rows) {
-      const auto* e = find(row.theirs);
-      const auto own = e ? std::optional(figure(*e)) : std::nullopt;
-      const auto* base = find("extrusion_width");
-      if (!e && !base) continue;
-      double width = own ? in_mm(*own) : 0;
-      if (width == 0 && general) width = in_mm(*general);
-      if (width == 0) width = row.automatic * nozzle;
-      set(row.ours, number(width, 3), e ? e->line : base->line);
+      const auto* own = lines_.find(row.theirs);
+      if (!own && !general) continue;
+      set(row.ours, number(width_of(own, row.automatic), 3), own && (own->line > 0 || !general) ? *own : *general);
+    }
+    solid_width_ = width_of(lines_.look("solid_infill_extrusion_width"), 1.125);
+    if (const auto* e = lines_.find("first_layer_extrusion_width")) {
+      const double first = lines_.figure(*e).of(first_height);
+      set("initial_layer_line_width", first == 0 ? "auto" : number(first, 3), *e);
+      // Skirt and brim are first-layer lines; where that has no width of its own, they are as wide as inner walls.
+      set("skirt_brim_line_width", number(first == 0 ? width_of(lines_.look("perimeter_extrusion_width"), 1.125) : first, 3), *e);
     }
   }
 
   /// Speeds: a share is of another speed; 0 is PrusaSlicer's automatic speed, bounded by max_print_speed.
   void speeds() {
-    const double fastest = plain("max_print_speed", 80);
+    const double fastest = lines_.number("max_print_speed", 80);
     std::map<std::string_view, double> known;
     for (const auto& row : speed_rows) {
-      const auto* e = find(row.theirs);
+      const auto* e = lines_.find(row.theirs);
       if (!e) continue;
-      const auto f = figure(*e);
       const auto base = known.find(row.base);
-      double speed = f.percent ? f.v / 100 * (base == known.end() ? fastest : base->second) : f.v;
+      double speed = lines_.figure(*e).of(base == known.end() ? fastest : base->second);
       if (speed == 0) {
         speed = fastest;
         approximate(*e, fmt::format("automatic speed becomes max_print_speed, {} mm/s", number(fastest)));
       }
       known[row.theirs] = speed;
-      set(row.ours, number(speed), e->line);
+      set(row.ours, number(speed), *e);
     }
-    bool any = false;
+    const auto speed_of = [&](std::string_view key, double otherwise) { return known.count(key) != 0 ? known[key] : otherwise; };
+    if (const auto* e = lines_.find("small_perimeter_speed")) {
+      const auto f = lines_.figure(*e);
+      set("speed_small_perimeter", f.v == 0 ? "auto" : f.percent ? number(f.of(speed_of("perimeter_speed", fastest))) : number(f.v), *e);
+      set("small_perimeter_length", "40.841", *e);  // a circle of 6.5 mm radius
+    }
+    if (const auto* e = lines_.find("first_layer_speed")) {
+      const auto f = lines_.figure(*e);
+      set("speed_layer_0", f.v == 0 ? "100%" : number(f.v) + (f.percent ? "%" : ""), *e);
+    }
+    if (const auto* e = lines_.find("overhangs")) {  // walls over air are bridges to PrusaSlicer
+      const auto* bridge = lines_.look("bridge_speed");
+      if (!lines_.flag(*e)) set("speed_overhang", "100%", *e);
+      else if (bridge) set("speed_overhang", number(speed_of("bridge_speed", fastest)), *bridge);
+    }
+    if (const auto* e = lines_.find("travel_speed_z")) {
+      const double v = lines_.figure(*e).v;
+      set("speed_z_hop", number(std::min(v > 0 ? v : speed_of("travel_speed", 130), 1000.0)), *e);
+    }
+    if (const auto* e = lines_.find("support_material_speed")) {  // skirt and brim are printed at that speed
+      const double v = lines_.figure(*e).v;
+      set("skirt_brim_speed", number(v > 0 ? v : fastest), *e);
+    }
+  }
+
+  /// Without a default acceleration none is written: there would be nothing to go back to.
+  void accelerations() {
+    const auto* general = lines_.find("default_acceleration");
+    const double otherwise = general ? lines_.figure(*general).v : 0;
     for (const auto& row : acceleration_rows)
-      if (const auto* e = find(row.theirs)) {
-        const double a = figure(*e).v;
-        any |= a > 0;
-        if (row.theirs != "default_acceleration") set(row.ours, a > 0 ? number(a) : "auto", e->line);
-        else if (a > 0) set(row.ours, number(a), e->line);
+      if (const auto* e = lines_.find(row.theirs)) {
+        const double a = lines_.figure(*e).v;
+        if (e != general) set(row.ours, a > 0 ? number(a) : "auto", *e);
+        else if (a > 0) set(row.ours, number(a), *e);
+        if (general && otherwise == 0 && a > 0) approximate(*e, "has no effect while default_acceleration is 0");
       }
-    if (const auto* e = find("default_acceleration")) set("acceleration_enabled", any ? "true" : "false", e->line);
+    if (general) set("acceleration_enabled", otherwise > 0 ? "true" : "false", *general);
   }
 
   void fills() {
-    if (const auto* e = find("fill_density")) {
-      const auto f = figure(*e);
-      set("infill_sparse_density", number(f.percent ? f.v : f.v * 100), e->line);  // without % it is a fraction, as in old profiles
+    if (const auto* e = lines_.find("fill_density")) {
+      const auto f = lines_.figure(*e);
+      set("infill_sparse_density", number(f.percent ? f.v : f.v * 100), *e);  // without % it is a fraction, as in old profiles
     }
-    if (const auto* e = find("bridge_angle")) set("bridge_angle", figure(*e).v == 0 ? "auto" : number(figure(*e).v), e->line);
-    if (const auto* e = find("elefant_foot_compensation")) set("xy_offset_layer_0", number(-figure(*e).v, 3), e->line);
-    if (const auto* e = find("brim_type"); e && e->value == "no_brim") {
-      set("brim_width", "0", e->line);
-      by_key_.erase("brim_width");
-      by_key_.erase("brim_type");
+    if (const auto* e = lines_.find("bridge_angle")) set("bridge_angle", lines_.figure(*e).v == 0 ? "auto" : number(lines_.figure(*e).v), *e);
+    if (const auto* e = lines_.find("elefant_foot_compensation")) set("xy_offset_layer_0", number(-lines_.figure(*e).v, 3), *e);
+    if (const auto* e = lines_.look("brim_type"); e && e->value == "no_brim") {
+      set("brim_width", "0", *e);
+      lines_.find("brim_width");
+      done_.insert("brim_width");
     }
-    if (const auto* e = find("thumbnails")) {
-      std::string sizes;
-      for (const auto part : split(e->value, ',')) {
-        const auto slash = part.find('/');
-        if (slash != std::string_view::npos && part.substr(slash + 1) != "PNG") approximate(*e, fmt::format("{} is left out: pictures are PNG", part));
-        else if (!part.empty()) sizes += (sizes.empty() ? "" : ", ") + std::string(part.substr(0, slash));
+    lines_.find("infill_anchor");
+    if (const auto* e = lines_.find("infill_anchor_max")) set("infill_connect_lines", lines_.figure(*e).v > 0 ? "true" : "false", *e);
+    if (const auto* e = lines_.look("bridge_flow_ratio")) {
+      const auto* thick = lines_.find("thick_bridges");
+      if (thick && !lines_.flag(*thick)) {  // the cross-section of solid infill, as a share of the round strand
+        const double area = height_ * (solid_width_ - height_ * (1 - std::numbers::pi / 4)), round = std::numbers::pi / 4 * nozzle_ * nozzle_;
+        if (round > 0 && area > 0) {
+          set("bridge_flow", number(std::clamp(100 * lines_.figure(*e).v * area / round, 10.0, 300.0), 2), *e);
+          lines_.find("bridge_flow_ratio");
+          done_.insert("bridge_flow_ratio");
+        }
       }
-      set("thumbnails", sizes, e->line);
+    } else {
+      lines_.find("thick_bridges");
     }
+    if (const auto* e = lines_.find("seam_gap_distance")) set("seam_gap_distance", number(lines_.figure(*e).of(nozzle_), 3), *e);
+    if (const auto* e = lines_.find("scarf_seam_placement")) {
+      const auto* length = lines_.find("scarf_seam_length");
+      set("scarf_joint_seam_length", e->value == "nowhere" ? "0" : length ? number(lines_.figure(*length).v, 3) : "20", *e);
+      if (e->value == "contours") approximate(*e, "holes get such seams too");
+      const auto* height = lines_.find("scarf_seam_start_height");
+      if (height && e->value != "nowhere") set("scarf_joint_seam_start_height_ratio", number(lines_.figure(*height).v), *height);
+    }
+    const auto* avoid = lines_.find("avoid_crossing_perimeters");
+    const auto* detour = lines_.find("avoid_crossing_perimeters_max_detour");
+    if (avoid && lines_.flag(*avoid)) {
+      set("retraction_combing", "all", *avoid);
+      const auto f = detour ? lines_.figure(*detour) : Figure{};
+      set("retraction_combing_max_detour", f.v == 0 ? "auto" : number(f.v, 3) + (f.percent ? "%" : ""), detour ? *detour : *avoid);
+    } else if (avoid && avoid->line > 0) {
+      out_.not_needed.push_back({avoid->key, avoid->value, avoid->line, "travels stay inside the part where that is no long way round (retraction_combing)"});
+    }
+    if (const auto* e = lines_.find("thumbnails")) thumbnails(*e);
+  }
+  void thumbnails(const IniEntry& e) {
+    std::string sizes;
+    for (const auto& part : elements_of(e.key, e.value)) {
+      const auto slash = part.find('/');
+      if (slash != std::string::npos && part.substr(slash + 1) != "PNG") approximate(e, fmt::format("{} is left out: pictures are PNG", part));
+      else if (!part.empty()) sizes += (sizes.empty() ? "" : ", ") + part.substr(0, slash);
+    }
+    set("thumbnails", sizes, e);
   }
 
   /// What the hot end melts, and how far filament is drawn back. 0 means: no limit, or never.
   void extrusion() {
     double limit = 0;
-    int line = 0;
+    const IniEntry* line = nullptr;
     for (const auto* key : {"filament_max_volumetric_speed", "max_volumetric_speed"})
-      if (const auto* e = find(key)) {
-        const double v = figure(*e).v;
-        line = e->line;
+      if (const auto* e = lines_.find(key)) {
+        const double v = lines_.figure(*e).v;
+        if (!line || (v > 0 && (limit == 0 || v < limit))) line = e;
         if (v > 0) limit = limit > 0 ? std::min(limit, v) : v;
       }
-    if (line > 0) set("material_max_volumetric_speed", number(limit > 0 ? limit : 500), line);
-    if (const auto* e = find("retract_length")) set("retraction_enable", figure(*e).v > 0 ? "true" : "false", e->line);
-    if (const auto* e = find("cooling"); e && !flag(*e)) set("cool_min_layer_time", "0", e->line), by_key_.erase("slowdown_below_layer_time");
-    if (const auto* e = find("max_volumetric_extrusion_rate_slope_positive"))
-      set("max_extrusion_rate_slope", figure(*e).v > 0 ? number(figure(*e).v) : "auto", e->line);
+    if (line) set("material_max_volumetric_speed", number(limit > 0 ? limit : 500), *line);
+    if (const auto* e = lines_.look("filament_density"); e && lines_.figure(*e).v == 0) {
+      lines_.find("filament_density");
+      done_.insert("filament_density");
+      if (e->line > 0) out_.not_needed.push_back({e->key, e->value, e->line, "not known; the weight is reckoned with weft's density"});
+    }
+    if (const auto* e = lines_.look("retract_length")) set("retraction_enable", lines_.figure(*e).v > 0 ? "true" : "false", *e);
+    if (const auto* e = lines_.find("max_volumetric_extrusion_rate_slope_positive"))
+      set("max_extrusion_rate_slope", lines_.figure(*e).v > 0 ? number(lines_.figure(*e).v) : "auto", *e);
+    // While wiping, PrusaSlicer draws back at the usual speed and moves at 0.8 × that of travels: that gives the length.
+    const auto* length = lines_.look("retract_length");
+    const double before = lines_.figure("retract_before_wipe").value_or(Figure{}).v / 100;
+    const auto* wipe = lines_.look("wipe");
+    if (wipe && length && lines_.flag(*wipe)) {
+      const auto figure_of = [&](std::string_view key, double otherwise) { return lines_.look(key) ? lines_.figure(*lines_.look(key)).v : otherwise; };
+      const double speed = figure_of("retract_speed", 40), travel = figure_of("travel_speed", 130);
+      if (speed > 0) set("wipe_distance", number(std::clamp(lines_.figure(*length).v * (1 - before) / speed * 0.8 * travel, 0.0, 100.0), 3), *wipe);
+    }
+  }
+
+  /// Without `cooling` the fan does not depend on the time of a layer, and nothing is slowed down.
+  void cooling() {
+    const auto* e = lines_.find("cooling");
+    if (!e || lines_.flag(*e)) return;
+    for (const auto& [theirs, ours] : {std::pair{"slowdown_below_layer_time", "cool_min_layer_time"}, {"fan_below_layer_time", "cool_min_layer_time_fan_speed_max"}}) {
+      set(ours, "0", *e);
+      lines_.find(theirs);
+      done_.insert(theirs);
+    }
   }
 
   /// Filament G-code goes between the printer's own and the print, as PrusaSlicer puts it.
   void texts() {
-    const auto* start = find("start_gcode");
-    const auto* filament_start = find("start_filament_gcode");
-    if (start || filament_start) set("machine_start_gcode", joined(start ? start->value : "", filament_start ? first_text(filament_start->value) : ""), (start ? start : filament_start)->line);
-    const auto* end = find("end_gcode");
-    const auto* filament_end = find("end_filament_gcode");
-    if (end || filament_end) set("machine_end_gcode", joined(filament_end ? first_text(filament_end->value) : "", end ? end->value : ""), (end ? end : filament_end)->line);
+    const auto joined = [&](std::string_view ours, const char* first, const char* second) {
+      const auto *a = lines_.find(first), *b = lines_.find(second);
+      if (!a && !b) return;
+      const std::string x = a ? first_text(*a) : "", y = b ? first_text(*b) : "";
+      set(ours, x + (x.empty() || y.empty() || x.ends_with("\\n") ? "" : "\\n") + y, a && a->line > 0 ? *a : b ? *b : *a);
+    };
+    joined("machine_start_gcode", "start_gcode", "start_filament_gcode");
+    joined("machine_end_gcode", "end_filament_gcode", "end_gcode");
   }
-  static std::string joined(std::string a, const std::string& b) {
-    if (a.empty() || b.empty()) return a + b;
-    return a + (a.ends_with("\\n") ? "" : "\\n") + b;
+
+  /// The reach that the custom G-code shows, and the values that it names.
+  void custom() {
+    if (const auto* bed = lines_.look("bed_shape"); bed && bed->line > 0)
+      if (const auto reach = reach_of(lines_)) {
+        auto e = *bed;
+        e.key = "bed_shape";
+        set("machine_reach", reach->area, e);
+        out_.assignments.back().source += fmt::format(", and {}", reach->why);
+      }
+    const auto variables = variables_of(lines_);
+    for (const auto* key : {"start_gcode", "end_gcode", "before_layer_gcode", "layer_gcode"})
+      if (const auto* e = lines_.look(key); e && !variables.empty()) {
+        set("gcode_variables", variables, *e);
+        out_.assignments.back().source = "what custom G-code names";
+        break;
+      }
   }
 
   void sort_out_the_rest() {
-    for (const auto& [key, entry] : by_key_) {
-      if (std::find(seen_.begin(), seen_.end(), key) != seen_.end()) continue;
-      const auto row = std::find_if(other_rows.begin(), other_rows.end(), [&, &k = key](const OtherRow& r) { return r.key == k; });
-      const Remark remark{entry->key, entry->value, entry->line, row == other_rows.end() ? "" : std::string(row->why)};
-      if (row == other_rows.end()) {
-        const bool of_filament = key.starts_with("filament_") && std::any_of(same_rows.begin(), same_rows.end(), [&, &k = key](const SameRow& r) { return "filament_" + std::string(r.theirs) == k; });
-        if (!of_filament) out_.unknown.push_back(remark);
-        else if (entry->value != "nil") out_.unsupported.push_back({entry->key, entry->value, entry->line, "overrides by filament"});
-        else out_.not_needed.push_back({entry->key, entry->value, entry->line, "nil: overrides nothing"});
-      } else if (row->neutral == "*" || neutral(*row, entry->value)) {
-        out_.not_needed.push_back(remark);
-      } else {
-        out_.unsupported.push_back(remark);
-      }
+    for (const auto* e : lines_.unread()) {
+      if (e->line == 0) continue;
+      const auto row = std::find_if(other_rows.begin(), other_rows.end(), [&](const OtherRow& r) { return r.key == e->key; });
+      const Remark remark{e->key, e->value, e->line, row == other_rows.end() ? "" : std::string(row->why)};
+      if (row == other_rows.end()) out_.unknown.push_back(remark);
+      else if (row->neutral == "*") out_.not_needed.push_back(remark);
+      else if (neutral(*row, *e)) out_.not_needed.push_back({e->key, e->value, e->line, "changes nothing at that value"});
+      else out_.unsupported.push_back(remark);
     }
     const auto by_line = [](const Remark& a, const Remark& b) { return a.line < b.line; };
     for (auto* list : {&out_.not_needed, &out_.approximated, &out_.unsupported, &out_.unknown}) std::stable_sort(list->begin(), list->end(), by_line);
   }
 
-  /// Does each element of the value say what the neutral one says? `0` and `0.0` and `0%` do.
-  static bool neutral(const OtherRow& row, std::string_view text) {
+  /// Does each element of the value say one of the neutral things? `0` and `0.0` and `0%` do.
+  static bool neutral(const OtherRow& row, const IniEntry& e) {
     const auto canonical = [](std::string_view t) {
       if (!t.empty() && t.back() == '%') t.remove_suffix(1);
       double v = 0;
@@ -295,14 +368,22 @@ class Translator {
       }
       return number(v);
     };
-    for (const auto part : split(text, ','))
-      if (canonical(part) != canonical(row.neutral)) return false;
-    return true;
+    const auto is_one = [&](const std::string& element) {
+      for (std::string_view rest = row.neutral;;) {
+        const auto bar = rest.find('|');
+        if (canonical(element) == canonical(rest.substr(0, bar))) return true;
+        if (bar == std::string_view::npos) return false;
+        rest.remove_prefix(bar + 1);
+      }
+    };
+    const auto elements = elements_of(e.key, e.value);
+    return std::all_of(elements.begin(), elements.end(), is_one);
   }
 
+  Lines lines_;
   const std::string& path_;
-  std::map<std::string, const IniEntry*> by_key_;
-  std::vector<std::string> seen_;
+  std::set<std::string_view> done_;  ///< rows of same_rows whose setting was reckoned otherwise
+  double nozzle_ = 0.4, height_ = 0.2, solid_width_ = 0.45;
   Translation out_;
 };
 
@@ -321,6 +402,14 @@ bool recognises(std::string_view text, const std::vector<IniEntry>& entries) {
   return found >= 2;
 }
 
-Translation translate(const std::vector<IniEntry>& entries, const std::string& path) { return Translator(entries, path).run(); }
+Translation translate(std::vector<IniEntry> entries, const std::string& path, bool complete) {
+  if (complete) {
+    std::vector<IniEntry> all;
+    for (const auto& row : default_rows) all.push_back({{}, std::string(row.key), std::string(row.value), 0});
+    all.insert(all.end(), std::make_move_iterator(entries.begin()), std::make_move_iterator(entries.end()));
+    entries = std::move(all);
+  }
+  return Translator(Lines(std::move(entries), path), path).run();
+}
 
 }  // namespace weft::prusaslicer

@@ -80,7 +80,10 @@ TEST_CASE("prusaslicer: of vectors the first value holds, and beds of any shape 
   CHECK(value_of(t, "machine_max_speed_x") == "500");
   CHECK(value_of(t, "bed_shape") == "rectangle");
   CHECK(value_of(t, "machine_depth") == "210");
-  CHECK(value_of(translated("bed_shape = -50x-50,50x-50,50x50,-50x50\n"), "bed_shape") == "polygon");
+  const auto centred = translated("bed_shape = -50x-50,50x-50,50x50,-50x50\n");
+  CHECK(value_of(centred, "bed_shape") == "rectangle");
+  CHECK(value_of(centred, "machine_center_is_zero") == "true");
+  CHECK(value_of(translated("bed_shape = -50x-40,50x-50,50x50,-50x50\n"), "bed_shape") == "polygon");
 }
 
 TEST_CASE("prusaslicer: filament G-code is laid between the printer's and the print, quoted or not") {
@@ -95,7 +98,7 @@ TEST_CASE("prusaslicer: what has no effect is listed when it would change the pr
   CHECK(t.unsupported[1].key == "spiral_vase");
   REQUIRE(t.unknown.size() == 1);
   CHECK(t.unknown[0].line == 6);
-  CHECK(t.not_needed.size() == 3);
+  CHECK(t.not_needed.size() == 2);
 }
 
 TEST_CASE("prusaslicer: values that do not parse whole are errors with the line") {

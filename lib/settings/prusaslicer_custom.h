@@ -1,0 +1,24 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "settings/prusaslicer_lines.h"
+
+/// What weft has to know of the custom G-code of a PrusaSlicer configuration beside its text.
+namespace weft::prusaslicer {
+
+/// Where the custom G-code itself goes beyond the bed.
+struct CustomReach {
+  std::string area;  ///< machine_reach, as a profile writes it
+  std::string why;   ///< the move that goes farthest: "start_gcode goes to Y-3: G1 Y-3.0 F1000.0"
+};
+
+/// PrusaSlicer knows a bed and no reach, while stock start G-code wipes the nozzle in front of the bed on purpose. A move
+/// with plain coordinates up to 60 mm off the bed is taken for something that this printer can do; what goes farther, or
+/// is reckoned while slicing, is left to the audit. Nothing when the bed encloses every such move.
+std::optional<CustomReach> reach_of(const Lines& lines);
+
+/// The lines of `gcode_variables`: the keys that custom G-code names and that no setting of weft's stands for.
+std::string variables_of(const Lines& lines);
+
+}  // namespace weft::prusaslicer

@@ -1,0 +1,76 @@
+#include "settings/prusaslicer_text.h"
+
+#include <algorithm>
+#include <array>
+
+#include "settings/value.h"
+
+namespace weft::prusaslicer {
+namespace {
+
+constexpr std::array<std::string_view, 19> single_texts{
+    "printer_model", "printer_variant", "printer_vendor", "printer_notes", "printer_settings_id", "print_settings_id", "notes", "inherits",
+    "start_gcode", "end_gcode", "before_layer_gcode", "layer_gcode", "between_objects_gcode", "toolchange_gcode", "color_change_gcode",
+    "pause_print_gcode", "template_custom_gcode", "output_filename_format", "filament_vendor"};
+constexpr std::array<std::string_view, 8> text_lists{"filament_type", "filament_settings_id", "filament_notes", "filament_colour",
+                                                     "extruder_colour", "start_filament_gcode", "end_filament_gcode", "post_process"};
+
+template <class List>
+bool among(const List& list, std::string_view key) {
+  return std::find(list.begin(), list.end(), key) != list.end();
+}
+
+}  // namespace
+
+bool is_text_list(std::string_view key) { return among(text_lists, key); }
+bool is_text(std::string_view key) { return is_text_list(key) || among(single_texts, key); }
+
+std::vector<std::string> texts_of(std::string_view list) {
+  std::vector<std::string> out;
+  list = value::trimmed(list);
+  while (!list.empty()) {
+    std::string element;
+    std::size_t i = 0;
+    if (list.front() == '"') {
+      for (i = 1; i < list.size() && list[i] != '"'; ++i) {
+        if (list[i] == '\\' && i + 1 < list.size()) {
+          const char c = list[++i];
+          if (c != '"') element += '\\';
+          element += c;
+        } else {
+          element += list[i];
+        }
+      }
+      i = std::min(list.find(';', std::min(i + 1, list.size())), list.size());
+    } else {
+      i = std::min(list.find(';'), list.size());
+      element = std::string(value::trimmed(list.substr(0, i)));
+    }
+    out.push_back(std::move(element));
+    list = value::trimmed(list.substr(std::min(i + 1, list.size())));
+  }
+  return out;
+}
+
+std::vector<std::string> elements_of(std::string_view key, std::string_view text) {
+  if (is_text_list(key)) return texts_of(text);
+  if (is_text(key)) {
+    if (text.size() >= 2 && text.front() == '"' && text.back() == '"') return texts_of(text);
+    std::string out;  // a quote may be escaped in a single text as well
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      if (text[i] == '\\' && i + 1 < text.size() && text[i + 1] != '"') out += text[i++];
+      else if (text[i] == '\\' && i + 1 < text.size()) ++i;
+      out += text[i];
+    }
+    return {out};
+  }
+  std::vector<std::string> out;
+  for (;;) {
+    const auto at = text.find(',');
+    out.emplace_back(value::trimmed(text.substr(0, at)));
+    if (at == std::string_view::npos) return out;
+    text.remove_prefix(at + 1);
+  }
+}
+
+}  // namespace weft::prusaslicer

@@ -1,0 +1,23 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// How PrusaSlicer writes lists in its ini: numbers between commas, texts between semicolons, quoted where they hold
+/// what would split them.
+namespace weft::prusaslicer {
+
+/// Is the key's value a text or a list of texts (and not a number, a flag or a choice)?
+bool is_text(std::string_view key);
+
+/// Is it a list of texts, an element an extruder?
+bool is_text_list(std::string_view key);
+
+/// The elements of a list of texts, unquoted: `\"` and `\\` are decoded in quotes, `\n` and `\r` stay as they are, for
+/// weft's own ini means the same by them.
+std::vector<std::string> texts_of(std::string_view list);
+
+/// The elements of the key's value, whatever it is a list of; a value that is no list is its own only element.
+std::vector<std::string> elements_of(std::string_view key, std::string_view text);
+
+}  // namespace weft::prusaslicer

@@ -1,0 +1,229 @@
+#include "settings/prusaslicer_bundle.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include "core/error.h"
+#include "settings/profile.h"
+
+using namespace weft;
+using Catch::Matchers::Contains;
+namespace ps = weft::prusaslicer;
+
+namespace {
+
+const std::string vendor_bundle = R"(# a vendor's bundle
+[vendor]
+name = Test Works
+
+[printer_model:ONE]
+name = The One
+variants = 0.4
+
+[print:*base*]
+layer_height = 0.2
+perimeters = 2
+perimeter_speed = 40
+compatible_printers_condition = printer_model=="ONE" and nozzle_diameter[0]==0.4
+
+[print:*fast*]
+perimeter_speed = 80
+external_perimeter_speed = 50%
+
+[print:Quality]
+inherits = *base*
+
+[print:Speed]
+inherits = *base*; *fast*
+perimeters = 3
+renamed_from = "Old Speed"
+
+[print:Coarse]
+inherits = *base*
+layer_height = 0.6
+compatible_printers_condition = nozzle_diameter[0]>=0.8
+
+[filament:PLA]
+temperature = 210
+filament_type = PLA
+filament_retract_length = nil
+
+[filament:Flex]
+temperature = 230
+filament_type = FLEX
+filament_retract_length = 3.5
+filament_retract_lift = 0
+compatible_prints_condition = layer_height == 0.2 and ! (perimeters > 2)
+
+[printer:One 0.4]
+printer_model = ONE
+nozzle_diameter = 0.4
+retract_length = 0.8
+retract_lift = 0.4
+default_print_profile = Quality
+default_filament_profile = PLA
+
+[printer:One 0.8]
+inherits = One 0.4
+nozzle_diameter = 0.8
+default_print_profile = Coarse
+)";
+
+ps::Bundle bundle_of(const std::string& text) { return ps::read_bundle(parse_ini(text, "b.ini"), "b.ini"); }
+
+Profile applied(const std::string& text, const ImportOptions& options = {}) {
+  Profile profile;
+  apply_text(profile, text, "b.ini", options);
+  check_consistency(profile);
+  return profile;
+}
+
+template <class F>
+std::string message_of(F f) {
+  try {
+    f();
+  } catch (const Error& e) {
+    CHECK(e.kind() == Error::Kind::settings);
+    return e.what();
+  }
+  return "(nothing was thrown)";
+}
+
+/// Does a print with that condition fit a printer with a list of nozzles and notes?
+bool asked(const std::string& condition) {
+  const auto bundle = bundle_of("[print:P]\ncompatible_printers_condition = " + condition +
+                                "\n[printer:Q]\nnozzle_diameter = 0.4,0.6\nprinter_notes = Keep, please.\\nPRINTER_VENDOR_X\\nPRINTER_MODEL_MK3.9\nprinter_model = MK3S\nprinter_variant = 0.4\n");
+  return ps::fits_printer(bundle, bundle.presets[0], bundle.presets[1]);
+}
+
+}  // namespace
+
+TEST_CASE("bundle: conditions are asked of the printer's own keys, and of PrusaSlicer's defaults for the rest") {
+  for (const auto* yes : {"", "nozzle_diameter[0]==0.4", "nozzle_diameter[1] == 0.6", "printer_model==\"MK3S\"", "printer_notes=~/.*PRINTER_VENDOR_X.*/", "printer_variant==\"0.4\"",
+                          "printer_notes=~/.*MK3\\.9/ and ! single_extruder_multi_material", "printer_model!~/.*MINI.*/ or 1>2", "num_extruders==2", "!(printer_notes=~/.*FLEX.*/)", "max_print_height == 200"}) {
+    INFO(yes);
+    CHECK(asked(yes));
+  }
+  for (const auto* no : {"nozzle_diameter[0]==0.6", "printer_notes=~/PRINTER_VENDOR_X/", "single_extruder_multi_material", "printer_model==\"MK3\"", "num_extruders==1"}) {
+    INFO(no);
+    CHECK_FALSE(asked(no));
+  }
+  for (const auto* bad : {"no_such_key==1", "nozzle_diameter[0]==", "(1==1", "printer_model=~/(/", "1 1"}) {
+    INFO(bad);
+    CHECK_THAT(message_of([&] { asked(bad); }), Contains("b.ini:2, compatible_printers_condition of [print:P]"));
+  }
+}
+
+TEST_CASE("bundle: of several ancestors the later wins, and the preset's own lines over all") {
+  const auto bundle = bundle_of(vendor_bundle);
+  CHECK(bundle.vendor == "Test Works");
+  const auto* speed = ps::find_preset(bundle, ps::PresetKind::print, "Speed");
+  REQUIRE(speed);
+  CHECK(speed->values.at("perimeter_speed").back().value == "80");
+  CHECK(speed->values.at("perimeters").back().value == "3");
+  CHECK(speed->values.at("layer_height").back().value == "0.2");
+  CHECK(speed->values.at("perimeter_speed").size() == 2);
+  CHECK(ps::find_preset(bundle, ps::PresetKind::print, "Old Speed") == speed);
+  CHECK_FALSE(ps::find_preset(bundle, ps::PresetKind::filament, "Speed"));
+}
+
+TEST_CASE("bundle: presets are listed when they fit, abstract ones never") {
+  const auto bundle = bundle_of(vendor_bundle);
+  CHECK(ps::presets_of(bundle, ps::PresetKind::print).size() == 3);
+  const auto* printer = ps::find_preset(bundle, ps::PresetKind::printer, "One 0.4");
+  const auto* quality = ps::find_preset(bundle, ps::PresetKind::print, "Quality");
+  const auto* speed = ps::find_preset(bundle, ps::PresetKind::print, "Speed");
+  CHECK(ps::presets_of(bundle, ps::PresetKind::print, printer).size() == 2);
+  CHECK(ps::presets_of(bundle, ps::PresetKind::filament, printer, quality).size() == 2);
+  CHECK(ps::presets_of(bundle, ps::PresetKind::filament, printer, speed).size() == 1);
+}
+
+TEST_CASE("bundle: what is not chosen follows from the printer, and what is missing from PrusaSlicer's defaults") {
+  const auto p = applied(vendor_bundle, {{"", "", "One 0.4"}, false});
+  CHECK(p.settings.speeds.speed_wall_x == 40);
+  CHECK(p.settings.walls.wall_line_count == 2);
+  CHECK(p.settings.material.material_print_temperature == 210);
+  CHECK(p.settings.retraction.retraction_amount == 800);
+  CHECK(p.settings.shells.top_layers == 3);  // nobody says it
+  CHECK(p.origins.at("wall_line_count").back().source == "[print:*base*] perimeters = 2");
+  CHECK_THAT(origin_of(p, "wall_line_count"), Contains("b.ini:11"));
+  CHECK_THAT(origin_of(p, "top_layers"), Contains("default"));
+  CHECK(std::count_if(p.notices.begin(), p.notices.end(), [](const Notice& n) { return n.code == "preset_chosen"; }) == 2);
+}
+
+TEST_CASE("bundle: a filament overrides the printer's retraction where it does not say nil") {
+  const auto p = applied(vendor_bundle, {{"Quality", "Flex", "One 0.4"}, false});
+  CHECK(p.settings.retraction.retraction_amount == 3500);
+  CHECK(p.settings.retraction.retraction_hop == 0);
+  CHECK_THAT(p.origins.at("retraction_amount").back().source, Contains("[filament:Flex]"));
+}
+
+TEST_CASE("bundle: an error names the presets that there are, or those that fit") {
+  CHECK_THAT(message_of([] { applied(vendor_bundle); }), Contains("2 printer presets") && Contains("--preset printer=NAME: 'One 0.4', 'One 0.8'"));
+  CHECK_THAT(message_of([] { applied(vendor_bundle, {{"Sped", "", "One 0.4"}, false}); }), Contains("did you mean 'Speed'"));
+  CHECK_THAT(message_of([] { applied(vendor_bundle, {{"Coarse", "", "One 0.4"}, false}); }), Contains("not made for the printer 'One 0.4'"));
+  CHECK_THAT(message_of([] { applied(vendor_bundle, {{"Speed", "Flex", "One 0.4"}, false}); }), Contains("not made for the print preset"));
+  CHECK_THAT(message_of([] { applied("[vendor]\nname = V\n[print:A]\ninherits = B\n[print:B]\ninherits = A\n"); }), Contains("b.ini:6") || Contains("inherits itself"));
+  CHECK_THAT(message_of([] { applied("[vendor]\nname = V\n[print:A]\ninherits = *none*\n"); }), Contains("b.ini:4") && Contains("inherits '*none*', which is not there"));
+  CHECK_THAT(message_of([] { applied("[print:A]\nperimeters = 1\nperimeters = 2\n"); }), Contains("b.ini:3") && Contains("already given on line 2"));
+}
+
+TEST_CASE("bundle: what was selected in the window when a bundle was exported is what it stands for") {
+  const auto text = vendor_bundle + "\n[presets]\nprint = Speed\nfilament = PLA\nprinter = One 0.4\n";
+  const auto p = applied(text);
+  CHECK(p.settings.walls.wall_line_count == 3);
+  CHECK(p.settings.speeds.speed_wall_0 == 40);
+}
+
+TEST_CASE("bundle: a chain of ancestors without end is an error, not a crash") {
+  std::string text = "[vendor]\nname = V\n";
+  for (int i = 0; i < 5000; ++i) text += fmt::format("[print:P{}]\ninherits = P{}\n", i, i + 1);
+  CHECK_THAT(message_of([&] { bundle_of(text + "[print:P5000]\nperimeters = 1\n"); }), Contains("generations"));
+}
+
+TEST_CASE("bundle: every compatible combination of PrusaSlicer's own vendor bundles resolves", "[vendor]") {
+  namespace fs = std::filesystem;
+  const fs::path folder = "/usr/share/PrusaSlicer/profiles";
+  if (!fs::is_directory(folder)) {
+    WARN("SKIPPED: " << folder.string() << " is not there (Debian's package prusa-slicer brings it)");
+    return;
+  }
+  std::size_t combinations = 0, bundles = 0, refused = 0;
+  std::set<std::string> unknown;
+  for (const auto& file : fs::directory_iterator(folder)) {
+    if (file.path().extension() != ".ini") continue;
+    INFO(file.path().filename().string());
+    ++bundles;
+    const auto text = read_profile(file.path());
+    const auto bundle = ps::read_bundle(parse_ini(text, file.path().filename().string()), file.path().filename().string());
+    for (const auto* printer : ps::presets_of(bundle, ps::PresetKind::printer)) {
+      for (const auto* print : ps::presets_of(bundle, ps::PresetKind::print, printer)) {
+        for (const auto* filament : ps::presets_of(bundle, ps::PresetKind::filament, printer, print)) {
+          ++combinations;
+          INFO(print->name << " / " << filament->name << " / " << printer->name);
+          std::vector<IniEntry> lines;
+          for (const auto& [key, history] : ps::flattened({print, filament, printer, {}})) lines.push_back(history.back());
+          try {
+            Profile profile;
+            const auto translated = ps::translate(std::move(lines), bundle.path, true);
+            for (const auto& a : translated.assignments) apply_value(profile, a.key, a.text, fmt::format("{}:{}", bundle.path, a.line));
+            if (profile.settings.layers.layer_height > profile.settings.machine.nozzle_diameter) ++refused;  // by PrusaSlicer as well, when it slices
+            else check_consistency(profile);
+            for (const auto& r : translated.unknown) unknown.insert(r.key);
+          } catch (const Error& e) {
+            FAIL_CHECK(e.what());
+          }
+        }
+      }
+    }
+  }
+  WARN(combinations << " compatible combinations in " << bundles << " bundles");
+  CHECK(bundles >= 10);
+  CHECK(refused * 1000 < combinations);
+  WARN(refused << " of them have layers higher than the nozzle; keys of SuperSlicer or nobody: " << unknown.size());
+}
