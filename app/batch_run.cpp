@@ -118,7 +118,7 @@ jobs::BatchOptions batch_options_of(const Command& command) {
 }
 
 std::vector<jobs::Prepared> prepare_all(Console& console, jobs::JobList list, const Command& command) {
-  auto jobs = jobs::prepare(std::move(list.jobs), {command.profiles, command.settings}, list.errors);
+  auto jobs = jobs::prepare(std::move(list.jobs), {command.profiles, command.settings, command.import}, list.errors);
   if (list.errors.empty()) return jobs;
   constexpr std::size_t most = 20;  // a list with a wrong column has an error on every line
   const auto count = list.errors.size();

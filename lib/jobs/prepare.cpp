@@ -1,6 +1,7 @@
 #include "jobs/prepare.h"
 
 #include "gcode/writer.h"
+#include "pipeline/profile_file.h"
 
 #include <map>
 
@@ -29,11 +30,11 @@ void check_model(const std::string& path) {
 /// Profiles by the files they are laid from.
 class ProfileShelf {
  public:
-  const Profile& of(const std::vector<std::filesystem::path>& files) {
+  const Profile& of(const std::vector<std::filesystem::path>& files, const ImportOptions& import) {
     const auto at = profiles_.find(files);
     if (at != profiles_.end()) return at->second;
     Profile profile;
-    for (const auto& file : files) apply_file(profile, file);
+    for (const auto& file : files) apply_profile(profile, file, import);
     return profiles_.emplace(files, std::move(profile)).first->second;
   }
 
@@ -45,7 +46,7 @@ Prepared prepare_one(JobLine line, const Common& common, ProfileShelf& shelf) {
   for (const auto& model : line.models) check_model(model);
   auto files = common.profiles;
   files.insert(files.end(), line.profiles.begin(), line.profiles.end());
-  Profile profile = shelf.of(files);
+  Profile profile = shelf.of(files, common.import);
   for (const auto& [key, text] : common.settings) apply_value(profile, key, text, "--set " + key);
   for (const auto& [key, text] : line.settings) apply_value(profile, key, text, line.where);
   check_consistency(profile);

@@ -9,6 +9,7 @@ namespace weft::jobs {
 struct Common {
   std::vector<std::filesystem::path> profiles;
   std::vector<std::pair<std::string, std::string>> settings;
+  ImportOptions import;  ///< how profiles of PrusaSlicer's family are read
 };
 
 /// A job with its settings resolved: ready to run.

@@ -30,11 +30,20 @@ std::vector<SlicedLayer> slice_object(const Settings& settings, const PlacedObje
   return layers;
 }
 
-std::vector<WallLayer> build_walls(const Settings& settings, const std::vector<SlicedLayer>& layers, const Watch& watch, Report& report) {
+/// The settings of the first layer, whose lines may have a width of their own.
+Settings of_first_layer(Settings settings) {
+  if (const auto width = settings.layers.initial_layer_line_width) {
+    settings.walls.wall_line_width_0 = settings.walls.wall_line_width_x = width;
+    settings.infill.infill_line_width = settings.shells.skin_line_width = settings.shells.top_skin_line_width = width;
+  }
+  return settings;
+}
+
+std::vector<WallLayer> build_walls(const Settings& settings, const Settings& first, const std::vector<SlicedLayer>& layers, const Watch& watch, Report& report) {
   const Stopwatch stopwatch(report.timings_ms.walls);
   auto walls = parallel_map(layers.size(), [&](std::size_t i) {
     stop_if_cancelled(watch);
-    return walls::build(settings.walls, {.layer = layers[i], .index = i, .nozzle_diameter = settings.machine.nozzle_diameter});
+    return walls::build((i == 0 ? first : settings).walls, {.layer = layers[i], .index = i, .nozzle_diameter = settings.machine.nozzle_diameter});
   });
   for (auto& layer : walls) append(report.warnings, std::move(layer.notices));
   return walls;
@@ -60,7 +69,8 @@ std::vector<infill::LayerAreas> find_areas(const Settings& settings, const std::
 PrintedLayers print_object(const Settings& settings, const PlacedObject& object, const Watch& watch, Report& report) {
   auto layers = slice_object(settings, object, watch, report);
   watch.progress("walls", 0.15);
-  auto walls = build_walls(settings, layers, watch, report);
+  const auto first = of_first_layer(settings);
+  auto walls = build_walls(settings, first, layers, watch, report);
   watch.progress("infill", 0.5);
 
   const Stopwatch stopwatch(report.timings_ms.infill);
@@ -69,9 +79,10 @@ PrintedLayers print_object(const Settings& settings, const PlacedObject& object,
   for (const auto& layer : layers) box.add(box_of(layer.regions));
   auto fills = parallel_map(layers.size(), [&](std::size_t i) {
     stop_if_cancelled(watch);
-    return infill::fill(settings.infill, settings.shells, {.areas = areas[i], .index = i, .z = layers[i].z, .height = layers[i].height,
+    const auto& s = i == 0 ? first : settings;
+    return infill::fill(s.infill, s.shells, {.areas = areas[i], .index = i, .z = layers[i].z, .height = layers[i].height,
                                                            .nozzle = settings.machine.nozzle_diameter,
-                                                           .wall_line_width = settings.walls.wall_line_width_x.value_or(0),
+                                                           .wall_line_width = s.walls.wall_line_width_x.value_or(0),
                                                            .origin = box.empty() ? Point{} : box.centre()});
   });
   PrintedLayers out(layers.size());

@@ -210,7 +210,7 @@ void check_consistency(const Profile& profile) {
     refuse("initial_layer_height", fmt::format("{} mm is more than nozzle_diameter {} mm", to_mm(*s.layers.initial_layer_height), to_mm(nozzle)),
            "a bead cannot be higher than the nozzle is wide");
   if (s.machine.bed_shape == BedShape::polygon && s.machine.bed_polygon.size() < 3)
-    refuse("bed_polygon", "a bed of shape polygon needs at least three corners", "give them as 0x0, 220x0, 220x220, 0x220");
+    refuse(profile.origins.count("bed_polygon") != 0 ? "bed_polygon" : "bed_shape", "a bed of shape polygon needs at least three corners in bed_polygon", "give them as 0x0, 220x0, 220x220, 0x220");
   check_areas(s.machine, refuse);
   try {
     (void)parse_gcode_variables(s.gcode.gcode_variables);

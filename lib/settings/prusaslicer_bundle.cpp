@@ -7,7 +7,6 @@
 
 #include "core/error.h"
 #include "macro/macro.h"
-#include "settings/gcode_variables.h"
 #include "settings/near.h"
 #include "settings/prusaslicer_defaults.h"
 #include "settings/prusaslicer_text.h"
@@ -81,12 +80,7 @@ std::optional<std::string> value_in(const Preset& preset, std::string_view key) 
 /// What a condition may name: the keys of the preset that it is asked of, PrusaSlicer's defaults for the rest.
 macro::Variables variables_of(const Preset& preset) {
   macro::Variables out;
-  const auto add = [&](const std::string& key, std::string_view text) {
-    auto elements = elements_of(key, text);
-    if (is_text(key))
-      for (auto& element : elements) element = quoted_variable(element);
-    out[key] = macro::variable_of(fmt::format("{}", fmt::join(elements, ", ")));
-  };
+  const auto add = [&](const std::string& key, std::string_view text) { out[key] = macro::variable_of(in_macro_words(key, text)); };
   for (const auto& row : default_rows) add(std::string(row.key), row.value);
   for (const auto& [key, history] : preset.values) add(key, history.back().value);
   for (const auto* key : {"printer_notes", "printer_model", "printer_variant"})

@@ -9,7 +9,6 @@
 #include <stdexcept>
 
 #include "settings/catalogue.h"
-#include "settings/gcode_variables.h"
 #include "settings/prusaslicer_text.h"
 #include "settings/value.h"
 
@@ -137,16 +136,8 @@ std::string variables_of(const Lines& lines) {
     });
   }
   std::string out;
-  for (const auto& name : named) {
-    auto elements = elements_of(name, lines.look(name)->value);
-    if (is_text(name))
-      for (auto& element : elements) {
-        std::string decoded;
-        value::parse(element, Unit::none, decoded);
-        element = quoted_variable(decoded);
-      }
-    out += fmt::format("{}{} = {}", out.empty() ? "" : "\n", name, fmt::join(elements, ", "));
-  }
+  for (const auto& name : named)
+    out += fmt::format("{}{} = {}", out.empty() ? "" : "\n", name, in_macro_words(name, lines.look(name)->value));
   return value::print(out, Unit::none);
 }
 

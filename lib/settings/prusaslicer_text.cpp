@@ -1,8 +1,11 @@
 #include "settings/prusaslicer_text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
+#include "settings/gcode_variables.h"
 #include "settings/value.h"
 
 namespace weft::prusaslicer {
@@ -15,6 +18,20 @@ constexpr std::array<std::string_view, 19> single_texts{
 constexpr std::array<std::string_view, 8> text_lists{"filament_type", "filament_settings_id", "filament_notes", "filament_colour",
                                                      "extruder_colour", "start_filament_gcode", "end_filament_gcode", "post_process"};
 
+constexpr std::array<std::string_view, 59> flags{
+    "autoemit_temperature_commands", "automatic_extrusion_widths", "automatic_infill_combination", "avoid_crossing_curled_overhangs",
+    "avoid_crossing_perimeters", "binary_gcode", "clip_multipart_objects", "complete_objects", "cooling", "dont_support_bridges",
+    "enable_dynamic_fan_speeds", "enable_dynamic_overhang_speeds", "external_perimeters_first", "extra_perimeters", "extra_perimeters_on_overhangs",
+    "fan_always_on", "filament_abrasive", "filament_soluble", "gap_fill_enabled", "gcode_comments", "high_current_on_filament_swap", "infill_first",
+    "infill_only_where_needed", "interface_shells", "ironing", "nozzle_high_flow", "only_one_perimeter_first_layer",
+    "only_retract_when_crossing_perimeters", "ooze_prevention", "overhangs", "prefer_clockwise_movements", "remaining_times", "retract_layer_change",
+    "scarf_seam_only_on_smooth", "silent_mode", "single_extruder_multi_material", "single_extruder_multi_material_priming", "spiral_vase",
+    "staggered_inner_seams", "support_material", "support_material_auto", "support_material_buildplate_only",
+    "support_material_interface_contact_loops", "support_material_synchronize_layers", "support_material_with_sheath", "thick_bridges", "thin_walls",
+    "travel_lift_before_obstacle", "travel_ramping_lift", "use_firmware_retraction", "use_relative_e_distances", "use_volumetric_e",
+    "variable_layer_height", "wipe", "wipe_into_infill", "wipe_into_objects", "wipe_tower", "wipe_tower_no_sparse_layers",
+    "wiping_volumes_use_custom_matrix",};
+
 template <class List>
 bool among(const List& list, std::string_view key) {
   return std::find(list.begin(), list.end(), key) != list.end();
@@ -23,6 +40,7 @@ bool among(const List& list, std::string_view key) {
 }  // namespace
 
 bool is_text_list(std::string_view key) { return among(text_lists, key); }
+bool is_flag(std::string_view key) { return among(flags, key); }
 bool is_text(std::string_view key) { return is_text_list(key) || among(single_texts, key); }
 
 std::vector<std::string> texts_of(std::string_view list) {
@@ -71,6 +89,20 @@ std::vector<std::string> elements_of(std::string_view key, std::string_view text
     if (at == std::string_view::npos) return out;
     text.remove_prefix(at + 1);
   }
+}
+
+std::string in_macro_words(std::string_view key, std::string_view text) {
+  auto elements = elements_of(key, text);
+  for (auto& element : elements) {
+    if (is_text(key)) {
+      std::string decoded;
+      value::parse(element, Unit::none, decoded);
+      element = quoted_variable(decoded);
+    } else if (is_flag(key)) {
+      element = element == "1" ? "true" : element == "0" ? "false" : element;
+    }
+  }
+  return fmt::format("{}", fmt::join(elements, ", "));
 }
 
 }  // namespace weft::prusaslicer

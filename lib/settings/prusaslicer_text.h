@@ -13,6 +13,12 @@ bool is_text(std::string_view key);
 /// Is it a list of texts, an element an extruder?
 bool is_text_list(std::string_view key);
 
+/// Is it 0 or 1 and nothing else?
+bool is_flag(std::string_view key);
+
+/// The value in the words of macro::variable_of and of `gcode_variables`: texts in quotes, flags as true and false.
+std::string in_macro_words(std::string_view key, std::string_view text);
+
 /// The elements of a list of texts, unquoted: `\"` and `\\` are decoded in quotes, `\n` and `\r` stay as they are, for
 /// weft's own ini means the same by them.
 std::vector<std::string> texts_of(std::string_view list);

@@ -1,5 +1,6 @@
 #include "settings/machine.h"
 #include "settings/profile.h"
+#include "settings/rules.h"
 
 #include <filesystem>
 #include <set>
@@ -39,7 +40,7 @@ TEST_CASE("profiles: each one that comes with weft is valid by itself", "[settin
       CHECK(profile.notices.empty());
       ++count;
     }
-  CHECK(count >= 18);
+  CHECK(count >= 45);
 }
 
 TEST_CASE("profiles: every printer prints every material in every quality made for its nozzle",
@@ -62,5 +63,20 @@ TEST_CASE("profiles: every printer prints every material in every quality made f
         CHECK(reach_z_max(machine) >= machine.machine_height + 5000);  // the end G-code lifts by 5 mm
         ++combinations;
       }
-  CHECK(combinations == (3 + 1 + 1) * 4 * 3);
+  CHECK(combinations >= 30 * 4 * 3);
+}
+
+TEST_CASE("profiles: a printer that comes with weft leaves nothing to doubt, and has a name of its own", "[settings][profiles]") {
+  std::set<std::string> names;
+  for (const auto& printer : shipped("printers")) {
+    INFO(printer.filename().string());
+    Profile profile;
+    apply_file(profile, printer);
+    apply_file(profile, shipped("materials").begin()->parent_path() / "pla.ini");
+    const auto nozzle = nozzle_of(printer);
+    apply_file(profile, fs::path(WEFT_SOURCE_DIR) / "profiles/quality" / (nozzle == "0.4" ? "standard.ini" : "standard-" + nozzle + ".ini"));
+    for (const auto& doubt : doubts_about(profile)) FAIL_CHECK(doubt.message);
+    CHECK(names.insert(profile.settings.machine.machine_name + nozzle).second);
+  }
+  CHECK(names.size() >= 25);
 }
