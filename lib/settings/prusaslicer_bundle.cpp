@@ -90,28 +90,37 @@ macro::Variables variables_of(const Preset& preset) {
   return out;
 }
 
-/// A preset that others are held against, and what their conditions may name of it.
-struct Held {
-  const Preset& preset;
-  macro::Variables variables = variables_of(preset);
+/// A preset that others are held against. What their conditions may name of it is gathered when one first asks.
+class Held {
+ public:
+  explicit Held(const Preset& preset) : preset_(&preset) {}
+  const Preset& preset() const { return *preset_; }
+  const macro::Variables& variables() {
+    if (!variables_) variables_ = variables_of(*preset_);
+    return *variables_;
+  }
+
+ private:
+  const Preset* preset_;
+  std::optional<macro::Variables> variables_;
 };
 
 /// The answer of the list of names, or of the condition where there is no list; true where there is neither.
-bool fits(const Bundle& bundle, const Preset& preset, const char* list, const char* condition, const Held& other) {
+bool fits(const Bundle& bundle, const Preset& preset, const char* list, const char* condition, Held& other) {
   const auto names = texts_of(value_in(preset, list).value_or(""));
   if (!names.empty()) {
     const auto known = [&](const std::string& n) { return std::find(names.begin(), names.end(), n) != names.end(); };
-    return known(other.preset.name) || known(value_in(other.preset, "inherits").value_or(""));
+    return known(other.preset().name) || known(value_in(other.preset(), "inherits").value_or(""));
   }
   const auto found = preset.values.find(condition);
-  if (found == preset.values.end()) return true;
-  return macro::holds(found->second.back().value, other.variables,
+  if (found == preset.values.end() || value::trimmed(found->second.back().value).empty()) return true;
+  return macro::holds(found->second.back().value, other.variables(),
                       fmt::format("{}, {} of [{}:{}]", at(bundle.path, found->second.back().line), condition, name_of(preset.kind), preset.name));
 }
-bool fits_printer(const Bundle& bundle, const Preset& preset, const Held& printer) {
+bool fits_printer(const Bundle& bundle, const Preset& preset, Held& printer) {
   return fits(bundle, preset, "compatible_printers", "compatible_printers_condition", printer);
 }
-bool fits_print(const Bundle& bundle, const Preset& filament, const Held& print) {
+bool fits_print(const Bundle& bundle, const Preset& filament, Held& print) {
   return fits(bundle, filament, "compatible_prints", "compatible_prints_condition", print);
 }
 
@@ -184,14 +193,20 @@ const Preset* find_preset(const Bundle& bundle, PresetKind kind, std::string_vie
   return nullptr;
 }
 
-bool fits_printer(const Bundle& bundle, const Preset& preset, const Preset& printer) { return fits_printer(bundle, preset, Held{printer}); }
-bool fits_print(const Bundle& bundle, const Preset& filament, const Preset& print) { return fits_print(bundle, filament, Held{print}); }
+bool fits_printer(const Bundle& bundle, const Preset& preset, const Preset& printer) {
+  Held held(printer);
+  return fits_printer(bundle, preset, held);
+}
+bool fits_print(const Bundle& bundle, const Preset& filament, const Preset& print) {
+  Held held(print);
+  return fits_print(bundle, filament, held);
+}
 
 std::vector<const Preset*> presets_of(const Bundle& bundle, PresetKind kind, const Preset* printer, const Preset* print) {
   std::vector<const Preset*> out;
   std::optional<Held> held_printer, held_print;
-  if (printer) held_printer.emplace(Held{*printer});
-  if (print) held_print.emplace(Held{*print});
+  if (printer) held_printer.emplace(*printer);
+  if (print) held_print.emplace(*print);
   for (const auto& p : bundle.presets)
     if (p.kind == kind && !p.abstract && value_in(p, "printer_technology").value_or("FFF") == "FFF" && (!printer || kind == PresetKind::printer || fits_printer(bundle, p, *held_printer)) &&
         (!print || kind != PresetKind::filament || fits_print(bundle, p, *held_print)))

@@ -16,7 +16,8 @@ namespace weft::prusaslicer {
 namespace {
 
 constexpr Um farthest = 60'000;  // off the bed: beyond that a coordinate is more likely a slip than a purge bucket
-constexpr std::array<std::string_view, 6> custom_keys{"start_gcode", "start_filament_gcode", "before_layer_gcode", "layer_gcode", "end_filament_gcode", "end_gcode"};
+constexpr std::array<std::string_view, 8> custom_keys{"start_gcode", "start_filament_gcode", "before_layer_gcode", "layer_gcode",
+                                                      "toolchange_gcode", "between_objects_gcode", "end_filament_gcode", "end_gcode"};
 
 /// The custom G-code of that key with its line ends.
 std::string text_of(const Lines& lines, std::string_view key) {

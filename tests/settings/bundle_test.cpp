@@ -206,9 +206,11 @@ Tally resolve_vendors(bool whole) {
     const auto bundle = ps::read_bundle(parse_ini(read_profile(file), file.filename().string()), file.filename().string());
     for (const auto* printer : ps::presets_of(bundle, ps::PresetKind::printer)) {
       std::size_t prints = 0;
+      const auto fitting = ps::presets_of(bundle, ps::PresetKind::filament, printer);
       for (const auto* print : ps::presets_of(bundle, ps::PresetKind::print, printer)) {
         std::size_t filaments = 0;
-        for (const auto* filament : ps::presets_of(bundle, ps::PresetKind::filament, printer, print)) {
+        for (const auto* filament : fitting) {
+          if (!ps::fits_print(bundle, *filament, *print)) continue;
           ++tally.combinations;
           if (filaments++ > 0 && prints > 0 && !whole) continue;
           INFO(bundle.path << ": " << print->name << " / " << filament->name << " / " << printer->name);
