@@ -1,10 +1,9 @@
 #include "settings/prusaslicer_text.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 
+#include "core/join.h"
 #include "settings/gcode_variables.h"
 #include "settings/value.h"
 
@@ -102,7 +101,7 @@ std::string in_macro_words(std::string_view key, std::string_view text) {
       element = element == "1" ? "true" : element == "0" ? "false" : element;
     }
   }
-  return fmt::format("{}", fmt::join(elements, ", "));
+  return joined(elements);
 }
 
 }  // namespace weft::prusaslicer
