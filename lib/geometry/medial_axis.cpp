@@ -123,7 +123,10 @@ struct Diagram {
   std::vector<Vortex> vertices;
 };
 
-/// Gauss-Newton on the three distances, from where CGAL's construction left the vertex.
+/// Distances that differ by less are equal, µm: what is left of the outline's shaking after the first step of refinement.
+constexpr double exact_um = 1e-4;
+
+/// Gauss-Newton on the three distances, from where CGAL's construction left the vertex of the shaken outline.
 void refine(const Diagram& diagram, Vortex& v) {
   for (int round = 0; round < 8; ++round) {
     // Unknowns x, y, r: distance(site, p) = r; signs of edge distances are those at the start.
@@ -144,7 +147,7 @@ void refine(const Diagram& diagram, Vortex& v) {
       worst = std::max(worst, std::abs(error));
       m[i][0] = gx, m[i][1] = gy, m[i][2] = -1, m[i][3] = error;
     }
-    if (worst < 0.01) return;
+    if (worst < exact_um) return;
     auto det = [&](int a, int b, int c) {
       return m[0][a] * (m[1][b] * m[2][c] - m[1][c] * m[2][b]) - m[0][b] * (m[1][a] * m[2][c] - m[1][c] * m[2][a]) +
              m[0][c] * (m[1][a] * m[2][b] - m[1][b] * m[2][a]);
@@ -201,8 +204,14 @@ void spread_sides(Diagram& diagram) {
   }
 }
 
+/// Where the point was before it was shaken.
+Place unshaken(double x, double y) {
+  constexpr double steps = static_cast<double>(detail::grid_steps);
+  return {std::round(x * steps) / steps, std::round(y * steps) / steps};
+}
+
 Diagram diagram_of(const detail::Outline& outline) {
-  constexpr double step = 1.0 / static_cast<double>(detail::grid_steps);
+  constexpr double step = 1.0 / static_cast<double>(detail::shaken_steps);
   std::vector<Traits::Point_2> points;
   points.reserve(outline.points.size());
   for (const auto p : outline.points)
@@ -216,12 +225,8 @@ Diagram diagram_of(const detail::Outline& outline) {
   for (auto v = graph.finite_vertices_begin(); v != graph.finite_vertices_end(); ++v) {
     v->number = static_cast<std::uint32_t>(out.sites.size());
     const auto site = v->site();
-    if (site.is_point()) {
-      const Place p{site.point().x(), site.point().y()};
-      out.sites.push_back({p, p, true});
-    } else {
-      out.sites.push_back({{site.source().x(), site.source().y()}, {site.target().x(), site.target().y()}, false});
-    }
+    const auto a = site.is_point() ? site.point() : site.source(), b = site.is_point() ? a : site.target();
+    out.sites.push_back({unshaken(a.x(), a.y()), unshaken(b.x(), b.y()), site.is_point()});
   }
   std::uint32_t count = 0;
   for (auto f = graph.all_faces_begin(); f != graph.all_faces_end(); ++f) f->number = count++;

@@ -54,6 +54,22 @@ GridRings rings_of(const Region& region, Point origin) {
   return out;
 }
 
+/// A number that looks random, and is the same for the same point. Source: Steele, Lea & Flood 2014, "Fast splittable
+/// pseudorandom number generators" (the mixing function of SplitMix64).
+std::uint64_t mixed(GridPoint p) {
+  std::uint64_t z = static_cast<std::uint64_t>(p.x) * 0x9E3779B97F4A7C15u + static_cast<std::uint64_t>(p.y) * 0xD1B54A32D192ED03u;
+  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+  z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+  return z ^ (z >> 31);
+}
+
+GridPoint shaken(GridPoint p) {
+  constexpr std::int64_t finer = shaken_steps / grid_steps, reach = finer / 4;  // neighbours on the grid stay apart
+  const std::uint64_t random = mixed(p);
+  const auto shift = [](std::uint64_t bits) { return static_cast<std::int64_t>(bits % (2 * reach + 1)) - reach; };
+  return {p.x * finer + shift(random & 0xFFFFFFFF), p.y * finer + shift(random >> 32)};
+}
+
 /// Distinct points and the segments between them; segments that occur twice, or to and fro, cancel.
 Outline indexed(const GridRings& rings) {
   Outline out;
@@ -68,6 +84,7 @@ Outline indexed(const GridRings& rings) {
       const auto a = index(ring[i]), b = index(ring[(i + 1) % ring.size()]);
       if (a != b) out.segments.emplace_back(a, b);
     }
+  for (auto& p : out.points) p = shaken(p);
   return out;
 }
 

@@ -58,6 +58,16 @@ def write_stl(path, triangles):
             out.write(struct.pack("<12fH", 0, 0, 0, *t[0], *t[1], *t[2], 0))
 
 
+def write_model(path, make):
+    """Writes a generated model in a process of its own: what a child may have held counts as its peak memory, and a child
+    begins as a copy of its parent."""
+    pid = os.fork()
+    if pid == 0:
+        write_stl(path, make())
+        os._exit(0)
+    os.waitpid(pid, 0)
+
+
 def prism(ring, z0, z1):
     """A prism over a convex ring, counter-clockwise."""
     out, n = [], len(ring)
@@ -101,7 +111,7 @@ def generated(folder, size):
     out = []
     for name, make in models.items():
         path = folder / (name.replace(" ", "-").replace(",", "") + ".stl")
-        write_stl(path, make())
+        write_model(path, make)
         out.append(path)
     return out
 
