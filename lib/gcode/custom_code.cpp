@@ -20,6 +20,30 @@ char upper(char c) {
   return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }
 
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+bool is_letter(char c) {
+  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+}
+
+/// Does a macro of the firmware (PRINT_START, not G28) get that number among its arguments?
+bool macro_is_handed(std::string_view code, int number) {
+  const auto wanted = fmt::format("{}", number);
+  while (!code.empty()) {
+    const auto end = std::min(code.find('\n'), code.size());
+    auto line = value::trimmed(code.substr(0, end));
+    line = line.substr(0, line.find(';'));
+    code.remove_prefix(std::min(end + 1, code.size()));
+    if (line.size() < 2 || !is_letter(line[0]) || is_digit(line[1])) continue;
+    for (auto at = line.find(wanted); at != std::string_view::npos; at = line.find(wanted, at + 1)) {
+      const auto after = at + wanted.size();
+      if (!is_digit(line[at - 1]) && (after == line.size() || !is_digit(line[after]))) return true;
+    }
+  }
+  return false;
+}
+
 Variable pair_of(Um a, Um b) {
   Variable out;
   out.values = {to_mm(a), to_mm(b)};
@@ -143,18 +167,19 @@ bool has_command(std::string_view code, std::string_view command) {
     const auto line = value::trimmed(code.substr(0, end));
     const bool same = line.size() >= command.size() && std::equal(command.begin(), command.end(), line.begin(),
                                                                   [](char a, char b) { return a == upper(b); });
-    if (same && (line.size() == command.size() || line[command.size()] < '0' || line[command.size()] > '9'))
-      return true;
+    const bool whole = command.back() < '0' || command.back() > '9' || line.size() == command.size() ||
+                       !is_digit(line[command.size()]);
+    if (same && whole) return true;
     code.remove_prefix(std::min(end + 1, code.size()));
   }
   return false;
 }
 
-Heating heating_in(std::string_view code, const macro::Template& read) {
+Heating heating_in(std::string_view code, const macro::Template& read, const MaterialSettings& material) {
   const auto any_command = [&](std::initializer_list<std::string_view> commands) {
     return std::any_of(commands.begin(), commands.end(), [&](auto command) { return has_command(code, command); });
   };
-  const auto mentions = [&](std::initializer_list<std::string_view> names) {  // a macro that is handed it sets it
+  const auto mentions = [&](std::initializer_list<std::string_view> names) {
     return std::any_of(read.names().begin(), read.names().end(), [&](const std::string& used) {
       return std::any_of(names.begin(), names.end(), [&](std::string_view name) {
         return used == name || (used.starts_with(name) && used.size() > name.size() && used[name.size()] == '_' &&
@@ -162,13 +187,19 @@ Heating heating_in(std::string_view code, const macro::Template& read) {
       });
     });
   };
-  return {any_command({"M104", "M109", "M568", "SET_HEATER_TEMPERATURE HEATER=EXTRUDER"}) ||
-              mentions({"material_print_temperature", "material_print_temperature_layer_0", "temperature",
-                        "first_layer_temperature"}),
+  const auto& m = material;
+  return {any_command({"M104", "M109", "M568", "G10 P0 S", "SET_HEATER_TEMPERATURE HEATER=EXTRUDER"}) ||
+              (mentions({"material_print_temperature", "material_print_temperature_layer_0", "temperature",
+                         "first_layer_temperature"}) &&
+               (macro_is_handed(code, m.material_print_temperature) ||
+                macro_is_handed(code, m.material_print_temperature_layer_0.value_or(0)))),
           any_command({"M140", "M190", "SET_HEATER_TEMPERATURE HEATER=HEATER_BED"}) ||
-              mentions({"material_bed_temperature", "material_bed_temperature_layer_0", "bed_temperature",
-                        "first_layer_bed_temperature"}),
-          any_command({"M141", "M191"}) || mentions({"build_volume_temperature", "chamber_temperature"})};
+              (mentions({"material_bed_temperature", "material_bed_temperature_layer_0", "bed_temperature",
+                         "first_layer_bed_temperature"}) &&
+               (macro_is_handed(code, m.material_bed_temperature) ||
+                macro_is_handed(code, m.material_bed_temperature_layer_0.value_or(0)))),
+          any_command({"M141", "M191"}) || (mentions({"build_volume_temperature", "chamber_temperature"}) &&
+                                            macro_is_handed(code, m.build_volume_temperature))};
 }
 
 }  // namespace weft::gcode

@@ -26,10 +26,10 @@ void set_layer(macro::Variables& variables, std::size_t index, Um z);
 /// Does a line of the code begin with that command, such as "M104"?
 bool has_command(std::string_view code, std::string_view command);
 
-/// What the start G-code takes care of, by its commands or because a macro is handed the temperature.
+/// What the start G-code takes care of: by its commands, or because a macro of the firmware is handed the temperature.
 struct Heating {
   bool nozzle = false, bed = false, chamber = false;
 };
-Heating heating_in(std::string_view expanded, const macro::Template& read);
+Heating heating_in(std::string_view expanded, const macro::Template& read, const MaterialSettings& material);
 
 }  // namespace weft::gcode

@@ -65,7 +65,7 @@ void Writer::expand_custom_code() {
   macro::Scope scope{{}, seed_of(job_.settings.gcode.machine_start_gcode), lenient_};
   const auto expanded = [&](const macro::Template& t) { return with_newline(t.expand(variables, scope)); };
   start_ = expanded(code.start);
-  const auto heating = heating_in(start_, code.start);
+  const auto heating = heating_in(start_, code.start, job_.settings.material);
   start_sets_nozzle_ = heating.nozzle, start_sets_bed_ = heating.bed, start_sets_chamber_ = heating.chamber;
   const auto& g = job_.settings.gcode;
   const auto& layers = job_.plan.layers;

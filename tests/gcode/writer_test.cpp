@@ -333,6 +333,16 @@ TEST_CASE("gcode: temperatures are set where the start G-code does not") {
     const auto head = Writer(sample.job()).head();
     CHECK_THAT(head, Contains("PRINT_START BED=65 EXTRUDER=215\n") && !Contains("M1"));
   }
+  SECTION("a temperature that is only looked at is not set") {
+    s.gcode.machine_start_gcode =
+        "{if first_layer_temperature[0] > 200}G28{endif}\nM117 {temperature[0]}, {bed_temperature[0]}";
+    const auto head = Writer(sample.job()).head();
+    CHECK_THAT(head, Contains("M190 S65") && Contains("M104 S215") && Contains("M109 S215"));
+  }
+  SECTION("a macro is handed it by way of a variable") {
+    s.gcode.machine_start_gcode = "{local t = first_layer_temperature[0]}START T={t} B=60";
+    CHECK_THAT(Writer(sample.job()).head(), Contains("M190 S65") && !Contains("M109"));
+  }
   SECTION("a bed of 0 is left alone") {
     s.material.material_bed_temperature = 0;
     s.material.material_bed_temperature_layer_0.reset();
