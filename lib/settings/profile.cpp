@@ -50,9 +50,9 @@ prusaslicer::Translation apply_foreign(Profile& profile, Foreign foreign, const 
           profile.origins[a.key].push_back({fmt::format("{}:{}", path, e.line), e.value, fmt::format("[{}] {} = {}", e.section, e.key, e.value)});
     apply_value(profile, a.key, a.text, a.line == 0 ? path + ", PrusaSlicer's default" : fmt::format("{}:{}", path, a.line));
     profile.origins[a.key].back().source = a.source;
-    if (a.key == "machine_reach")
-      profile.notices.push_back({"reach_derived", fmt::format("{}: machine_reach = {}: PrusaSlicer's profiles hold no reach, {}; set machine_reach to what the printer can do",
-                                                              path, a.text, a.source.substr(a.source.find(", and ") + 6))});
+    if (a.key.starts_with("machine_reach"))
+      profile.notices.push_back({"reach_derived", fmt::format("{}: {} = {}: PrusaSlicer's profiles hold no reach, {}; set it to what the printer can do", path, a.key, a.text,
+                                                              a.source.substr(a.source.rfind(", and ") + 6))});
   }
   profile.notices.insert(profile.notices.end(), foreign.notices.begin(), foreign.notices.end());
   return translated;

@@ -197,7 +197,9 @@ class Translator {
     }
     if (const auto* e = lines_.find("support_material_speed")) {  // skirt and brim are printed at that speed
       const double v = lines_.figure(*e).v;
-      set("skirt_brim_speed", number(v > 0 ? v : fastest), *e);
+      const auto first = lines_.figure("first_layer_speed").value_or(Figure{});
+      const double speed = v > 0 ? v : fastest, slow = first.v > 0 ? first.of(speed) : speed;
+      set("skirt_brim_speed", number(std::min(speed, slow)), *e);  // most of a skirt, and all of a brim, lies in the first layer
     }
   }
 
@@ -327,11 +329,10 @@ class Translator {
   /// The reach that the custom G-code shows, and the values that it names.
   void custom() {
     if (const auto* bed = lines_.look("bed_shape"); bed && bed->line > 0)
-      if (const auto reach = reach_of(lines_)) {
-        auto e = *bed;
-        e.key = "bed_shape";
-        set("machine_reach", reach->area, e);
-        out_.assignments.back().source += fmt::format(", and {}", reach->why);
+      for (const auto& reach : reach_of(lines_)) {
+        const auto* height = lines_.look("max_print_height");
+        set(reach.setting, reach.value, reach.setting == "machine_reach_z_max" && height && height->line > 0 ? *height : *bed);
+        out_.assignments.back().source += fmt::format(", and {}", reach.why);
       }
     const auto variables = variables_of(lines_);
     for (const auto* key : {"start_gcode", "end_gcode", "before_layer_gcode", "layer_gcode"})

@@ -15,7 +15,8 @@
 namespace weft::prusaslicer {
 namespace {
 
-constexpr Um farthest = 60'000;  // off the bed: beyond that a coordinate is more likely a slip than a purge bucket
+// Beyond these a coordinate is more likely a slip than a purge bucket, a parking place or a wiping pad.
+constexpr Um farthest = 60'000, highest = 20'000, deepest = 5'000;
 constexpr std::array<std::string_view, 8> custom_keys{"start_gcode", "start_filament_gcode", "before_layer_gcode", "layer_gcode",
                                                       "toolchange_gcode", "between_objects_gcode", "end_filament_gcode", "end_gcode"};
 
@@ -56,14 +57,30 @@ std::optional<Um> coordinate(std::string_view command, char axis) {
   return std::nullopt;
 }
 
+/// What encloses the moves on one axis, and the move that goes farthest.
+struct Span {
+  Um least = 0, most = 0;      ///< where the bed, or the print, ends
+  Um below = 0, above = 0;     ///< how far beyond that may be believed
+  Um low = 0, high = 0;        ///< with the moves seen
+  std::string why_low, why_high;
+};
 struct Found {
-  Box box;
-  Um excess = 0;
-  std::string why;
+  Span x, y, z;
 };
 
+/// Widens a span by one coordinate.
+void widen(Span& span, Um at, std::string_view key, std::string_view line) {
+  const auto shown = [&] {
+    std::string text(value::trimmed(line.substr(0, line.find(';'))));
+    std::replace(text.begin(), text.end(), '\1', '_');
+    return fmt::format("{} goes there: {}", key, text);
+  };
+  if (at < span.low && span.least - at <= span.below) span.low = at, span.why_low = shown();
+  if (at > span.high && at - span.most <= span.above) span.high = at, span.why_high = shown();
+}
+
 /// Widens `found` by the moves of one piece of custom G-code.
-void look_at(std::string_view key, std::string_view text, const Box& bed, Found& found) {
+void look_at(std::string_view key, std::string_view text, Found& found) {
   std::string plain;  // conditions vanish, values become a mark that is no number
   for_each_piece(text, [&](std::string_view piece, bool placeholder) {
     if (!placeholder) plain += piece;
@@ -78,42 +95,39 @@ void look_at(std::string_view key, std::string_view text, const Box& bed, Found&
     if (word == "G90") absolute = true;
     if (word == "G91") absolute = false;
     if (!absolute || (word != "G0" && word != "G1" && word != "G00" && word != "G01")) continue;
-    for (const char axis : {'X', 'Y'}) {
-      const auto at = coordinate(line, axis);
-      if (!at) continue;
-      const Um least = axis == 'X' ? bed.min.x : bed.min.y, most = axis == 'X' ? bed.max.x : bed.max.y;
-      const Um excess = std::max(least - *at, *at - most);
-      if (excess <= 0 || excess > farthest) continue;
-      auto& low = axis == 'X' ? found.box.min.x : found.box.min.y;
-      auto& high = axis == 'X' ? found.box.max.x : found.box.max.y;
-      low = std::min(low, *at), high = std::max(high, *at);
-      if (excess > found.excess) {
-        found.excess = excess;
-        std::string shown(line.substr(0, line.find(';')));
-        std::replace(shown.begin(), shown.end(), '\1', '_');
-        found.why = fmt::format("{} goes there: {}", key, value::trimmed(shown));
-      }
-    }
+    for (const auto& [axis, span] : {std::pair{'X', &found.x}, {'Y', &found.y}, {'Z', &found.z}})
+      if (const auto at = coordinate(line, axis)) widen(*span, *at, key, line);
   }
 }
 
 }  // namespace
 
-std::optional<CustomReach> reach_of(const Lines& lines) {
+std::vector<CustomReach> reach_of(const Lines& lines) {
   const auto* e = lines.look("bed_shape");
-  if (!e) return std::nullopt;
+  if (!e) return {};
   Ring bed;
   try {
     value::parse(e->value, Unit::mm, bed);
   } catch (const std::invalid_argument&) {
-    return std::nullopt;  // told where the bed is read
+    return {};  // told where the bed is read
   }
-  if (bed.size() < 3) return std::nullopt;
+  if (bed.size() < 3) return {};
   const Box box = box_of(bed);
-  Found found{box, 0, {}};
-  for (const auto key : custom_keys) look_at(key, text_of(lines, key), box, found);
-  if (found.excess == 0) return std::nullopt;
-  return CustomReach{value::print(Ring{found.box.min, found.box.max}, Unit::mm), found.why};
+  const auto* height = lines.look("max_print_height");
+  const double height_mm = height ? lines.figure(*height).v : 0;
+  const Um top = height_mm > 0 && height_mm <= 10'000 ? from_mm(height_mm) : 10'000'000;
+  Found found{{box.min.x, box.max.x, farthest, farthest, box.min.x, box.max.x, {}, {}},
+              {box.min.y, box.max.y, farthest, farthest, box.min.y, box.max.y, {}, {}},
+              {0, top, deepest, highest, 0, top, {}, {}}};
+  for (const auto key : custom_keys) look_at(key, text_of(lines, key), found);
+  std::vector<CustomReach> out;
+  std::string why;
+  for (const auto* text : {&found.y.why_low, &found.y.why_high, &found.x.why_low, &found.x.why_high})
+    if (why.empty()) why = *text;
+  if (!why.empty()) out.push_back({"machine_reach", value::print(Ring{{found.x.low, found.y.low}, {found.x.high, found.y.high}}, Unit::mm), why});
+  if (!found.z.why_low.empty()) out.push_back({"machine_reach_z_min", value::print(found.z.low, Unit::mm), found.z.why_low});
+  if (!found.z.why_high.empty()) out.push_back({"machine_reach_z_max", value::print(found.z.high, Unit::mm), found.z.why_high});
+  return out;
 }
 
 std::string variables_of(const Lines& lines) {

@@ -150,7 +150,7 @@ class Exporter {
     say("first_layer_speed", print("speed_layer_0"), "speed_layer_0");
     say("overhangs", "1");
     say("travel_speed_z", print("speed_z_hop"), "speed_z_hop");
-    say("support_material_speed", number(v.skirt_brim_speed.value_or(v.speed_wall_0)), "skirt_brim_speed");
+    say("support_material_speed", number(v.skirt_brim_speed.value_or(std::min(v.speed_wall_0, v.speed_layer_0.of(v.speed_wall_0)))), "skirt_brim_speed");
     const auto slope = print("max_extrusion_rate_slope");
     say("max_volumetric_extrusion_rate_slope_positive", slope == "auto" ? "0" : slope, "max_extrusion_rate_slope");
     for (const auto& row : acceleration_rows) {

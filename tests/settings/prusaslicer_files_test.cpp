@@ -122,7 +122,11 @@ TEST_CASE("reach: custom G-code that wipes in front of the bed shows how far the
   const auto p = applied(head + "start_gcode = G28\\nG1 Y-3.0 F1000\\n{if true}G1 X254{endif}\\nG1 Y[x]\\nG91\\nG1 Y-50\\nG90\\nG1 X900\\n");
   CHECK(value::print(p.settings.machine.machine_reach, Unit::mm) == "0x-3, 254x210");
   CHECK(std::count_if(p.notices.begin(), p.notices.end(), [](const Notice& n) { return n.code == "reach_derived"; }) == 1);
-  CHECK(applied(head + "start_gcode = G28\\nG1 X10 Y200\\nG1 Z-5\\n; G1 Y-3\\n").settings.machine.machine_reach.empty());
+  CHECK(applied(head + "start_gcode = G28\\nG1 X10 Y200\\nG1 Z-50\\n; G1 Y-3\\n").settings.machine.machine_reach.empty());
+  const auto high = applied(head + "max_print_height = 200\nstart_gcode = G28\\nG1 Z-0.5\\nend_gcode = G1 Z{max_layer_z}\\nG1 Z205\\nG1 Z2000\\n");
+  CHECK(high.settings.machine.machine_reach_z_min == -500);
+  CHECK(high.settings.machine.machine_reach_z_max == 205'000);
+  CHECK(high.settings.machine.machine_reach.empty());
 }
 
 TEST_CASE("variables: what custom G-code names and weft has no setting for is carried along") {
