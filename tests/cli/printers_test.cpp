@@ -24,7 +24,7 @@ TEST_CASE("printers: the example passes the audit on each printer that comes wit
     if (run.status != 0) continue;
     const auto report = nlohmann::json::parse(scratch.read("box.json"));
     CHECK(report["audit"]["verdict"] == "pass");
-    CHECK(report["layers"].get<int>() > 50);
+    CHECK(report["layers"].get<int>() >= 50);
     ++printers;
   }
   CHECK(printers >= 25);
