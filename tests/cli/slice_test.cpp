@@ -166,7 +166,7 @@ TEST_CASE("slice: a PrusaSlicer config.ini is run as it is, and profile import s
   const auto run = weft({"slice", "cube.stl", "-p", "p.ini", "-o", "out.gcode"}, scratch.path());
   INFO(run.err);
   REQUIRE(run.status == 0);
-  CHECK_THAT(run.err, Contains("p.ini:7: support_material = 1: has no effect here"));
+  CHECK_THAT(run.err, Contains("p.ini: would change the print and has no effect here: support_material = 1 (line 7"));
   CHECK_THAT(scratch.read("out.gcode"), Contains(";LAYER_COUNT:8") && Contains("G28 ; home\nG1 Z5\n"));
 
   const auto translated = weft({"profile", "import", "p.ini"}, scratch.path());
