@@ -3,6 +3,7 @@
 #include "pipeline/stopwatch.h"
 
 #include "core/error.h"
+#include "geometry/boolean.h"
 #include "infill/infill.h"
 #include "infill/shells.h"
 #include "slice/slice.h"
@@ -43,7 +44,9 @@ std::vector<WallLayer> build_walls(const Settings& settings, const Settings& fir
   const Stopwatch stopwatch(report.timings_ms.walls);
   auto walls = parallel_map(layers.size(), [&](std::size_t i) {
     stop_if_cancelled(watch);
-    return walls::build((i == 0 ? first : settings).walls, {.layer = layers[i], .index = i, .nozzle_diameter = settings.machine.nozzle_diameter});
+    const Regions over_air = i > 0 ? geometry::subtract(layers[i].regions, layers[i - 1].regions) : Regions{};
+    return walls::build((i == 0 ? first : settings).walls,
+                        {.layer = layers[i], .index = i, .nozzle_diameter = settings.machine.nozzle_diameter, .over_air = &over_air});
   });
   for (auto& layer : walls) append(report.warnings, std::move(layer.notices));
   return walls;

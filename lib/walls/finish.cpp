@@ -132,7 +132,9 @@ void emit(const std::vector<Vertex>& path, bool closed, int inset, const FinishO
   bead.part = o.part;
   const double stable = inset == 0 ? o.stable_outer : o.stable_inner;
   for (const Vertex& v : path) {
-    Junction j{{o.origin.x + rounded(v.at.x), o.origin.y + rounded(v.at.y)}, rounded(std::max(1.0, v.width)), 1.F};
+    Junction j{{o.origin.x + rounded(v.at.x), o.origin.y + rounded(v.at.y)},
+               rounded(std::clamp(v.width, 1.0, o.most_width)),
+               1.F};
     if (o.compensate && v.width < stable) {
       j.width = rounded(stable);
       j.flow = static_cast<float>(std::clamp(v.width / stable, o.least_flow, o.most_flow));

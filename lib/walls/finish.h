@@ -13,6 +13,7 @@ struct FinishOptions {
   double least_length = 100;                      ///< shorter open beads are dropped, µm
   bool compensate = true;                         ///< flow compensation
   double stable_outer = 200, stable_inner = 200;  ///< narrowest planned width, µm
+  double most_width = 1e9;                        ///< no bead is wider, µm
   double least_flow = 0.05, most_flow = 1;
 };
 

@@ -216,7 +216,7 @@ class Planner {
   }
 
   /// How wide a bead may grow for a short way, rather than be joined by another.
-  double wide_bead() const { return std::min(w_.most, 1.7 * w_.inner); }
+  double wide_bead() const { return std::min(w_.most, 1.7 * std::min(w_.inner, w_.outer)); }
 
   /// The band of the widest bead when that many share a thickness.
   double widest(Count count, double thickness) {
@@ -288,7 +288,9 @@ class Planner {
         // Where several parts meet there is a little more room than in each: no wall turns back in that.
         const bool cramped =
             mine.beads() > other.beads() && length[b.region] < mouths[b.region] / 2 * w_.inner &&
-            widest(other, high[b.region]) < (other.pairs == 0 && mouths[b.region] > 5 ? w_.most : wide_bead());
+            widest(other, high[b.region]) <
+                (other.pairs == 0 && mouths[b.region] > 5 && high[b.region] < 1.5 * low[b.other] ? w_.most
+                                                                                                 : wide_bead());
         if (deviation > o_.filter_deviation && !cramped) continue;
         fixed[b.region] = fixed[b.other] = 1;
         changed[b.region] = other;
@@ -419,13 +421,14 @@ class Planner {
     }
     for (const std::uint32_t n : peaks_) {
       const double half = s_.nodes[n].clearance;
-      const Count count = count_for(w_, 2 * half, true);
+      Count count = count_for(w_, 2 * half, true);
+      if (count.pairs > 0 && !count.middle && widest(count, 2 * half) > wide_bead()) count.middle = true;
       Span span;
       span.pairs = count.pairs;
       span.open = is_open(w_, count);
       span.at_start = span.at_end = bounds_at(count, {}, 0, half);
       descend_from(n, span);
-      if (count == Count{0, true}) out_.dots.push_back(any_[n]);
+      if (count.middle && !span.open) out_.dots.push_back(any_[n]);
     }
   }
 

@@ -9,6 +9,7 @@ namespace {
 using Vertex = Line::Vertex;
 
 constexpr double tip_step_um = 40;
+constexpr double before_end_um = 4;  // the last chord: a square end need not be quite square
 constexpr double off_share = 0.9;    // the middle of a chord stays within so much of the free width of the axis
 constexpr double reach_share = 1.9;  // a chord goes no further than so many times the free width on its side
 
@@ -248,7 +249,7 @@ std::vector<Vertex> Strip::bead() {
     const int pieces = std::clamp(static_cast<int>(std::ceil(reach / tip_step_um)), 1, 60);
     if (reach < 5) return;
     for (int i = 1; i <= pieces; ++i) {
-      const double x = reach * i / pieces - (i == pieces ? 0.5 : 0);
+      const double x = reach * i / pieces - (i == pieces ? before_end_um : 0);
       const Place p{end.x + x * way.x, end.y + x * way.y};
       const Chord chord = across(p, first ? Place{-way.x, -way.y} : way, s, std::max(free, 100.0));
       if (!chord.found) break;

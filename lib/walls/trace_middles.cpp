@@ -238,14 +238,17 @@ class Tracer {
     return std::max(0.0, ((right.x + left.x) / 2 - node.x) * back.x + ((right.y + left.y) / 2 - node.y) * back.y);
   }
 
-  /// A part as long as it is wide, with a single bead: laid along its longest edge.
+  /// What is as long as it is wide, a part or the middle of one, gets a single bead along its longest edge.
   void dot(std::uint32_t start) {
     std::vector<Place> ring;
     std::uint32_t h = start;
+    const auto pairs = static_cast<std::size_t>(laying_.spans[start / 2].pairs);
+    const double inner = laying_.start(start)[pairs];
     do {
-      ring.push_back(s_.halves[h].foot);
+      add_piece(h, inner, ring);
       h = s_.halves[h].next;
     } while (h != start);
+    if (ring.size() < 3) return;
     Place d{1, 0};
     double longest = 0;
     for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -267,6 +270,7 @@ class Tracer {
     if (ahead - behind < 1) return;
     const double width = area / (ahead - behind);
     Line line;
+    line.inset = static_cast<int>(pairs);
     line.path.push_back({{centre.x + behind * d.x, centre.y + behind * d.y}, width});
     line.path.push_back({{centre.x + ahead * d.x, centre.y + ahead * d.y}, width});
     out_.push_back(std::move(line));

@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <iterator>
+#include <new>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -71,28 +73,41 @@ struct Part {
 };
 
 /// What turns, tips and branches lay too much or too little is taken from all beads of the part: its volume is right.
-void keep_volume(const Region& region, Part& part) {
+void keep_volume(const Region& region, Um widest, Part& part) {
   constexpr double most = 0.05;        // beyond, something was left out on purpose
-  constexpr double tolerated = 0.004;  // so much stays where it is: evenness of the walls is worth more
-  double laid = 0;
-  for (const Bead& bead : part.beads) laid += volume_mm3(bead, 1_mm);
-  if (laid <= 0) return;
-  const double ratio = (area_mm2(region) - area_mm2(part.inside)) / laid;
-  if (std::abs(ratio - 1) <= tolerated) return;
-  const double scale = std::clamp(ratio > 1 ? ratio - tolerated : ratio + tolerated, 1 - most, 1 + most);
-  for (Bead& bead : part.beads)
-    for (Junction& j : bead.path) {
-      if (j.flow < 1.F)
-        j.flow = std::min(1.F, static_cast<float>(j.flow * scale));
-      else
-        j.width = rounded(j.width * scale);
-    }
+  constexpr double tolerated = 0.002;  // so much stays where it is: evenness of the walls is worth more
+  const double wanted = area_mm2(region) - area_mm2(part.inside);
+  for (int round = 0; round < 4; ++round) {  // again, for beads that are as wide as they may be do not take their share
+    double laid = 0;
+    for (const Bead& bead : part.beads) laid += volume_mm3(bead, 1_mm);
+    if (laid <= 0 || std::abs(wanted / laid - 1) <= tolerated) return;
+    const double ratio = wanted / laid;
+    const double scale = std::clamp(ratio > 1 ? ratio - tolerated : ratio + tolerated, 1 - most, 1 + most);
+    for (Bead& bead : part.beads)
+      for (Junction& j : bead.path) {
+        if (j.flow < 1.F)
+          j.flow = std::min(1.F, static_cast<float>(j.flow * scale));
+        else
+          j.width = std::min(widest, rounded(j.width * scale));
+      }
+  }
+}
+
+/// Not valid, too, when the library underneath gives up: concentric walls are better than no part.
+geometry::MedialAxis axis_of(const Region& region) {
+  try {
+    return geometry::medial_axis(region);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    return {};
+  }
 }
 
 Part build_part(const WallSettings& settings, const Widths& widths, const Region& region, Um nozzle,
                 std::uint32_t index) {
   Part out;
-  const auto axis = geometry::medial_axis(region);
+  const auto axis = axis_of(region);
   if (!axis.valid) {
     out.valid = false;
     out.inside = plain(widths, {region}, index, out.beads);
@@ -113,6 +128,7 @@ Part build_part(const WallSettings& settings, const Widths& widths, const Region
   finishing.compensate = settings.flow_compensation;
   finishing.stable_outer = std::max<double>(settings.min_output_width, widths.outer / 4);
   finishing.stable_inner = std::max<double>(settings.min_output_width, widths.inner / 4);
+  finishing.most_width = widths.most;
   finishing.least_flow = settings.min_flow_ratio / 100;
   finishing.most_flow = settings.max_flow_ratio / 100;
   auto pairs = trace_pairs(skeleton, laying), middles = trace_middles(skeleton, laying);
@@ -120,7 +136,7 @@ Part build_part(const WallSettings& settings, const Widths& widths, const Region
   for (auto* lines : {&pairs, &middles})
     for (Line& line : *lines) finish(std::move(line), finishing, out.beads, out.dropped_mm);
   out.inside = rest_of(skeleton, laying, axis.origin);
-  keep_volume(region, out);
+  keep_volume(region, rounded(widths.most), out);
   return out;
 }
 
@@ -163,6 +179,15 @@ std::string place_of(const WallInput& input, const Region& region) {
                      to_mm(at.y));
 }
 
+/// A part too small for any bead. Specks are no news.
+void add_left_out(const WallInput& input, const Region& region, Notices& out) {
+  constexpr Um speck = 0.1_mm;
+  const Point size = box_of(region.outer).size();
+  if (std::max(size.x, size.y) < speck) return;
+  out.push_back({"thin_feature_dropped", fmt::format("{}: a part of {:.3f} x {:.3f} mm is left out",
+                                                     place_of(input, region), to_mm(size.x), to_mm(size.y))});
+}
+
 }  // namespace
 
 WallLayer build(const WallSettings& settings, const WallInput& input) {
@@ -179,14 +204,17 @@ WallLayer build(const WallSettings& settings, const WallInput& input) {
     if (input.over_air != nullptr) steady_over_air(*input.over_air, widths, part.beads);
     put_in_order(part.beads, settings.wall_order);
     if (!part.valid)
-      out.notices.push_back({"walls_without_medial_axis",
-                             place_of(input, regions[i]) +
-                                 ": the outline crosses itself; its walls are concentric and thin places stay empty"});
-    if (part.dropped_mm > worth_a_notice_mm || (part.beads.empty() && part.inside.empty()))
+      out.notices.push_back(
+          {"walls_without_medial_axis",
+           place_of(input, regions[i]) +
+               ": no medial axis of the outline; its walls are concentric and thin places stay empty"});
+    if (part.dropped_mm > worth_a_notice_mm)
       out.notices.push_back(
           {"thin_feature_dropped",
            fmt::format("{}: {:.2f} mm of a part thinner than {:.3f} mm are left out", place_of(input, regions[i]),
                        part.dropped_mm, to_mm(settings.min_feature_size))});
+    else if (part.beads.empty() && part.inside.empty())
+      add_left_out(input, regions[i], out.notices);
     std::move(part.beads.begin(), part.beads.end(), std::back_inserter(out.beads));
     std::move(part.inside.begin(), part.inside.end(), std::back_inserter(out.inside));
   }

@@ -9,9 +9,10 @@ namespace weft::walls {
 /// What walls are built from, besides their settings.
 struct WallInput {
   const SlicedLayer& layer;
-  std::size_t index = 0;              ///< of the layer; 0 lies on the bed
-  Um nozzle_diameter = 0.4_mm;        ///< what automatic widths and shares are measured against
-  const Regions* over_air = nullptr;  ///< where nothing lies below, if the caller knows; there beads keep the nozzle's own strand
+  std::size_t index = 0;        ///< of the layer; 0 lies on the bed
+  Um nozzle_diameter = 0.4_mm;  ///< what automatic widths and shares are measured against
+  const Regions* over_air =
+      nullptr;  ///< where nothing lies below, if the caller knows; there beads keep the nozzle's own strand
 };
 
 /// Lays beads along the outlines of one layer, widening or narrowing them so that no gap is left.

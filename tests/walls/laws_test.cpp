@@ -41,35 +41,163 @@ double outside(const Regions& regions, Point p) {
   return best;
 }
 
+/// How far the sides of a bead's band reach outside at most, µm.
+double footprint_outside(const Regions& regions, const Bead& bead) {
+  double most = 0;
+  for (std::size_t k = 0; k + (bead.closed ? 0 : 1) < bead.path.size(); ++k) {
+    const Junction &a = bead.path[k], &b = bead.path[(k + 1) % bead.path.size()];
+    const double dx = b.at.x - a.at.x, dy = b.at.y - a.at.y, length = std::hypot(dx, dy);
+    if (length < 1) continue;
+    const double half = (a.width + b.width) / 4.0;
+    for (const double side : {-half, half})
+      for (const double t : {0.0, 0.5, 1.0})
+        most = std::max(most, outside(regions, {rounded(a.at.x + t * dx - side * dy / length),
+                                                rounded(a.at.y + t * dy + side * dx / length)}));
+  }
+  return most;
+}
+
+Regions mirrored(Regions regions) {
+  for (Region& region : regions) {
+    auto turn = [](Ring& ring) {
+      for (Point& p : ring) p.x = -p.x;
+      std::reverse(ring.begin(), ring.end());
+    };
+    turn(region.outer);
+    for (Ring& hole : region.holes) turn(hole);
+  }
+  return regions;
+}
+
+double distance_to(const Beads& beads, Point p) {
+  double best = 1e9;
+  for (const Bead& bead : beads)
+    for (std::size_t k = 0; k + (bead.closed ? 0 : 1) < bead.path.size(); ++k) {
+      const Point a = bead.path[k].at, b = bead.path[(k + 1) % bead.path.size()].at;
+      const double d2 = static_cast<double>(distance2(a, b));
+      const double t = d2 > 0 ? std::clamp(static_cast<double>(dot(p - a, b - a)) / d2, 0.0, 1.0) : 0;
+      best = std::min(best, std::hypot(p.x - a.x - t * (b.x - a.x), p.y - a.y - t * (b.y - a.y)));
+    }
+  return best;
+}
+
 }  // namespace
 
-TEST_CASE("walls: on 1,000 random polygons beads and inside together have the area of the region", "[walls][law]") {
+TEST_CASE("walls: on 1,000 random polygons beads and inside together have the area of the region within 0.5 %",
+          "[walls][law]") {
   std::mt19937 random(20'240'601);
-  double worst = 0, mean = 0;
-  int off = 0, count = 0, astray = 0;
+  int count = 0;
+  double mean = 0;
   for (int i = 0; i < 1000; ++i) {
     const Regions regions = geometry::regions_from_rings(std::vector<Ring>{random_ring(random)});
     const double area = area_mm2(regions);
     if (area < 0.05) continue;
     const auto walls = walls_of(regions);
-    const double error = std::abs(area_mm2(walls.inside) + bead_area_mm2(walls) - area) / area;
-    worst = std::max(worst, error);
-    mean += error;
-    ++count;
-    if (error > 0.005) ++off;
+    const double error = (area_mm2(walls.inside) + bead_area_mm2(walls) - area) / area;
+    CAPTURE(i, area, error);
+    CHECK(std::abs(error) <= 0.005);
     bool inside = true;
     for (const Bead& bead : walls.beads)
       for (const Junction& j : bead.path) inside = inside && outside(regions, j.at) <= 2;
-    if (!inside) ++astray;
+    CHECK(inside);
+    mean += std::abs(error);
+    ++count;
   }
-  mean /= count;
-  INFO("mean " << 100 * mean << " %, worst " << 100 * worst << " %, over 0.5 %: " << off << ", astray: " << astray
-               << " of " << count);
   CHECK(count > 900);
-  CHECK(mean < 0.01);
-  // What is left are parts hardly larger than a bead with several branches: known, and to become fewer.
-  CHECK(off <= 70);
-  CHECK(astray <= 5);
+  CHECK(mean / count < 0.0025);
+}
+
+TEST_CASE("walls: footprints stay within 0.01 mm of the part, but for tips and bends of single beads", "[walls][law]") {
+  std::mt19937 random(20'240'601);
+  int count = 0, astray = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Regions regions = geometry::regions_from_rings(std::vector<Ring>{random_ring(random)});
+    const auto walls = walls_of(regions);
+    double most = 0;
+    for (const Bead& bead : walls.beads) most = std::max(most, footprint_outside(regions, bead));
+    ++count;
+    astray += most > 10 ? 1 : 0;
+    for (const Bead& bead : walls.beads)
+      if (bead.closed) {
+        CAPTURE(i);
+        CHECK(footprint_outside(regions, bead) <= 150);
+      }
+  }
+  INFO(astray << " of " << count);
+  CHECK(astray <= count / 6);  // hardly larger than a bead, they taper and bend at once: to become fewer
+}
+
+TEST_CASE("walls: no bead of a random polygon is wider than max_wall_line_width", "[walls][law]") {
+  std::mt19937 random(11);
+  for (int i = 0; i < 300; ++i) {
+    const Regions regions = geometry::regions_from_rings(std::vector<Ring>{random_ring(random)});
+    for (const Bead& bead : walls_of(regions).beads)
+      for (const Junction& j : bead.path) CHECK(j.width <= 0.9_mm - 42);  // its band at a height of 0.2 mm
+  }
+}
+
+TEST_CASE("walls: the mirror image of a part gets the mirror image of its beads", "[walls][law]") {
+  // Parts where no two choices are equally good. In a few of the random ones they are: there a node of the axis is a
+  // matter of rounding.
+  std::mt19937 random(20'240'601);
+  int count = 0, off = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Regions regions = geometry::regions_from_rings(std::vector<Ring>{random_ring(random)});
+    const auto here = walls_of(regions);
+    auto there = walls_of(mirrored(regions));
+    double most = 0;
+    for (Bead& bead : there.beads)
+      for (Junction& j : bead.path) most = std::max(most, distance_to(here.beads, {-j.at.x, j.at.y}));
+    ++count;
+    off += most > 5 ? 1 : 0;
+  }
+  INFO(off << " of " << count);
+  CHECK(off <= count / 12);
+}
+
+TEST_CASE("walls: a rib of 0.4 mm is printed alike in every layer", "[walls][law]") {
+  WallSettings settings;
+  const SlicedLayer layer = layer_of({{rectangle(0, 0, 20_mm, 0.4_mm), {}}});
+  const auto first = walls::build(settings, {.layer = layer, .index = 1});
+  REQUIRE(first.beads.size() == 1);
+  for (std::size_t i = 2; i < 50; ++i) CHECK(walls::build(settings, {.layer = layer, .index = i}).beads == first.beads);
+  // Slicing moves an outline by a micron here and there: nothing but that may change.
+  std::mt19937 random(9);
+  for (int i = 0; i < 50; ++i) {
+    auto wobble = [&] { return static_cast<Um>(random() % 3) - 1; };
+    Ring ring;
+    for (const Point p : rectangle(0, 0, 20_mm, 0.4_mm)) ring.push_back({p.x + wobble(), p.y + wobble()});
+    const auto walls = walls_of({{ring, {}}});
+    REQUIRE(walls.beads.size() == 1);
+    for (const Junction& j : walls.beads[0].path) {
+      CHECK(j.at.y == Approx(200).margin(4));
+      CHECK(j.width == Approx(400).margin(8));
+    }
+  }
+}
+
+TEST_CASE("walls: a slowly tapering wall changes its number of beads once at each threshold, not to and fro",
+          "[walls][law]") {
+  std::mt19937 random(17);
+  // 3 mm to 0.3 mm over 100 mm, its sides rough by 15 µm: fewer and fewer beads along it.
+  Ring ring;
+  for (int i = 0; i <= 100; ++i) ring.push_back({i * 1_mm, static_cast<Um>(random() % 30)});
+  for (int i = 100; i >= 0; --i) ring.push_back({i * 1_mm, 3_mm - 27 * i + static_cast<Um>(random() % 30)});
+  const auto walls = walls_of({{ring, {}}});
+  int before = 100, changes = 0;
+  for (Um x = 1_mm; x < 99_mm; x += 100) {
+    int crossings = 0;
+    for (const Bead& bead : walls.beads)
+      for (std::size_t k = 0; k + (bead.closed ? 0 : 1) < bead.path.size(); ++k) {
+        const Um a = bead.path[k].at.x, b = bead.path[(k + 1) % bead.path.size()].at.x;
+        crossings += (a < x) != (b < x) ? 1 : 0;
+      }
+    if (before == 100) before = crossings;
+    if (crossings != before) ++changes;
+    before = crossings;
+  }
+  // From seven beads to one; where a loop turns its ramp shows for a moment as one bead more or less.
+  CHECK(changes <= 3 * 6);
 }
 
 TEST_CASE("walls: moving a part by whole microns moves every bead and changes nothing else", "[walls][law]") {

@@ -141,3 +141,32 @@ TEST_CASE("walls: where two thin ribs cross, one bead goes through and nothing c
   CHECK(walls.beads.size() == 3);
   for (const Bead& bead : walls.beads) CHECK_FALSE(bead.closed);
 }
+
+TEST_CASE("walls: over air a bead keeps the nozzle's own strand", "[walls]") {
+  const Regions strip{{{{0, 0}, {20_mm, 0}, {20_mm, 1.3_mm}, {0, 1_mm}}, {}}};
+  const Regions air{{rectangle(5_mm, -1_mm, 10_mm, 4_mm), {}}};
+  WallSettings settings;
+  settings.wall_line_width_0 = 0.45_mm;
+  settings.wall_line_width_x = 0.45_mm;
+  const SlicedLayer layer = layer_of(strip);
+  const auto walls = walls::build(settings, {.layer = layer, .index = 1, .over_air = &air});
+  const Um strand = flow::band(0.45_mm, 0.2_mm);
+  int over_air = 0;
+  for (const Bead& bead : walls.beads)
+    for (const Junction& j : bead.path)
+      if (j.at.x > 5_mm && j.at.x < 15_mm && j.flow == 1.F) {
+        CHECK(j.width == strand);
+        ++over_air;
+      }
+  CHECK(over_air > 0);
+}
+
+TEST_CASE("walls: a speck is left out without a word, a small part with its size", "[walls]") {
+  WallSettings settings;
+  settings.min_feature_size = 0.3_mm;
+  CHECK(walls_of({{rectangle(0, 0, 0.05_mm, 0.05_mm), {}}}, settings).notices.empty());
+  const auto walls = walls_of({{rectangle(0, 0, 0.25_mm, 0.2_mm), {}}}, settings);
+  CHECK(walls.beads.empty());
+  REQUIRE(walls.notices.size() == 1);
+  CHECK(walls.notices[0].message.find("0.250 x 0.200 mm") != std::string::npos);
+}
