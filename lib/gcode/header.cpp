@@ -2,6 +2,7 @@
 
 #include "core/version.h"
 #include "settings/catalogue.h"
+#include "settings/gcode_variables.h"
 #include "settings/value.h"
 
 #include <algorithm>
@@ -135,7 +136,14 @@ std::string orca_comments(const Job& job) {
   return out + "; EXECUTABLE_BLOCK_START\n";
 }
 
-/// What print servers look for under PrusaSlicer's names.
+/// The first value of a name in gcode_variables, or what stands for it.
+std::string further(const Settings& s, std::string_view name, std::string otherwise) {
+  for (const auto& v : parse_gcode_variables(s.gcode.gcode_variables))
+    if (v.name == name && !v.elements.empty()) return one_line(v.elements[0].text);
+  return otherwise;
+}
+
+/// What print servers look for under PrusaSlicer's names. A filament without a colour is shown grey.
 std::string named_as_prusaslicer(const Settings& s) {
   const auto& m = s.material;
   std::string out = fmt::format("; filament_type = {}\n", one_line(m.material_type));
@@ -148,7 +156,10 @@ std::string named_as_prusaslicer(const Settings& s) {
       fmt::format("; first_layer_bed_temperature = {}\n; bed_temperature = {}\n",
                   m.material_bed_temperature_layer_0.value_or(m.material_bed_temperature), m.material_bed_temperature);
   out += fmt::format("; chamber_temperature = {}\n", m.build_volume_temperature);
-  out += "; referenced_tools = 0\n; single_extruder_multi_material = 0\n";
+  out += fmt::format("; filament_settings_id = {}\n; filament_colour = {}\n; extruder_colour = {}\n",
+                     further(s, "filament_settings_id", one_line(m.material_type)),
+                     further(s, "filament_colour", "#808080"), further(s, "extruder_colour", "#808080"));
+  out += "; total toolchanges = 0\n; referenced_tools = 0\n; single_extruder_multi_material = 0\n";
   if (!s.machine.machine_name.empty()) out += fmt::format("; printer_model = {}\n", one_line(s.machine.machine_name));
   return out;
 }

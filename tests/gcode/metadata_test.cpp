@@ -22,6 +22,7 @@ std::string file_in(CommentDialect dialect, Firmware firmware) {
   s.machine.firmware = firmware;
   s.machine.machine_name = "Voron 2.4";
   s.material.build_volume_temperature = 40;
+  s.gcode.gcode_variables = "filament_colour = \"#FF8000\"";
   PrintPlan plan;
   for (Um z = 200; z <= 20'000; z += 200) {
     LayerPlan layer{.z = z, .height = 200, .steps = {}};
@@ -115,6 +116,10 @@ TEST_CASE("gcode: Moonraker finds every field of PrusaSlicer's class, in its dia
   CHECK(first(foot, R"(;\s(?:nozzle_)?temperature\s=\s(.*)\n)") == "210");
   CHECK(first(foot, R"(;\snozzle_diameter\s=\s(.*)\n)") == "0.4");
   CHECK(first(foot, R"(; total layers count = ([0-9]+))") == "100");
+  CHECK(first(foot, R"(;\sfilament_settings_id\s=\s(.*)\n)") == "PLA");
+  CHECK(first(foot, R"(;\sfilament_colour\s=\s(.*)\n)") == "#FF8000");
+  CHECK(first(foot, R"(;\sextruder_colour\s=\s(.*)\n)") == "#808080");
+  CHECK(first(foot, R"(; total toolchanges = (\d+))") == "0");
   CHECK(first(foot, R"(;\sreferenced_tools\s=\s(.*)\n)") == "0");
   CHECK(first(foot, R"(;\ssingle_extruder_multi_material\s=\s([0-9]+))") == "0");
   CHECK(found(head, R"(\n((DEFINE_OBJECT)|(EXCLUDE_OBJECT_DEFINE)) NAME=)"));  // so that Moonraker rewrites nothing
