@@ -286,11 +286,13 @@ class Planner {
         if (mine.beads() == 0 || other.beads() == 0) continue;
         const double deviation = other.beads() > mine.beads() ? t - low[b.region] : high[b.region] - t;
         // Where several parts meet there is a little more room than in each: no wall turns back in that.
+        const bool junction = mouths[b.region] > 5;
+        const double widest_there = widest(other, high[b.region]);
         const bool cramped =
             mine.beads() > other.beads() && length[b.region] < mouths[b.region] / 2 * w_.inner &&
-            widest(other, high[b.region]) <
-                (other.pairs == 0 && mouths[b.region] > 5 && high[b.region] < 1.5 * low[b.other] ? w_.most
-                                                                                                 : wide_bead());
+            (other.pairs > 0
+                 ? junction && widest_there < wide_bead()
+                 : widest_there < (junction && high[b.region] < 1.5 * low[b.other] ? w_.most : wide_bead()));
         if (deviation > o_.filter_deviation && !cramped) continue;
         fixed[b.region] = fixed[b.other] = 1;
         changed[b.region] = other;
