@@ -80,14 +80,16 @@ int batch(const Words& words) {
   if (command.inputs.empty())
     throw Error{Error::Kind::usage, "no list of jobs was given", "weft batch",
                 "as in weft batch jobs.jsonl -p printer.ini -o results"};
-  const auto batch_options = batch_options_of(command);
+  auto batch_options = batch_options_of(command);
+  StageCache cache(cache_options_of(command));
+  batch_options.cache = &cache;
   Console console(command.console);
   auto jobs = prepare_all(console, jobs::read_jobs(command.inputs), command);
   if (command.options["collect"].as<bool>()) return collect_only(console, jobs, batch_options.folder);
   const auto shard = shard_of(command, console);
   std::erase_if(jobs, [&](const jobs::Prepared& job) { return !jobs::belongs(shard, job.line.id); });
   const auto suffix = shard.count > 1 ? fmt::format("-{}-of-{}", shard.index + 1, shard.count) : std::string();
-  return conclude(console, run_jobs(console, jobs, batch_options, suffix), command);
+  return conclude(console, run_jobs(console, jobs, batch_options, suffix), cache, command);
 }
 
 }  // namespace weft::app

@@ -97,6 +97,32 @@ po::options_description running_options() {
       "a job that takes longer is stopped and counts as failed")(
       "resume", po::bool_switch(),
       "go on where a run ended: what was refused for its settings, model or moves is not tried again");
+  add_cache_options(out);
+  return out;
+}
+
+void add_cache_options(po::options_description& to) {
+  to.add_options()(
+      "cache", po::value<std::string>()->value_name("DIR"),
+      "keep results of stages there, for later runs and other processes: a mesh is read, sliced and walled once")(
+      "cache-size", po::value<std::string>()->value_name("SIZE")->default_value("4G"),
+      "most that the folder of --cache may hold");
+}
+
+CacheOptions cache_options_of(const Command& command) {
+  CacheOptions out;
+  if (command.options.count("cache")) out.folder = command.options["cache"].as<std::string>();
+  out.max_disk = bytes_from(command.options["cache-size"].as<std::string>(), "--cache-size");
+  return out;
+}
+
+std::string told(const StageCache& cache) {
+  std::string out;
+  for (const auto& c : cache.counts())
+    out += fmt::format("{}{} made {}, from memory {}, from disk {}", out.empty() ? "" : "; ", c.stage, c.made,
+                       c.from_memory, c.from_disk);
+  if (cache.damaged() > 0) out += fmt::format("; {} damaged entries were made again", cache.damaged());
+  if (cache.unwritten() > 0) out += fmt::format("; {} results could not be kept on disk", cache.unwritten());
   return out;
 }
 
@@ -147,7 +173,7 @@ Finished run_jobs(Console& console, const std::vector<jobs::Prepared>& jobs, con
   return out;
 }
 
-int conclude(Console& console, const Finished& finished, const Command& command) {
+int conclude(Console& console, const Finished& finished, const StageCache& cache, const Command& command) {
   const auto& [result, collected] = finished;
   const auto& p = result.progress;
   const int status = result.interrupted ? 130 : collected.failed + collected.missing > 0 ? 7 : 0;
@@ -157,7 +183,16 @@ int conclude(Console& console, const Finished& finished, const Command& command)
       p.layers, duration(p.seconds), p.layers_per_s, p.seconds > 0 ? static_cast<double>(p.made) / p.seconds : 0.0,
       peak_memory_mb());
   console.info(text);
+  console.detail("cache: " + told(cache));
+  if (cache.unwritten() > 0)
+    console.warning({"cache_not_written",
+                     fmt::format("{} results could not be kept in --cache; is the disk full?", cache.unwritten())});
   if (command.report) {
+    Json stages = Json::object();
+    for (const auto& c : cache.counts())
+      stages[c.stage] = {{"made", c.made}, {"from_memory", c.from_memory}, {"from_disk", c.from_disk}};
+    stages["damaged"] = cache.damaged();
+    stages["unwritten"] = cache.unwritten();
     const Json report{{"weft", version},
                       {"status", status == 0   ? "ok"
                                  : status == 7 ? "failed"
@@ -171,6 +206,7 @@ int conclude(Console& console, const Finished& finished, const Command& command)
                       {"layers", p.layers},
                       {"seconds", rounded3(p.seconds)},
                       {"layers_per_s", rounded3(p.layers_per_s)},
+                      {"cache", std::move(stages)},
                       {"max_memory_mb", result.max_memory >> 20},
                       {"peak_memory_mb", rounded3(peak_memory_mb())}};
     write_output(*command.report, report.dump(2) + "\n");

@@ -12,6 +12,13 @@ namespace weft::app {
 boost::program_options::options_description running_options();
 jobs::BatchOptions batch_options_of(const Command& command);
 
+/// --cache and --cache-size.
+void add_cache_options(boost::program_options::options_description& to);
+/// @throws Error
+CacheOptions cache_options_of(const Command& command);
+/// What the cache saved, as a line for people; empty when it was not asked for anything.
+std::string told(const StageCache& cache);
+
 /// Resolves all jobs. Every error is told, then one stands for all of them. @throws Error
 std::vector<jobs::Prepared> prepare_all(Console& console, jobs::JobList list, const Command& command);
 
@@ -26,6 +33,6 @@ Finished run_jobs(Console& console, const std::vector<jobs::Prepared>& jobs, con
                   const std::string& suffix);
 
 /// The last line on standard error, --report, and the exit status.
-int conclude(Console& console, const Finished& finished, const Command& command);
+int conclude(Console& console, const Finished& finished, const StageCache& cache, const Command& command);
 
 }  // namespace weft::app

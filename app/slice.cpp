@@ -6,6 +6,7 @@
 #include <new>
 #include <sstream>
 
+#include "batch_run.h"
 #include "command.h"
 #include "core/hash.h"
 #include "limits.h"
@@ -34,6 +35,7 @@ po::options_description slice_options() {
     ("timeout", po::value<double>()->value_name("S")->default_value(0, "none"), "stop after so many seconds, with status 130 and a report of what was done")
     ("max-memory", po::value<double>()->value_name("MB")->default_value(0, "none"), "stop above so much resident memory, in the same way")
     ("preview", po::value<std::string>()->value_name("FILE"), "also write a preview (html, svg or png)");
+  add_cache_options(out);
   return out;
 }
 
@@ -149,7 +151,11 @@ int slice(const Words& words) {
     Watch watch;
     watch.progress = [&](std::string_view stage, double share) { console.progress(stage, share); };
     watch.cancelled = [&] { return limits.reached(); };
-    const auto gcode = run(job_of(command, profile.settings), watch, report);
+    const auto cache_options = cache_options_of(command);
+    std::optional<StageCache> cache;
+    if (!cache_options.folder.empty()) cache.emplace(cache_options);
+    const auto gcode = run(job_of(command, profile.settings), watch, report, cache ? &*cache : nullptr);
+    if (cache) console.detail("cache: " + told(*cache));
     if (gcode && !preview.empty())
       write_preview(preview, gcode->gcode(), profile.settings.material.filament_diameter,
                     std::filesystem::path(command.inputs.front()).filename().string());

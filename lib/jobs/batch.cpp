@@ -123,7 +123,7 @@ class Run {
     watch.cancelled = [&] { return look_around(i), running.stop != Stop::no || watch_.interrupted(); };
     outcome.report.warnings = job.notices;
     try {
-      const auto gcode = run(job.job, watch, outcome.report);
+      const auto gcode = run(job.job, watch, outcome.report, options_.cache);
       outcome.exit_status = gcode ? 0 : exit_status(Error::Kind::audit);
       outcome.error = outcome.report.error;
       if (gcode) write_gcode(options_.folder / job.line.output, *gcode);
@@ -204,6 +204,7 @@ class Run {
       running_[verdict.job]->stop.compare_exchange_strong(none, Stop::put_back);
       return;
     }
+    if (options_.cache) options_.cache->forget();
     release_freed_memory();
     if (resident_bytes() > gate_.limit()) running_[verdict.job]->stop.compare_exchange_strong(none, Stop::too_large);
   }

@@ -15,6 +15,7 @@ struct BatchOptions {
   unsigned threads = 0;          ///< 0: all cores
   std::uint64_t max_memory = 0;  ///< bytes; 0: four fifths of what is available
   double timeout_s = 0;          ///< of one job; 0: none
+  StageCache* cache = nullptr;   ///< what jobs have in common is done once; null: each job does everything
   bool resume = false;  ///< verdicts stand: what was refused for its settings, model or moves is not tried again
 };
 

@@ -98,7 +98,7 @@ std::string FileHashes::of(const std::string& path) {
 std::string inputs_hash(const Job& job, FileHashes& files) {
   std::string key;
   for (const auto& model : job.models) {
-    exact::add(key, fs::path(model).stem().string());  // stands in the G-code
+    exact::add(key, fs::path(model).filename().string());  // stands in the G-code
     exact::add(key, files.of(model));
   }
   const auto& p = job.placement;

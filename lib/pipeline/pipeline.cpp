@@ -108,7 +108,7 @@ void refuse_emptiness(const Job& job, const std::vector<PlacedObject>& objects, 
 }
 
 /// The program.
-std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Report& report) {
+std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Report& report, StageCache* cache) {
   const Stopwatch stopwatch(report.timings_ms.total);
   const auto begin = [&](std::string_view stage, double share) {
     stop_if_cancelled(watch);
@@ -116,10 +116,10 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
   };
   report.settings_sha256 = sha256(as_text(job.settings));
   gcode::check_custom_code(job.settings);  // a typo in the start G-code is told before an hour of slicing
-  const auto objects = place_models(job, report);
+  const auto objects = place_models(job, report, cache);
   begin("slicing", 0.05);
   std::vector<PrintedLayers> layers;
-  for (const auto& object : objects) layers.push_back(print_object(job.settings, object, watch, report));
+  for (const auto& object : objects) layers.push_back(print_object(job.settings, object, watch, report, cache));
   refuse_emptiness(job, objects, layers);
   begin("travel", 0.65);
   PrintPlan plan = plan_plate(job.settings, objects, layers, watch, report);
@@ -142,10 +142,10 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
 
 }  // namespace
 
-std::optional<audit::Passed> run(const Job& job, const Watch& watch, Report& report) {
-  if (job.threads == 0) return run_stages(job, watch, report);
+std::optional<audit::Passed> run(const Job& job, const Watch& watch, Report& report, StageCache* cache) {
+  if (job.threads == 0) return run_stages(job, watch, report, cache);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, job.threads);
-  return run_stages(job, watch, report);
+  return run_stages(job, watch, report, cache);
 }
 
 }  // namespace weft

@@ -2,6 +2,7 @@
 #include "audit/audit.h"
 #include "mesh/mesh.h"
 #include "pipeline/report.h"
+#include "pipeline/stage_cache.h"
 #include "pipeline/write_file.h"
 #include "settings/settings.h"
 
@@ -38,10 +39,11 @@ struct Watch {
 };
 
 /// The whole program: reads, places, slices, plans, writes and audits.
+/// @param cache   null: everything is computed. Results are the same with one
 /// @param report  is filled as the job goes on, so that a caller has what was known when an Error ended it
 /// @return the G-code, or nothing when the audit rejected it; report.status and report.error say so
 /// @throws Error of any other kind
-std::optional<audit::Passed> run(const Job& job, const Watch& watch, Report& report);
+std::optional<audit::Passed> run(const Job& job, const Watch& watch, Report& report, StageCache* cache = nullptr);
 
 /// Writes G-code that has passed the audit; nothing else has this type. @throws Error{file}
 inline void write_gcode(const std::filesystem::path& destination, const audit::Passed& gcode) {

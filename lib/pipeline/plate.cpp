@@ -1,7 +1,9 @@
 #include "pipeline/plate.h"
 
+#include "mesh/file_bytes.h"
 #include "mesh/placement.h"
 #include "mesh/read.h"
+#include "pipeline/cached.h"
 #include "pipeline/parallel.h"
 #include "pipeline/stopwatch.h"
 #include "preview/thumbnail.h"
@@ -35,11 +37,18 @@ void note_model(const mesh::Loaded& model, Report& report) {
   report.models.push_back(std::move(out));
 }
 
+/// A model, welded and repaired. Messages name it as it was typed, so that name is part of the key.
+mesh::Loaded read_model(const std::string& path, double scale, StageCache* cache) {
+  const mesh::FileBytes file(path);
+  return cached(cache, [&] { return StageKey("read", 1).with(path).with(sha256(file.view())).with(scale); },
+                [&] { return mesh::read(file.view(), path, {.scale = scale}); }).take();
+}
+
 }  // namespace
 
-std::vector<PlacedObject> place_models(const Job& job, Report& report) {
+std::vector<PlacedObject> place_models(const Job& job, Report& report, StageCache* cache) {
   const Stopwatch stopwatch(report.timings_ms.read);
-  const auto loaded = parallel_map(job.models.size(), [&](std::size_t i) { return mesh::read_file(job.models[i], {.scale = job.placement.scale}); });
+  const auto loaded = parallel_map(job.models.size(), [&](std::size_t i) { return read_model(job.models[i], job.placement.scale, cache); });
   for (const auto& model : loaded) note_model(model, report);
 
   const auto& machine = job.settings.machine;

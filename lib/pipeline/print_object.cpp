@@ -1,3 +1,4 @@
+#include "pipeline/cached.h"
 #include "pipeline/parallel.h"
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
@@ -11,24 +12,40 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
+#include <string_view>
 
 namespace weft::pipeline {
 namespace {
 
 void append(Notices& to, Notices from) { std::move(from.begin(), from.end(), std::back_inserter(to)); }
 
-std::vector<SlicedLayer> slice_object(const Settings& settings, const PlacedObject& object, const Watch& watch, Report& report) {
-  const Stopwatch stopwatch(report.timings_ms.slice);
+// Versions of stages: a change of what a stage makes of the same input needs no new one, because keys hold the build of weft;
+// a change of what its key holds does.
+StageKey slice_key(const Settings& settings, const Mesh& mesh) {
+  const auto bytes = [](const auto& items) {
+    return std::string_view(reinterpret_cast<const char*>(items.data()), items.size() * sizeof(items[0]));
+  };
+  return StageKey("slice", 1).with(sha256(bytes(mesh.vertices))).with(sha256(bytes(mesh.triangles))).with(settings.layers, layer_schema);
+}
+StageKey walls_key(const Settings& settings, const std::string& slice) {
+  return StageKey("walls", 1).with(slice).with(settings.walls, wall_schema).with(settings.machine.nozzle_diameter);
+}
+StageKey fill_key(const Settings& settings, const std::string& walls) {
+  return StageKey("infill", 1).with(walls).with(settings.shells, shell_schema).with(settings.infill, infill_schema)
+      .with(settings.machine.nozzle_diameter).with(settings.walls.wall_line_width_x);
+}
+
+using Cuts = std::vector<slice::Cut>;
+using Walls = std::vector<WallLayer>;
+using Fills = std::vector<FilledLayer>;
+
+Cuts slice_object(const Settings& settings, const PlacedObject& object, const Watch& watch) {
   const slice::Cutter cutter(object.mesh, slice::planes(settings.layers, box_of(object.mesh).max.z));
-  auto cuts = parallel_map(cutter.size(), [&](std::size_t i) {
+  return parallel_map(cutter.size(), [&](std::size_t i) {
     stop_if_cancelled(watch);
     return cutter.cut(i, settings.layers.resolution);
   });
-  append(report.warnings, slice::notices_of(cuts, object.name));
-  std::vector<SlicedLayer> layers;
-  layers.reserve(cuts.size());
-  for (auto& cut : cuts) layers.push_back(std::move(cut.layer));
-  return layers;
 }
 
 /// The settings of the first layer, whose lines may have a width of their own.
@@ -40,68 +57,83 @@ Settings of_first_layer(Settings settings) {
   return settings;
 }
 
-std::vector<WallLayer> build_walls(const Settings& settings, const Settings& first, const std::vector<SlicedLayer>& layers, const Watch& watch, Report& report) {
-  const Stopwatch stopwatch(report.timings_ms.walls);
-  auto walls = parallel_map(layers.size(), [&](std::size_t i) {
+Walls build_walls(const Settings& settings, const Settings& first, const Cuts& cuts, const Watch& watch) {
+  return parallel_map(cuts.size(), [&](std::size_t i) {
     stop_if_cancelled(watch);
-    const Regions over_air = i > 0 ? geometry::subtract(layers[i].regions, layers[i - 1].regions) : Regions{};
+    const Regions over_air = i > 0 ? geometry::subtract(cuts[i].layer.regions, cuts[i - 1].layer.regions) : Regions{};
     return walls::build((i == 0 ? first : settings).walls,
-                        {.layer = layers[i], .index = i, .nozzle_diameter = settings.machine.nozzle_diameter, .over_air = &over_air});
+                        {.layer = cuts[i].layer, .index = i, .nozzle_diameter = settings.machine.nozzle_diameter, .over_air = &over_air});
   });
-  for (auto& layer : walls) append(report.warnings, std::move(layer.notices));
-  return walls;
 }
 
 /// What fills the inside of each layer. Layers are taken in runs, so that the skin's neighbours are looked at once a run.
-std::vector<infill::LayerAreas> find_areas(const Settings& settings, const std::vector<SlicedLayer>& layers, const std::vector<WallLayer>& walls) {
-  std::vector<infill::ShellLayer> seen(layers.size());
-  for (std::size_t i = 0; i < layers.size(); ++i) seen[i] = {layers[i].z, layers[i].height, &layers[i].regions, &walls[i].inside};
+std::vector<infill::LayerAreas> find_areas(const Settings& settings, const Cuts& cuts, const Walls& walls) {
+  std::vector<infill::ShellLayer> seen(cuts.size());
+  for (std::size_t i = 0; i < cuts.size(); ++i) seen[i] = {cuts[i].layer.z, cuts[i].layer.height, &cuts[i].layer.regions, &walls[i].inside};
   const infill::ShellObject object{seen, infill::box_of(seen), settings.machine.nozzle_diameter};
   constexpr std::size_t run = 16;
-  auto runs = parallel_map((layers.size() + run - 1) / run, [&](std::size_t r) {
-    return infill::find_areas(settings.shells, settings.infill, object, r * run, std::min(run, layers.size() - r * run));
+  auto runs = parallel_map((cuts.size() + run - 1) / run, [&](std::size_t r) {
+    return infill::find_areas(settings.shells, settings.infill, object, r * run, std::min(run, cuts.size() - r * run));
   });
   std::vector<infill::LayerAreas> areas;
-  areas.reserve(layers.size());
+  areas.reserve(cuts.size());
   for (auto& part : runs) std::move(part.begin(), part.end(), std::back_inserter(areas));
   return areas;
 }
 
+/// Shells and infill.
+Fills fill_object(const Settings& settings, const Settings& first, const Cuts& cuts, const Walls& walls, const Watch& watch) {
+  const auto areas = find_areas(settings, cuts, walls);
+  Box box;  // patterns hang on its centre, so they move with the object
+  for (const auto& cut : cuts) box.add(box_of(cut.layer.regions));
+  return parallel_map(cuts.size(), [&](std::size_t i) {
+    stop_if_cancelled(watch);
+    const auto& layer = cuts[i].layer;
+    const auto& s = i == 0 ? first : settings;
+    auto filled = infill::fill(s.infill, s.shells, {.areas = areas[i], .index = i, .z = layer.z, .height = layer.height,
+                                                    .nozzle = settings.machine.nozzle_diameter,
+                                                    .wall_line_width = s.walls.wall_line_width_x.value_or(0),
+                                                    .origin = box.empty() ? Point{} : box.centre()});
+    FilledLayer out{{}, {}, {}, std::move(filled.beads), std::move(filled.notices)};
+    for (const auto& part : areas[i]) {
+      out.top.insert(out.top.end(), part.top.begin(), part.top.end());
+      out.sparse.insert(out.sparse.end(), part.sparse.begin(), part.sparse.end());
+      out.skin.insert(out.skin.end(), part.top.begin(), part.top.end());
+      out.skin.insert(out.skin.end(), part.solid.begin(), part.solid.end());
+    }
+    return out;
+  });
+}
+
 }  // namespace
 
-PrintedLayers print_object(const Settings& settings, const PlacedObject& object, const Watch& watch, Report& report) {
-  auto layers = slice_object(settings, object, watch, report);
-  watch.progress("walls", 0.15);
-  const auto first = of_first_layer(settings);
-  auto walls = build_walls(settings, first, layers, watch, report);
-  watch.progress("infill", 0.5);
+PrintedLayers print_object(const Settings& settings, const PlacedObject& object, const Watch& watch, Report& report, StageCache* cache) {
+  std::optional<Stopwatch> stopwatch(std::in_place, report.timings_ms.slice);
+  const auto sliced_by = [&] { return slice_key(settings, object.mesh); };
+  auto sliced = cached(cache, sliced_by, [&] { return slice_object(settings, object, watch); });
+  append(report.warnings, slice::notices_of(*sliced, object.name));
 
-  const Stopwatch stopwatch(report.timings_ms.infill);
-  const auto areas = find_areas(settings, layers, walls);
-  Box box;  // patterns hang on its centre, so they move with the object
-  for (const auto& layer : layers) box.add(box_of(layer.regions));
-  auto fills = parallel_map(layers.size(), [&](std::size_t i) {
-    stop_if_cancelled(watch);
-    const auto& s = i == 0 ? first : settings;
-    return infill::fill(s.infill, s.shells, {.areas = areas[i], .index = i, .z = layers[i].z, .height = layers[i].height,
-                                                           .nozzle = settings.machine.nozzle_diameter,
-                                                           .wall_line_width = s.walls.wall_line_width_x.value_or(0),
-                                                           .origin = box.empty() ? Point{} : box.centre()});
-  });
-  PrintedLayers out(layers.size());
-  for (std::size_t i = 0; i < layers.size(); ++i) {
-    out[i].z = layers[i].z;
-    out[i].height = layers[i].height;
-    out[i].outline = std::move(layers[i].regions);
-    for (const auto& part : areas[i]) {
-      out[i].top.insert(out[i].top.end(), part.top.begin(), part.top.end());
-      out[i].sparse.insert(out[i].sparse.end(), part.sparse.begin(), part.sparse.end());
-      out[i].skin.insert(out[i].skin.end(), part.top.begin(), part.top.end());
-      out[i].skin.insert(out[i].skin.end(), part.solid.begin(), part.solid.end());
-    }
-    out[i].beads = std::move(walls[i].beads);
-    std::move(fills[i].beads.begin(), fills[i].beads.end(), std::back_inserter(out[i].beads));
-    append(report.warnings, std::move(fills[i].notices));
+  watch.progress("walls", 0.15);
+  stopwatch.emplace(report.timings_ms.walls);
+  const auto walls_by = [&] { return walls_key(settings, sliced_by().hash()); };
+  const auto first = of_first_layer(settings);  // a function of what the keys hold: all of layers, walls, shells and infill
+  auto walled = cached(cache, walls_by, [&] { return build_walls(settings, first, *sliced, watch); });
+
+  watch.progress("infill", 0.5);
+  stopwatch.emplace(report.timings_ms.infill);
+  auto filled = cached(cache, [&] { return fill_key(settings, walls_by().hash()); }, [&] { return fill_object(settings, first, *sliced, *walled, watch); });
+
+  auto cuts = std::move(sliced).take();
+  auto walls = std::move(walled).take();
+  auto fills = std::move(filled).take();
+  PrintedLayers out(cuts.size());
+  for (auto& layer : walls) append(report.warnings, std::move(layer.notices));
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    auto& layer = cuts[i].layer;
+    auto& fill = fills[i];
+    out[i] = {layer.z, layer.height, std::move(layer.regions), std::move(fill.skin), std::move(fill.top), std::move(fill.sparse), std::move(walls[i].beads)};
+    std::move(fill.beads.begin(), fill.beads.end(), std::back_inserter(out[i].beads));
+    append(report.warnings, std::move(fill.notices));
   }
   return out;
 }

@@ -30,7 +30,8 @@ struct PrintedLayer {
 using PrintedLayers = std::vector<PrintedLayer>;
 
 /// Slice, walls, shells and infill of one object.
-PrintedLayers print_object(const Settings& settings, const PlacedObject& object, const Watch& watch, Report& report);
+/// @param cache may be null
+PrintedLayers print_object(const Settings& settings, const PlacedObject& object, const Watch& watch, Report& report, StageCache* cache);
 
 /// The whole plate as steps: copies put in their places, adhesion around them, order, seams and travels.
 PrintPlan plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects, const std::vector<PrintedLayers>& layers, const Watch& watch,

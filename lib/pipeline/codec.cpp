@@ -1,0 +1,285 @@
+#include "pipeline/codec.h"
+
+#include <bit>
+#include <stdexcept>
+#include <type_traits>
+
+namespace weft::pipeline {
+namespace {
+
+/// Writes values behind each other. One list of fields a type (`fields` below) serves Writer, Reader and Meter, so that
+/// a field cannot be written and not read.
+class Writer {
+ public:
+  void operator()(const std::uint64_t& v) {
+    std::uint64_t rest = v;
+    for (; rest >= 0x80; rest >>= 7) out.push_back(static_cast<char>(rest | 0x80));
+    out.push_back(static_cast<char>(rest));
+  }
+  void operator()(const std::int64_t& v) {
+    (*this)((static_cast<std::uint64_t>(v) << 1) ^ static_cast<std::uint64_t>(v >> 63));
+  }
+  void operator()(const double& v) {
+    const auto bits = std::bit_cast<std::uint64_t>(v);
+    for (int i = 0; i < 8; ++i) out.push_back(static_cast<char>(bits >> (8 * i)));
+  }
+  void operator()(const std::string& v) { (*this)(std::uint64_t{v.size()}), out += v; }
+  void size(const std::uint64_t& n, std::size_t) { (*this)(n); }
+
+  std::string out;
+};
+
+class Reader {
+ public:
+  explicit Reader(std::string_view bytes) : rest_(bytes) {}
+  void operator()(std::uint64_t& v) {
+    v = 0;
+    for (int shift = 0;; shift += 7) {
+      if (shift > 63) damaged();
+      const auto byte = static_cast<unsigned char>(take(1)[0]);
+      v |= std::uint64_t{byte & 0x7fu} << shift;
+      if (byte < 0x80) return;
+    }
+  }
+  void operator()(std::int64_t& v) {
+    std::uint64_t folded = 0;
+    (*this)(folded);
+    v = static_cast<std::int64_t>(folded >> 1) ^ -static_cast<std::int64_t>(folded & 1);
+  }
+  void operator()(double& v) {
+    const auto bytes = take(8);
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < 8; ++i) bits |= std::uint64_t{static_cast<unsigned char>(bytes[i])} << (8 * i);
+    v = std::bit_cast<double>(bits);
+  }
+  void operator()(std::string& v) {
+    std::uint64_t n = 0;
+    (*this)(n);
+    v = take(n);
+  }
+  /// A number of items, each of which takes a byte at least.
+  void size(std::uint64_t& n, std::size_t) {
+    (*this)(n);
+    if (n > rest_.size()) damaged();
+  }
+  void finish() const {
+    if (!rest_.empty()) damaged();
+  }
+
+ private:
+  std::string_view take(std::uint64_t n) {
+    if (n > rest_.size()) damaged();
+    const auto out = rest_.substr(0, n);
+    rest_.remove_prefix(n);
+    return out;
+  }
+  [[noreturn]] static void damaged() { throw std::runtime_error("a cached result is damaged"); }
+  std::string_view rest_;
+};
+
+/// Adds up what vectors and texts hold.
+class Meter {
+ public:
+  void operator()(const std::uint64_t&) {}
+  void operator()(const std::int64_t&) {}
+  void operator()(const double&) {}
+  void operator()(const std::string& v) { bytes += v.size(); }
+  void size(const std::uint64_t& n, std::size_t each) { bytes += n * each; }
+
+  std::size_t bytes = 0;
+};
+
+template <class A>
+inline constexpr bool reads = std::is_same_v<A, Reader>;
+/// T when it is read into, const T when it is written.
+template <class A, class T>
+using Ref = std::conditional_t<reads<A>, T, const T>&;
+
+/// A vector whose items are written one by one; rings have a way of their own.
+template <class V>
+inline constexpr bool is_list = false;
+template <class T>
+inline constexpr bool is_list<std::vector<T>> = !std::is_same_v<T, Point>;
+
+template <class A, class T>
+requires std::is_integral_v<T> || std::is_enum_v<T>
+void fields(A& a, T& v) {
+  using Wide = std::conditional_t<std::is_signed_v<std::remove_const_t<T>>, std::int64_t, std::uint64_t>;
+  auto wide = static_cast<Wide>(v);
+  a(wide);
+  if constexpr (reads<A>) v = static_cast<T>(wide);
+}
+template <class A>
+void fields(A& a, Ref<A, double> v) {
+  a(v);
+}
+template <class A>
+void fields(A& a, Ref<A, std::string> v) {
+  a(v);
+}
+template <class A, class V>
+requires is_list<std::remove_const_t<V>>
+void fields(A& a, V& v);
+
+template <class A>
+void fields(A& a, Ref<A, Point> v) {
+  fields(a, v.x), fields(a, v.y);
+}
+
+/// A whole number as its difference from the one before.
+template <class A, class T>
+void difference(A& a, T& v, std::int64_t& before) {
+  auto step = reads<A> ? std::int64_t{0} : static_cast<std::int64_t>(v) - before;
+  a(step);
+  before += step;
+  if constexpr (reads<A>) v = static_cast<T>(before);
+}
+
+template <class A>
+void fields(A& a, Ref<A, Ring> ring) {
+  auto count = std::uint64_t{ring.size()};
+  a.size(count, sizeof(Point));
+  if constexpr (reads<A>) ring.resize(count);
+  std::int64_t x = 0, y = 0;
+  for (auto& p : ring) difference(a, p.x, x), difference(a, p.y, y);
+}
+template <class A>
+void fields(A& a, Ref<A, Region> v) {
+  fields(a, v.outer), fields(a, v.holes);
+}
+template <class A>
+void fields(A& a, Ref<A, Notice> v) {
+  fields(a, v.code), fields(a, v.message);
+}
+template <class A>
+void fields(A& a, Ref<A, Bead> v) {
+  auto count = std::uint64_t{v.path.size()};
+  a.size(count, sizeof(Junction));
+  if constexpr (reads<A>) v.path.resize(count);
+  std::int64_t x = 0, y = 0, width = 0;
+  for (auto& j : v.path) {
+    difference(a, j.at.x, x), difference(a, j.at.y, y), difference(a, j.width, width);
+    constexpr auto one = std::bit_cast<std::uint32_t>(1.F);  // the usual flow takes one byte
+    auto flow = std::uint64_t{std::bit_cast<std::uint32_t>(j.flow) ^ one};
+    a(flow);
+    if constexpr (reads<A>) j.flow = std::bit_cast<float>(static_cast<std::uint32_t>(flow) ^ one);
+  }
+  fields(a, v.role), fields(a, v.closed), fields(a, v.inset), fields(a, v.part), fields(a, v.sequence);
+}
+template <class A>
+void fields(A& a, Ref<A, slice::Gaps> v) {
+  fields(a, v.count), fields(a, v.widest_um), fields(a, v.at);
+}
+template <class A>
+void fields(A& a, Ref<A, slice::Cut> v) {
+  fields(a, v.layer.z), fields(a, v.layer.height), fields(a, v.layer.regions), fields(a, v.closed),
+      fields(a, v.bridged);
+}
+template <class A>
+void fields(A& a, Ref<A, WallLayer> v) {
+  fields(a, v.beads), fields(a, v.inside), fields(a, v.notices);
+}
+template <class A>
+void fields(A& a, Ref<A, FilledLayer> v) {
+  fields(a, v.top), fields(a, v.skin), fields(a, v.sparse), fields(a, v.beads), fields(a, v.notices);
+}
+template <class A>
+void fields(A& a, Ref<A, Triangle> v) {
+  for (auto& corner : v) fields(a, corner);
+}
+template <class A>
+void fields(A& a, Ref<A, Mesh> v) {
+  auto count = std::uint64_t{v.vertices.size()};
+  a.size(count, sizeof(Point3));
+  if constexpr (reads<A>) v.vertices.resize(count);
+  std::int64_t x = 0, y = 0, z = 0;
+  for (auto& p : v.vertices) difference(a, p.x, x), difference(a, p.y, y), difference(a, p.z, z);
+  count = v.triangles.size();
+  a.size(count, sizeof(Triangle));
+  if constexpr (reads<A>) v.triangles.resize(count);
+  std::int64_t corner = 0;
+  for (auto& t : v.triangles)
+    for (auto& c : t) difference(a, c, corner);
+}
+template <class A>
+void fields(A& a, Ref<A, mesh::Object> v) {
+  fields(a, v.name), fields(a, v.mesh);
+  auto& r = v.repairs;
+  fields(a, r.degenerate), fields(a, r.duplicates), fields(a, r.sheets), fields(a, r.flipped),
+      fields(a, r.inverted_shells);
+  fields(a, r.shells), fields(a, r.open_edges), fields(a, r.non_manifold_edges), fields(a, r.one_sided_shells);
+}
+template <class A>
+void fields(A& a, Ref<A, mesh::Loaded> v) {
+  fields(a, v.path), fields(a, v.format), fields(a, v.sha256), fields(a, v.unit), fields(a, v.triangles_in_file),
+      fields(a, v.objects), fields(a, v.notices);
+}
+
+template <class A, class V>
+requires is_list<std::remove_const_t<V>>
+void fields(A& a, V& v) {
+  auto count = std::uint64_t{v.size()};
+  a.size(count, sizeof(typename V::value_type));
+  if constexpr (reads<A>) v.resize(count);
+  for (auto& item : v) fields(a, item);
+}
+
+template <class T>
+std::string encoded(const T& v) {
+  Writer writer;
+  fields(writer, v);
+  return std::move(writer.out);
+}
+template <class T>
+void decoded(std::string_view bytes, T& out) {
+  Reader reader(bytes);
+  fields(reader, out);
+  reader.finish();
+}
+template <class T>
+std::size_t measured(const T& v) {
+  Meter meter;
+  fields(meter, v);
+  return meter.bytes;
+}
+
+}  // namespace
+
+std::string encode(const mesh::Loaded& v) {
+  return encoded(v);
+}
+std::string encode(const std::vector<slice::Cut>& v) {
+  return encoded(v);
+}
+std::string encode(const std::vector<WallLayer>& v) {
+  return encoded(v);
+}
+std::string encode(const std::vector<FilledLayer>& v) {
+  return encoded(v);
+}
+void decode(std::string_view bytes, mesh::Loaded& out) {
+  decoded(bytes, out);
+}
+void decode(std::string_view bytes, std::vector<slice::Cut>& out) {
+  decoded(bytes, out);
+}
+void decode(std::string_view bytes, std::vector<WallLayer>& out) {
+  decoded(bytes, out);
+}
+void decode(std::string_view bytes, std::vector<FilledLayer>& out) {
+  decoded(bytes, out);
+}
+std::size_t memory_of(const mesh::Loaded& v) {
+  return measured(v);
+}
+std::size_t memory_of(const std::vector<slice::Cut>& v) {
+  return measured(v);
+}
+std::size_t memory_of(const std::vector<WallLayer>& v) {
+  return measured(v);
+}
+std::size_t memory_of(const std::vector<FilledLayer>& v) {
+  return measured(v);
+}
+
+}  // namespace weft::pipeline

@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# The page of weft sweep in a real browser:  bash tests/jobs/browser.sh WEFT [SCREENSHOT.png]
+# Looks at what its script has built, with the network cut off. Status 77: skipped, no chromium (Debian: apt-get install chromium).
+set -euo pipefail
+weft=$(realpath "$1")
+picture=${2:-}
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+chromium=$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)
+if [ -z "$chromium" ]; then
+  echo "SKIPPED: no chromium; apt-get install --no-install-recommends chromium" >&2
+  exit 77
+fi
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+"$weft" sweep "$root/examples/bracket.stl" --vary infill_sparse_density=10:50:20 --vary infill_pattern=grid,gyroid --layer-height 0.3 -q -o "$scratch/out"
+page=$scratch/out/index.html
+browse() { # FRAGMENT OPTION...
+  local fragment=$1
+  shift
+  "$chromium" --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --user-data-dir="$scratch/profile" --virtual-time-budget=3000 \
+    --host-resolver-rules='MAP * ~NOTFOUND' --window-size=1400,1500 "$@" "file://$page$fragment" 2> "$scratch/browser.log"
+}
+failed=0
+expect() { # NAME ACTUAL WANTED
+  if [ "$2" = "$3" ]; then echo "ok: $1"; else echo "FAILED: $1: $2, wanted $3" >&2; failed=1; fi
+}
+count() { { grep -o "$2" <<< "$1" || true; } | wc -l; }
+
+dom=$(browse '' --dump-dom)
+expect "the script ran to its end" "$(count "$dom" 'data-ready="6"')" 1
+expect "no error was thrown" "$(count "$dom" 'data-error=')" 0
+expect "six rows" "$(count "$dom" '<tr data-id=')" 6
+expect "six pictures" "$(count "$dom" '<img src="data:image/png;base64,')" 6
+expect "six points in the scatter" "$(count "$dom" '<circle class="dot"')" 6
+expect "six lines in the parallel coordinates" "$(count "$dom" '<polyline points=[^>]*stroke=')" 6
+expect "six axes" "$(count "$dom" 'class="axis"')" 6
+[ "$(count "$dom" 'class="best"')" -ge 1 ] || { echo "FAILED: nothing is on the front" >&2; failed=1; }
+
+sorted=$(browse '#sort=time&down=1' --dump-dom)
+times=$(grep -o ' data-time="[0-9.]*"' <<< "$sorted" | tr -dc '0-9.\n')
+expect "six times" "$(wc -l <<< "$times")" 6
+expect "sorted by time, longest first" "$(sort -rn <<< "$times")" "$times"
+kept=$(browse '#keep=infill_sparse_density~20~60' --dump-dom)
+expect "a range on an axis keeps what lies in it" "$(count "$kept" 'data-kept="4"')" 1
+expect "the rest fades in the table" "$(count "$kept" '<tr data-id="[^"]*" data-time="[^"]*" class="[^"]*out"')" 2
+[ -z "$picture" ] || browse '#x=time&y=strength&c=infill_sparse_density' --screenshot="$picture" > /dev/null
+exit $failed
