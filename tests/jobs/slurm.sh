@@ -80,7 +80,7 @@ export WEFT=$weft
 array=$(sbatch --parsable --array=1-20 --cpus-per-task=1 --mem=0 "$root/examples/batch/slurm.sbatch" "$jobs" "$scratch/out")
 echo "array $array, share $victim of 20 will be killed"
 for _ in $(seq 600); do # until the victim works at the long job
-  pid=$(pgrep -f "$weft batch $jobs" | while read -r p; do tr '\0' '\n' < "/proc/$p/environ" 2> /dev/null | grep -qx "SLURM_ARRAY_TASK_ID=$victim" && echo "$p"; done | head -1 || true)
+  pid=$(pgrep -f "$weft batch $jobs" | while read -r p; do { tr '\0' '\n' < "/proc/$p/environ"; } 2> /dev/null | grep -qx "SLURM_ARRAY_TASK_ID=$victim" && echo "$p"; done | head -1 || true)
   [ -n "$pid" ] && break
   sleep 0.1
 done
