@@ -156,8 +156,22 @@ class Translator {
       const double first = lines_.figure(*e).of(first_height);
       set("initial_layer_line_width", first == 0 ? "auto" : number(first, 3), *e);
       // Skirt and brim are first-layer lines; where that has no width of its own, they are as wide as inner walls.
-      set("skirt_brim_line_width", number(first == 0 ? width_of(lines_.look("perimeter_extrusion_width"), 1.125) : first, 3), *e);
+      const double width = first == 0 ? width_of(lines_.look("perimeter_extrusion_width"), 1.125) : first;
+      set("skirt_brim_line_width", number(width, 3), *e);
+      skirt_length(width, first_height);
     }
+  }
+
+  /// PrusaSlicer measures the least skirt in filament, weft in the skirt's own length.
+  void skirt_length(double width, double height) {
+    const auto* e = lines_.look("min_skirt_length");
+    const double area = height * (width - height * (1 - std::numbers::pi / 4));
+    if (!e || area <= 0) return;
+    const auto* filament = lines_.look("filament_diameter");
+    const double d = filament ? lines_.figure(*filament).v : 1.75;
+    set("skirt_brim_minimal_length", number(lines_.figure(*e).v * std::numbers::pi / 4 * d * d / area, 3), *e);
+    lines_.find("min_skirt_length");
+    done_.insert("min_skirt_length");
   }
 
   /// Speeds: a share is of another speed; 0 is PrusaSlicer's automatic speed, bounded by max_print_speed.

@@ -141,6 +141,12 @@ class Exporter {
     say("first_layer_extrusion_width", first == "auto" ? "0" : first, "initial_layer_line_width");
     say("first_layer_height", number(to_mm(s_.layers.initial_layer_height.value_or(s_.layers.layer_height))), "initial_layer_height");
     said_.insert("skirt_brim_line_width");
+    // There the least skirt is measured in filament.
+    const double height = to_mm(s_.layers.initial_layer_height.value_or(s_.layers.layer_height));
+    double skirt = 0, filament = to_mm(s_.material.filament_diameter);
+    value::parse(first == "auto" ? lines_["perimeter_extrusion_width"] : first, Unit::none, skirt);
+    const double area = height * (skirt - height * (1 - std::numbers::pi / 4));
+    say("min_skirt_length", number(to_mm(s_.adhesion.skirt_brim_minimal_length) * area / (std::numbers::pi / 4 * filament * filament)), "skirt_brim_minimal_length");
   }
 
   void speeds() {
