@@ -170,3 +170,16 @@ TEST_CASE("walls: a speck is left out without a word, a small part with its size
   REQUIRE(walls.notices.size() == 1);
   CHECK(walls.notices[0].message.find("0.250 x 0.200 mm") != std::string::npos);
 }
+
+TEST_CASE("walls: with every nozzle a thin rib gets the plastic of its own thickness", "[walls]") {
+  const Um nozzle = GENERATE(0.25_mm, 0.4_mm, 0.8_mm);
+  const Um rib = GENERATE(50, 100, 200, 300);
+  CAPTURE(nozzle, rib);
+  const auto walls = walls_of({{rectangle(0, 0, 10_mm, rib), {}}}, {}, nozzle);
+  REQUIRE(walls.beads.size() == 1);
+  CHECK(bead_area_mm2(walls) == Approx(10 * to_mm(rib)).epsilon(0.01));
+  for (const Junction& j : walls.beads[0].path) {
+    CHECK(j.width >= 0.2_mm);
+    CHECK(j.width * static_cast<double>(j.flow) == Approx(rib).margin(2));
+  }
+}
