@@ -5,6 +5,7 @@
 
 #include "command.h"
 #include "core/join.h"
+#include "labels.h"
 #include "settings/catalogue.h"
 #include "verbs.h"
 
@@ -19,10 +20,10 @@ std::string range_of(const CatalogueEntry& e) {
   return fmt::format("{} … {}{}{}{}", e.least, e.most, e.unit.empty() ? "" : " ", e.unit, e.automatic ? ", or auto" : "");
 }
 
-std::string as_json(const std::vector<const CatalogueEntry*>& entries) {
+std::string as_json(const std::vector<const CatalogueEntry*>& entries, const Labels& labels) {
   auto out = nlohmann::ordered_json::array();
   for (const auto* e : entries) {
-    nlohmann::ordered_json row{{"key", e->key}, {"section", e->section}, {"type", e->type}, {"unit", e->unit}, {"default", e->default_text}};
+    nlohmann::ordered_json row{{"key", e->key}, {"label", labels.of(e->key)}, {"section", e->section}, {"type", e->type}, {"unit", e->unit}, {"default", e->default_text}};
     if (!e->least.empty()) row["min"] = e->least, row["max"] = e->most;
     if (!e->choices.empty()) row["choices"] = e->choices;
     row["auto"] = e->automatic;
@@ -33,26 +34,28 @@ std::string as_json(const std::vector<const CatalogueEntry*>& entries) {
   return out.dump(2) + "\n";
 }
 
-std::string as_markdown(const std::vector<const CatalogueEntry*>& entries) {
+/// @param labels absent: no column for them
+std::string as_markdown(const std::vector<const CatalogueEntry*>& entries, const Labels* labels) {
   std::string out, section;
   for (const auto* e : entries) {
     if (e->section != section) {
       section = e->section;
-      out += fmt::format("{}## {}\n\n| key | default | range | meaning |\n|---|---|---|---|\n", out.empty() ? "" : "\n", section);
+      out += fmt::format("{}## {}\n\n| key |{} default | range | meaning |\n|---|{}---|---|---|\n", out.empty() ? "" : "\n", section,
+                         labels ? " label |" : "", labels ? "---|" : "");
     }
     std::string range = range_of(*e);
     for (auto at = range.find('|'); at != std::string::npos; at = range.find('|', at + 2)) range.replace(at, 1, "\\|");
-    out += fmt::format("| `{}` | {} | {} | {} |\n", e->key, e->default_text, range, e->meaning);
+    out += fmt::format("| `{}` |{} {} | {} | {} |\n", e->key, labels ? fmt::format(" {} |", labels->of(e->key)) : "", e->default_text, range, e->meaning);
   }
   return out;
 }
 
-std::string as_plain(const std::vector<const CatalogueEntry*>& entries) {
+std::string as_plain(const std::vector<const CatalogueEntry*>& entries, const Labels* labels) {
   std::string out, section;
   for (const auto* e : entries) {
     if (e->section != section) out += fmt::format("{}[{}]\n", out.empty() ? "" : "\n", section = e->section);
-    out += fmt::format("{} = {}{}{}\n    {} ({})\n", e->key, e->default_text, e->unit.empty() || e->unit == "%" || e->default_text == "auto" ? "" : " ",
-                       e->unit == "%" || e->default_text == "auto" ? "" : e->unit, e->meaning, range_of(*e));
+    out += fmt::format("{} = {}{}{}\n    {}{} ({})\n", e->key, e->default_text, e->unit.empty() || e->unit == "%" || e->default_text == "auto" ? "" : " ",
+                       e->unit == "%" || e->default_text == "auto" ? "" : e->unit, labels ? labels->of(e->key) + ": " : "", e->meaning, range_of(*e));
   }
   return out;
 }
@@ -61,7 +64,8 @@ std::string as_plain(const std::vector<const CatalogueEntry*>& entries) {
 
 int settings(const Words& words) {
   po::options_description options("Options of weft settings");
-  options.add_options()("format", po::value<std::string>()->value_name("text|json|markdown")->default_value("text"), "form of the list");
+  options.add_options()("format", po::value<std::string>()->value_name("text|json|markdown")->default_value("text"), "form of the list")(
+      "lang", po::value<std::string>()->value_name("LANGUAGE"), "names settings in en, fr, ja, zh_CN or zh_TW");
   const auto command = parse_command(words, options);
   if (command.help) {
     std::ostringstream out;
@@ -80,7 +84,12 @@ int settings(const Words& words) {
   const auto format = command.options["format"].as<std::string>();
   if (format != "text" && format != "json" && format != "markdown")
     throw Error{Error::Kind::usage, fmt::format("'{}' is not one of text, json, markdown", format), "--format"};
-  write_output(command.output.value_or("-"), format == "json" ? as_json(entries) : format == "markdown" ? as_markdown(entries) : as_plain(entries));
+  const bool named = command.options.count("lang") > 0;
+  const Labels labels(named ? command.options["lang"].as<std::string>() : "");
+  const Labels* shown = named ? &labels : nullptr;
+  write_output(command.output.value_or("-"), format == "json"       ? as_json(entries, labels)
+                                             : format == "markdown" ? as_markdown(entries, shown)
+                                                                    : as_plain(entries, shown));
   return 0;
 }
 

@@ -7,6 +7,7 @@ packages=(
   g++ cmake ninja-build pkg-config
   libcgal-dev libeigen3-dev libpolyclipping-dev                 # geometry
   libfmt-dev libtbb-dev libboost-program-options-dev nlohmann-json3-dev libssl-dev
+  gettext                                                       # labels of settings in other languages
   libzip-dev libexpat1-dev libpng-dev                           # 3MF, pictures
   catch2                                                        # tests
 )

@@ -75,3 +75,28 @@ TEST_CASE("command line: with --log-format json every message is an object on a 
   const auto line = nlohmann::json::parse(run.err);
   CHECK(line["level"] == "error");
 }
+
+TEST_CASE("command line: settings of travel, retraction and seams have a name in every language, others the English one") {
+  const auto rows_in = [](const std::string& language) {
+    const auto run = weft({"settings", "--format", "json", "--lang", language});
+    REQUIRE(run.status == 0);
+    return nlohmann::json::parse(run.out);
+  };
+  const auto english = rows_in("en");
+  for (const std::string language : {"zh_CN", "zh_TW", "ja", "fr"}) {
+    const auto rows = rows_in(language);
+    REQUIRE(rows.size() == english.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      INFO(language << " " << rows[i]["key"]);
+      CHECK_FALSE(rows[i]["label"].get<std::string>().empty());
+      if (rows[i]["section"] == "travel" || rows[i]["section"] == "retraction") CHECK(rows[i]["label"] != english[i]["label"]);
+      if (rows[i]["key"] == "cool_min_speed") CHECK(rows[i]["label"] == "Cool min speed");
+    }
+  }
+  CHECK(rows_in("zh-Hant")[0] == rows_in("zh_TW")[0]);
+  CHECK(rows_in("fr_CA.UTF-8") == rows_in("fr"));
+  CHECK_THAT(weft({"settings", "--lang", "fr", "wipe"}).out, Contains("Essuyer pendant la rétraction"));
+  const auto wrong = weft({"settings", "--lang", "xx"});
+  CHECK(wrong.status == 2);
+  CHECK_THAT(wrong.err, Contains("'xx'") && Contains("one of en, fr, ja, zh_CN, zh_TW"));
+}
