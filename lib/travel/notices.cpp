@@ -42,8 +42,8 @@ void check_combing(const TravelSettings& t, const RetractionSettings& r, Check& 
 void check_seams(const TravelSettings& t, Check& check) {
   const TravelSettings usual;
   const bool free_of_corners = t.z_seam_type == SeamType::random || t.z_seam_type == SeamType::shortest;
-  check.without_effect((t.z_seam_x != 0 || t.z_seam_y != 0) && t.z_seam_type != SeamType::user, "z_seam_x and z_seam_y",
-                       "z_seam_type is not user");
+  check.without_effect(t.z_seam_x != 0 && t.z_seam_type != SeamType::user, "z_seam_x", "z_seam_type is not user");
+  check.without_effect(t.z_seam_y != 0 && t.z_seam_type != SeamType::user, "z_seam_y", "z_seam_type is not user");
   check.without_effect(free_of_corners && t.z_seam_corner != usual.z_seam_corner, "z_seam_corner",
                        "seams that are random or shortest look at no corners");
   check.without_effect(t.z_seam_corner == SeamCorner::none && t.z_seam_corner_weight != usual.z_seam_corner_weight,

@@ -76,7 +76,8 @@ class WallOrder {
           const std::uint32_t other = t.first == wall ? t.second : t.first;
           if (reached[other] || bead(other).inset <= bead(wall).inset || !bead(other).closed) continue;
           reached[other] = 1;
-          if (starts_[other].size() < most_starts) starts_[other].push_back(beside(bead(other), start));
+          if (starts_[other].size() < most_starts)
+            starts_[other].push_back(beside(bead(other), settings_.staggered_inner_seams ? starts_[w][0] : start));
           spread.push_back({other, starts_[other].back()});
         }
       }

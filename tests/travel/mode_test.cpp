@@ -1,0 +1,244 @@
+#include "layers.h"
+#include "travel/way.h"
+
+#include <catch2/catch.hpp>
+
+using namespace weft;
+using namespace weft::travel;
+
+namespace {
+
+/// A square of 40 mm; `what` of it is a block in its middle, or, where that is said, a strip from side to side.
+LayerInput with_area(Regions ObjectLayer::*what, bool from_side_to_side = false) {
+  LayerInput input = sample::layer({{sample::rectangle({0, 0}, {40000, 40000}), {}}}, 1, 4000);
+  auto& object = input.objects[0];
+  const Regions area{{from_side_to_side ? sample::rectangle({0, 13000}, {40000, 27000})
+                                        : sample::rectangle({10000, 13000}, {30000, 27000}),
+                      {}}};
+  object.*what = area;
+  object.sparse = geometry::subtract({{sample::rectangle({1200, 1200}, {38800, 38800}), {}}}, area);
+  return input;
+}
+
+/// The way from below the area to above it.
+Way way_past(Combing mode, const LayerInput& input) {
+  TravelSettings settings;
+  settings.retraction_combing = mode;
+  const auto prepared = prepare(settings, input);
+  const RetractionSettings retraction;
+  return Router(settings, retraction, prepared).way({20000, 5000}, {20000, 35000});
+}
+
+bool enters(const Way& way, const Ring& ring) {
+  Point at{20000, 5000};
+  for (const Point next : way.points) {
+    for (int k = 0; k <= 300; ++k)
+      if (side_of(ring, lerp(at, next, k / 300.0)) == Side::inside) return true;
+    at = next;
+  }
+  return false;
+}
+
+/// Calls visit(from, to, retracted) for every piece of every travel.
+template <class Visit>
+void each_travel(const std::vector<LayerPlan>& plans, const Visit& visit) {
+  std::optional<Point> at;
+  bool retracted = false;
+  for (const auto& plan : plans)
+    for (const auto& step : plan.steps) {
+      if (const auto* e = std::get_if<Extrude>(&step)) at = e->path.back().at;
+      if (const auto* r = std::get_if<Retract>(&step)) {
+        retracted = true;
+        if (!r->wipe.empty()) at = r->wipe.back();
+      }
+      if (std::holds_alternative<Prime>(step)) retracted = false;
+      if (const auto* t = std::get_if<Travel>(&step))
+        for (const auto& p : t->path) {
+          if (at) visit(*at, flat(p), retracted);
+          at = flat(p);
+        }
+    }
+}
+
+TravelSettings combing(Combing mode) {
+  TravelSettings settings;
+  settings.retraction_combing = mode;
+  return settings;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "travel: with noskin ways go round skin, with no_outer_surfaces round what is seen, with infill they stay over it",
+    "[travel]") {
+  struct Case {
+    Combing mode;
+    Regions ObjectLayer::*area;
+  };
+  const Case c =
+      GENERATE(Case{Combing::noskin, &ObjectLayer::skin}, Case{Combing::no_outer_surfaces, &ObjectLayer::top},
+               Case{Combing::infill, &ObjectLayer::skin});
+  const Ring block = sample::rectangle({10050, 13050}, {29950, 26950});
+  const auto plain = way_past(Combing::all, with_area(c.area));
+  CHECK(enters(plain, block));
+  CHECK_FALSE(plain.retract);
+  const auto round = way_past(c.mode, with_area(c.area));
+  CHECK_FALSE(enters(round, block));
+  CHECK_FALSE(round.retract);
+  CHECK_FALSE(round.crosses);
+  CHECK(round.points.size() > 1);
+}
+
+TEST_CASE("travel: where the area of a combing mode is cut in two, travels between its halves are retracted",
+          "[travel]") {
+  CHECK(way_past(Combing::noskin, with_area(&ObjectLayer::skin, true)).retract);
+  CHECK(way_past(Combing::no_outer_surfaces, with_area(&ObjectLayer::top, true)).retract);
+  CHECK(way_past(Combing::infill, with_area(&ObjectLayer::skin, true)).retract);
+  CHECK_FALSE(way_past(Combing::all, with_area(&ObjectLayer::skin, true)).retract);
+  CHECK(way_past(Combing::off, with_area(&ObjectLayer::skin, true)).retract);
+}
+
+TEST_CASE("travel: with no_outer_surfaces ways keep off the outer wall", "[travel]") {
+  const auto settings = combing(Combing::no_outer_surfaces);
+  const auto prepared = prepare(settings, sample::layer(sample::plate()));
+  const auto way = prepared.comb.way({19000, 28000}, {26000, 28000});  // round the bay, whose floor is at 12 mm
+  REQUIRE(way);
+  for (const Point p : *way) CHECK((p.y > 27000 || p.y < 12000 - 3 * sample::width / 2 + 30));
+}
+
+TEST_CASE("travel: a combing offset keeps travels that much further in, or lets them that much further out",
+          "[travel]") {
+  // A bay from above: ways from arm to arm bend round its floor, the boundary of combing.
+  const Region bay{
+      {{0, 0}, {30000, 0}, {30000, 30000}, {20000, 30000}, {20000, 12000}, {10000, 12000}, {10000, 30000}, {0, 30000}},
+      {}};
+  Um before = 0;
+  for (const Um offset : {-400, 0, 400}) {
+    auto settings = combing(Combing::all);
+    settings.retraction_combing_offset = offset;
+    settings.retraction_combing_max_detour.reset();
+    const auto prepared = prepare(settings, sample::layer({bay}));
+    const auto way = prepared.comb.way({5000, 28000}, {25000, 28000});
+    REQUIRE(way);
+    REQUIRE(way->size() > 1);
+    Um lowest = max_coord;  // at the corners of the floor
+    for (std::size_t i = 0; i + 1 < way->size(); ++i) lowest = std::min(lowest, (*way)[i].y);
+    CHECK(lowest == Approx(12000 - sample::width / 2 + offset).margin(20));
+    CHECK(lowest > before);
+    before = lowest;
+  }
+}
+
+TEST_CASE("travel: an offset that closes the boundary leaves travels there to retractions", "[travel]") {
+  auto settings = combing(Combing::all);
+  settings.retraction_combing_offset = -10000;
+  const auto prepared = prepare(settings, sample::layer({{sample::rectangle({0, 0}, {15000, 15000}), {}}}));
+  CHECK(prepared.comb.empty());
+  CHECK(sample::count(plan(settings, {}, {sample::layer(sample::plate())})).retractions >
+        sample::count(plan({}, {}, {sample::layer(sample::plate())})).retractions);
+}
+
+TEST_CASE("travel: a combed way much longer than the straight one gives way to a retraction", "[travel]") {
+  auto settings = combing(Combing::all);
+  settings.retraction_combing_max_detour.reset();
+  const auto combed = sample::count(plan(settings, {}, {sample::layer(sample::plate())}));
+  settings.retraction_combing_max_detour = length(1000);
+  const auto straight = sample::count(plan(settings, {}, {sample::layer(sample::plate())}));
+  CHECK(straight.retractions > combed.retractions);
+  CHECK(straight.travel_mm < combed.travel_mm);
+  RetractionSettings never;
+  never.retraction_enable = false;  // then a detour is all there is against strings
+  CHECK(sample::count(plan(settings, never, {sample::layer(sample::plate())})).travel_mm >= combed.travel_mm - 0.01);
+}
+
+TEST_CASE("travel: retracted travels go round other parts when asked, and keep their distance", "[travel]") {
+  const Regions parts{{sample::rectangle({0, 0}, {8000, 8000}), {}},
+                      {sample::rectangle({14000, -10000}, {18000, 6000}), {}},
+                      {sample::rectangle({24000, 0}, {32000, 8000}), {}}};
+  TravelSettings settings;
+  settings.travel_avoid_other_parts = true;
+  settings.travel_avoid_distance = 1000;
+  const auto prepared = prepare(settings, sample::layer(parts));
+  REQUIRE_FALSE(prepared.around.empty());
+  const Point p{4000, 4000}, q{28000, 4000};
+  const auto way = prepared.around.way(p, q, {prepared.around.hole_around(p), prepared.around.hole_around(q)});
+  REQUIRE(way);
+  CHECK(way->size() > 1);
+  Point at = p;
+  for (const Point next : *way) {
+    for (int k = 0; k <= 100; ++k) {
+      const Point r = lerp(at, next, k / 100.0);
+      const Point nearest{std::clamp(r.x, 14000, 18000), std::clamp(r.y, -10000, 6000)};
+      CHECK(distance(r, nearest) > 980);
+    }
+    at = next;
+  }
+}
+
+TEST_CASE("travel: ways stay inside a concave reach and out of no-go areas, or it is said where not", "[travel]") {
+  LayerInput input = sample::layer(
+      {{sample::rectangle({0, 0}, {8000, 8000}), {}}, {sample::rectangle({30000, 0}, {38000, 8000}), {}}});
+  input.room.no_go = {sample::rectangle({15000, -50000}, {20000, 20000})};
+  input.room.reach = sample::rectangle({-60000, -60000}, {60000, 60000});
+  const Region area{input.room.no_go[0], {}};
+  const auto routed = [&] {
+    const auto prepared = std::vector{prepare({}, input)};
+    return route({}, {}, prepared[0], order({}, prepared[0], link({}, prepared)[0]), Point{4000, 4000});
+  };
+  auto out = routed();
+  double inside_um = 0;
+  each_travel({out.plan}, [&](Point a, Point b, bool) {
+    for (int k = 0; k <= 200; ++k)
+      if (side_of(area.outer, lerp(a, b, k / 200.0)) != Side::outside) inside_um += distance(a, b) / 200;
+  });
+  CHECK(inside_um == 0);
+  CHECK(out.departures.outside.count == 0);
+  CHECK(notices_of(std::vector{out}).empty());
+
+  input.room.no_go = {sample::rectangle({15000, -70000}, {20000, 70000})};  // from edge to edge of the reach
+  out = routed();
+  CHECK(out.departures.outside.count == 1);
+  const auto notices = notices_of(std::vector{out});
+  REQUIRE(notices.size() == 1);
+  CHECK(notices[0].code == "travel_outside_reach");
+}
+
+TEST_CASE("travel: a lift without room gives way, at most up to the top of the reach, and it is said", "[travel]") {
+  RetractionSettings retraction;
+  retraction.retraction_hop = 1000;
+  retraction.retraction_hop_type = HopType::spiral;
+  LayerInput input = sample::layer(sample::plate());
+  input.room = {sample::rectangle({0, 0}, {40000, 30000}), {}, 700};
+  const auto prepared = std::vector{prepare({}, input)};
+  const auto out = route({}, retraction, prepared[0], order({}, prepared[0], link({}, prepared)[0]), Point{1000, 1000});
+  Um top = 0;
+  for (const auto& step : out.plan.steps)
+    if (const auto* t = std::get_if<Travel>(&step))
+      for (const auto& p : t->path) top = std::max(top, p.z);
+  CHECK(top == 700);
+  CHECK(out.departures.lowered.count > 0);
+  CHECK(notices_of(std::vector{out})[0].code == "lift_gave_way");
+}
+
+TEST_CASE("travel: retractions within a length of filament are counted, and more than that are left out", "[travel]") {
+  RetractionSettings retraction;
+  const auto strict = [&] {
+    auto settings = combing(Combing::off);
+    return sample::count(plan(settings, retraction, {sample::layer(sample::plate())})).retractions;
+  };
+  const int all = strict();
+  retraction.retraction_count_max = 3;
+  retraction.retraction_extrusion_window = 1000000;  // more than the layer takes
+  CHECK(strict() == 3);
+  retraction.retraction_extrusion_window = 100;
+  const int some = strict();
+  CHECK(some > 3);
+  CHECK(some <= all);
+  const auto prepared = std::vector{prepare({}, sample::layer(sample::plate()))};
+  retraction.retraction_count_max = 0;
+  TravelSettings settings;
+  settings.retraction_combing_max_detour.reset();
+  const auto out =
+      route(settings, retraction, prepared[0], order({}, prepared[0], link({}, prepared)[0]), std::nullopt);
+  CHECK(out.departures.unretracted.count == 1);  // to the island
+}
