@@ -1,5 +1,5 @@
+#include "travel/block_chain.h"
 #include "travel/blocks.h"
-#include "travel/tour.h"
 
 #include <algorithm>
 
@@ -44,24 +44,31 @@ std::vector<Point> places_of(const Prepared& layer, const std::vector<Start>& se
   return places;
 }
 
+bool starts_with_adhesion(const Prepared& layer) {
+  return !layer.blocks.empty() && layer.blocks[0].object == Block::adhesion;
+}
+
 }  // namespace
 
 std::vector<Linked> link(const TravelSettings& settings, std::span<const Prepared> layers) {
   std::vector<Linked> linked(layers.size());
+  std::vector<BlockPlaces> blocks(layers.size());
   std::vector<Point> below;
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    linked[i].seams = choose_seams(settings, layers[i], i > 0 ? &layers[i - 1].outline : nullptr, below);
+    linked[i].places = places_of(layers[i], linked[i].seams);
+    const bool adhesion = starts_with_adhesion(layers[i]);
+    if (adhesion) blocks[i].before = linked[i].places[0];
+    blocks[i].places.assign(linked[i].places.begin() + (adhesion ? 1 : 0), linked[i].places.end());
+  }
+  const auto orders = chain_blocks(settings.path_order, blocks);
   std::optional<Point> at;
   for (std::size_t i = 0; i < layers.size(); ++i) {
-    const Prepared& layer = layers[i];
     Linked& out = linked[i];
-    out.seams = choose_seams(settings, layer, i > 0 ? &layers[i - 1].outline : nullptr, below);
-    out.places = places_of(layer, out.seams);
     out.from = at;
-    const bool adhesion = !layer.blocks.empty() && layer.blocks[0].object == Block::adhesion;
-    if (adhesion) out.block_order.push_back(0), at = out.places[0];
+    if (starts_with_adhesion(layers[i])) out.block_order.push_back(0);
     const auto skip = static_cast<std::uint32_t>(out.block_order.size());
-    std::vector<Stop> stops;
-    for (std::size_t b = skip; b < layer.blocks.size(); ++b) stops.push_back({out.places[b], out.places[b]});
-    for (const auto& v : tour(settings.path_order, stops, {at, std::nullopt})) out.block_order.push_back(v.stop + skip);
+    for (const std::uint32_t b : orders[i]) out.block_order.push_back(b + skip);
     if (out.block_order.empty()) continue;
     out.begin = out.places[out.block_order.front()];
     at = out.places[out.block_order.back()];

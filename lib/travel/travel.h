@@ -119,8 +119,8 @@ Notices check(const TravelSettings& settings, const RetractionSettings& retracti
 /// Seam candidates and the boundaries of combing. Cost: about 1 µs a vertex.
 Prepared prepare(const TravelSettings& settings, LayerInput input);
 
-/// Chooses seams from layer to layer, and the order of the parts of each. Sequential; cost: linear in the vertices of
-/// outer walls.
+/// Chooses seams from layer to layer, and the order of the parts of all layers together. Sequential; cost: linear in
+/// the vertices of outer walls, and a few tours of the parts a layer.
 std::vector<Linked> link(const TravelSettings& settings, std::span<const Prepared> layers);
 
 /// The order of all beads of a layer.

@@ -1,0 +1,134 @@
+#include "travel/block_chain.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace weft::travel {
+namespace {
+
+/// Blocks of a layer that it may be entered at, and left at.
+constexpr std::size_t most_ends = 4;
+/// Layers of more blocks are entered where the one below was left.
+constexpr std::size_t most_blocks = 24;
+
+/// What a way to another block costs besides its length, as length: a retraction takes about as long as this, µm.
+constexpr double other_block_um = 10000;
+/// Seams of one part on two layers are nearer than this, µm.
+constexpr double same_block_um = 2000;
+
+using Order = std::vector<std::uint32_t>;
+
+/// One way through a layer.
+struct Passage {
+  Order order;
+  double length = 0;     ///< from its first place to its last
+  double whole = 0;      ///< of all layers up to here
+  std::size_t came = 0;  ///< passage of the layer before
+};
+
+Order tour_of(PathOrder kind, const std::vector<Point>& places, const TourEnds& ends) {
+  std::vector<Stop> stops;
+  for (const Point p : places) stops.push_back({p, p});
+  Order order;
+  for (const auto& v : tour(kind, stops, ends)) order.push_back(v.stop);
+  return order;
+}
+
+/// The shortest order that begins at one block and, where that is said, ends at another.
+Passage passage(PathOrder kind, const std::vector<Point>& places, std::uint32_t first,
+                std::optional<std::uint32_t> last) {
+  std::vector<Point> between;
+  Order index;
+  for (std::uint32_t i = 0; i < places.size(); ++i)
+    if (i != first && i != last) between.push_back(places[i]), index.push_back(i);
+  Passage out;
+  out.order.push_back(first);
+  for (const auto i : tour_of(kind, between, {places[first], last ? std::optional(places[*last]) : std::nullopt}))
+    out.order.push_back(index[i]);
+  if (last) out.order.push_back(*last);
+  for (std::size_t i = 1; i < out.order.size(); ++i)
+    out.length += distance(places[out.order[i - 1]], places[out.order[i]]);
+  return out;
+}
+
+/// Blocks at which a layer may well begin or end: the ends of its shortest order, and some between.
+std::vector<std::uint32_t> ends_of(PathOrder kind, const std::vector<Point>& places) {
+  const auto order = tour_of(kind, places, {});
+  std::vector<std::uint32_t> ends;
+  const std::size_t n = order.size(), count = std::min(most_ends, n);
+  for (std::size_t k = 0; k < count; ++k) ends.push_back(order[count > 1 ? k * (n - 1) / (count - 1) : 0]);
+  return ends;
+}
+
+/// @param exits where the layer below may have ended: what is nearest to them is a beginning too
+std::vector<Passage> passages_of(PathOrder kind, const std::vector<Point>& places, const std::vector<Point>& exits) {
+  std::vector<Passage> out;
+  if (places.size() == 1) return {passage(kind, places, 0, std::nullopt)};
+  const auto ends = ends_of(kind, places);
+  std::vector<std::uint32_t> near;
+  for (const Point q : exits) {
+    const auto nearest = std::min_element(places.begin(), places.end(),
+                                          [&](Point a, Point b) { return distance2(a, q) < distance2(b, q); });
+    const auto i = static_cast<std::uint32_t>(nearest - places.begin());
+    if (std::find(ends.begin(), ends.end(), i) == ends.end() && std::find(near.begin(), near.end(), i) == near.end())
+      near.push_back(i);
+  }
+  for (const auto first : near) out.push_back(passage(kind, places, first, std::nullopt));
+  for (const auto first : ends) {
+    out.push_back(passage(kind, places, first, std::nullopt));
+    for (const auto last : ends)
+      if (last != first && last != out.back().order.back()) out.push_back(passage(kind, places, first, last));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::vector<std::uint32_t>> chain_blocks(PathOrder kind, std::span<const BlockPlaces> layers) {
+  std::vector<std::vector<Passage>> passages(layers.size());
+  std::vector<Point> exits;      // of the passages of the last layer that has any
+  std::vector<double> costs{0};  // beside exits; one without a place before the first layer
+  std::vector<std::size_t> owner;
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    const auto& layer = layers[i];
+    if (layer.places.empty()) continue;
+    auto& here = passages[i];
+    if (kind == PathOrder::nearest || layer.places.size() > most_blocks) {
+      // From where the best way so far ends.
+      const std::size_t best = static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) - costs.begin());
+      const auto from = layer.before ? layer.before : exits.empty() ? std::nullopt : std::optional(exits[best]);
+      Passage only;
+      only.order = tour_of(kind, layer.places, {from, std::nullopt});
+      here.push_back(std::move(only));
+    } else {
+      here = passages_of(kind, layer.places, exits);
+    }
+    for (auto& p : here) {
+      const Point entry = layer.places[p.order.front()];
+      p.whole = std::numeric_limits<double>::infinity();
+      for (std::size_t k = 0; k < costs.size(); ++k) {
+        double way = 0;
+        if (layer.before)
+          way = (exits.empty() ? 0.0 : distance(exits[k], *layer.before)) + distance(*layer.before, entry);
+        else if (!exits.empty())
+          way = distance(exits[k], entry);
+        if (way > same_block_um) way += other_block_um;
+        if (costs[k] + way + p.length < p.whole) p.whole = costs[k] + way + p.length, p.came = k;
+      }
+    }
+    exits.clear(), costs.clear();
+    for (const auto& p : here) exits.push_back(layer.places[p.order.back()]), costs.push_back(p.whole);
+    owner.push_back(i);
+  }
+  std::vector<std::vector<std::uint32_t>> orders(layers.size());
+  if (owner.empty()) return orders;
+  std::size_t at = static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) - costs.begin());
+  for (std::size_t k = owner.size(); k-- > 0;) {
+    auto& chosen = passages[owner[k]][at];
+    orders[owner[k]] = std::move(chosen.order);
+    at = chosen.came;
+  }
+  return orders;
+}
+
+}  // namespace weft::travel
