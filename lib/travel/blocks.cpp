@@ -103,18 +103,19 @@ std::vector<Touch> touching_walls(const Beads& beads, const std::vector<std::uin
   for (std::uint32_t i = 0; i < samples.size(); ++i)
     items[fill[index(column(samples[i].at), row(samples[i].at))]++] = i;
   std::vector<std::uint64_t> pairs;
+  std::vector<std::uint32_t> touched_by(walls.size(),
+                                        0xFFFFFFFF);  // the last wall that was found to: samples are in order of walls
   for (const auto& s : samples)
     for (int r = std::max(0, row(s.at) - 1); r <= std::min(rows - 1, row(s.at) + 1); ++r)
       for (int c = std::max(0, column(s.at) - 1); c <= std::min(columns - 1, column(s.at) + 1); ++c)
         for (std::uint32_t k = first[index(c, r)]; k < first[index(c, r) + 1]; ++k) {
           const auto& other = samples[items[k]];
           if (other.wall <= s.wall || beads[walls[other.wall]].inset == beads[walls[s.wall]].inset) continue;
-          const std::uint64_t pair = std::uint64_t{s.wall} << 32 | other.wall;
-          if (!pairs.empty() && pairs.back() == pair) continue;
-          if (static_cast<double>(distance2(s.at, other.at)) <= near2) pairs.push_back(pair);
+          if (touched_by[other.wall] == s.wall || static_cast<double>(distance2(s.at, other.at)) > near2) continue;
+          touched_by[other.wall] = s.wall;
+          pairs.push_back(std::uint64_t{s.wall} << 32 | other.wall);
         }
   std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   for (const auto pair : pairs)
     touches.push_back({static_cast<std::uint32_t>(pair >> 32), static_cast<std::uint32_t>(pair)});
   return touches;

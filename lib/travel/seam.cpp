@@ -18,6 +18,9 @@ constexpr double corner_worth_um = 3000;
 constexpr double hide_first_um = 300000;
 /// Seams of the layer below farther off than this belong to something else, µm.
 constexpr double same_line_um = 6000;
+/// Where hiding comes first, a corner on the line is kept unless another is better by this much: corners that are alike
+/// must not take turns from layer to layer.
+constexpr double staying_worth = 0.15, on_line_um = 800;
 /// A seam this near to a junction begins at it, µm.
 constexpr Um snap_um = 50;
 
@@ -165,7 +168,7 @@ Start nearest_start(const Bead& bead, Point p, Um snap) {
   return best;
 }
 
-void add_exposure(const Bead& bead, bool material_left, const Comb& outline, std::vector<Corner>& corners) {
+void add_exposure(const Bead& bead, bool material_left, const Comb& outline, std::span<Corner> corners) {
   constexpr int rays = 8;
   constexpr double ray_um = 5000;
   for (auto& corner : corners) {
@@ -212,8 +215,11 @@ Start choose_seam(const TravelSettings& settings, const Bead& bead, std::span<co
   // Off the line a place costs its distance; where hiding comes first, corners as good as each other are told apart by
   // it.
   const bool hide_first = settings.z_seam_type == SeamType::sharpest_corner || !continued;
-  return choose(plain, hide_first ? hide_first_um : corner_worth_um,
-                [&](Point p) { return continued ? distance(p, line) : -static_cast<double>(p.y) / 1000; });
+  return choose(plain, hide_first ? hide_first_um : corner_worth_um, [&](Point p) {
+    if (!continued) return -static_cast<double>(p.y) / 1000;
+    const double off = distance(p, line);
+    return hide_first && off < on_line_um ? off - staying_worth * hide_first_um : off;
+  });
 }
 
 }  // namespace weft::travel

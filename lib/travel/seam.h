@@ -40,7 +40,7 @@ Start nearest_start(const Bead& bead, Point p, Um snap);
 
 /// How much of the horizon a corner is seen from, by rays against the outlines of the layer.
 /// Pre: `material_left` as for corners_of.
-void add_exposure(const Bead& bead, bool material_left, const Comb& outline, std::vector<Corner>& corners);
+void add_exposure(const Bead& bead, bool material_left, const Comb& outline, std::span<Corner> corners);
 
 /// What the layer below says to a seam.
 struct Below {
