@@ -123,7 +123,7 @@ Part build_part(const WallSettings& settings, const Widths& widths, const Region
   FinishOptions finishing;
   finishing.origin = axis.origin;
   finishing.part = index;
-  finishing.least_feature = widths.least_feature;
+  finishing.least_feature = 0.8 * widths.least_feature;  // what is thinner was not laid; widths may give a little
   finishing.least_length = settings.min_wall_length;
   finishing.compensate = settings.flow_compensation;
   finishing.stable_outer = std::max<double>(settings.min_output_width, widths.outer / 4);

@@ -3,6 +3,8 @@
 #include "model/flow.h"
 #include "walls/shapes.h"
 
+#include <array>
+
 #include <catch2/catch.hpp>
 
 using namespace weft;
@@ -181,5 +183,25 @@ TEST_CASE("walls: with every nozzle a thin rib gets the plastic of its own thick
   for (const Junction& j : walls.beads[0].path) {
     CHECK(j.width >= 0.2_mm);
     CHECK(j.width * static_cast<double>(j.flow) == Approx(rib).margin(2));
+  }
+}
+
+TEST_CASE("walls: on a comb no rib is lost down to min_feature_size", "[walls]") {
+  Ring comb{{0, 0}, {17_mm, 0}, {17_mm, 3_mm}};
+  for (int i = 4; i >= 0; --i) {
+    const Um x = 1_mm + i * 3_mm, t = std::array{50, 100, 200, 300, 400}[static_cast<std::size_t>(i)];
+    for (const Point p : {Point{x + t, 3_mm}, {x + t, 11_mm}, {x, 11_mm}, {x, 3_mm}}) comb.push_back(p);
+  }
+  comb.push_back({0, 3_mm});
+  const auto walls = walls_of({{comb, {}}});
+  for (int i = 0; i < 5; ++i) {
+    Um low = 11_mm, high = 0;
+    for (const Bead& bead : walls.beads)
+      for (const Junction& j : bead.path)
+        if (j.at.y > 3_mm && std::abs(j.at.x - 1_mm - i * 3_mm) < 0.5_mm)
+          low = std::min(low, j.at.y), high = std::max(high, j.at.y);
+    CAPTURE(i);
+    CHECK(high > 10.9_mm);
+    CHECK(low < 3.3_mm);
   }
 }
