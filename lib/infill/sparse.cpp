@@ -100,16 +100,18 @@ class Web {
     std::vector<geometry::SegmentIndex::Crossing> met;
     for (const Polyline& curve : curves) {
       std::vector<Place> piece;
+      End begin;
       for (std::size_t i = 1; i < curve.size(); ++i) {
         const Point a = curve[i - 1], b = curve[i];
         met.clear();
         edges.crossings(a, b, met);
         for (const auto& m : met) {
           const Place p = relative(a) + m.along * (relative(b) - relative(a));
-          if (m.enters)
-            piece.assign(1, p), ends_.push_back(end_of(edges, m, a, b));
-          else if (!piece.empty()) {
-            piece.push_back(p), ends_.push_back(end_of(edges, m, a, b));
+          if (m.enters) {  // a curve may seem to enter twice where it runs through a corner: the later place counts
+            piece.assign(1, p), begin = end_of(edges, m, a, b);
+          } else if (!piece.empty()) {
+            piece.push_back(p);
+            ends_.push_back(begin), ends_.push_back(end_of(edges, m, a, b));  // a line's ends are its pair
             const double way = infill::length_of(piece);
             lines_.push_back({std::move(piece), way});
             piece.clear();
@@ -117,7 +119,6 @@ class Web {
         }
         if (!piece.empty()) piece.push_back(relative(b));
       }
-      if (!piece.empty()) ends_.pop_back();  // never left: an outline that is not closed
     }
   }
 

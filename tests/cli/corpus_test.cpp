@@ -27,3 +27,15 @@ TEST_CASE("corpus: every model passes the audit, gives the same bytes for any nu
     CHECK(weft({"verify", "out.gcode", model->string()}, scratch.path()).status == 0);
   }
 }
+
+TEST_CASE("corpus: gyroid curves through a corner of the outline do not lose count of their ends", "[corpus]") {
+  const auto model = corpus("models/fandisk.stl");
+  if (!model) return;
+  Scratch scratch;
+  for (const auto* height : {"0.32", "0.3", "0.28"}) {
+    const auto run = weft({"slice", model->string(), "-o", "out.gcode", "-s", "layer_height=" + std::string(height), "-s", "infill_pattern=gyroid", "-s", "infill_sparse_density=10"},
+                          scratch.path());
+    INFO(run.err);
+    CHECK(run.status == 0);
+  }
+}
