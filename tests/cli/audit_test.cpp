@@ -115,7 +115,11 @@ TEST_CASE("audit T1: the skirt of a part as large as the bed is found on all fou
 TEST_CASE("audit T3: a spiral lift at the edge of the bed gives way to one that stays inside") {
   Scratch scratch;
   scratch.write("part.stl", box_stl(20, 40, 2));
-  check_passes(slice(scratch, "part.stl", {"--center", "190,100", "-s", "skirt_line_count=0", "-s", "retraction_hop=1", "-s", "retraction_hop_type=spiral"}));
+  const auto s = slice(scratch, "part.stl", {"--copies", "2", "--center", "177,100", "-s", "skirt_line_count=0", "-s", "retraction_hop=1", "-s", "retraction_hop_type=spiral",
+                                             "-s", "z_seam_type=user", "-s", "z_seam_x=200", "-s", "z_seam_y=100", "-s", "travel_slope=3"});
+  check_passes(s);
+  const auto& warnings = s.report["warnings"];
+  CHECK(std::any_of(warnings.begin(), warnings.end(), [](const json& w) { return w["code"] == "lift_gave_way"; }));
 }
 
 TEST_CASE("audit T4: a travel over the notch of a concave bed, or through a no-go area, is found") {
@@ -129,6 +133,9 @@ TEST_CASE("audit T4: a travel over the notch of a concave bed, or through a no-g
   CHECK(area.status == 5);
   CHECK_THAT(area.err, Contains("10.000 mm inside no-go area 1"));
   CHECK(audit(scratch, travels, {"bed_exclude_areas=90x170,110x170,110x190,90x190", "exclude_height=0.2"}).status == 0);
+  // the planner's own travels go round the area between two parts
+  scratch.write("tower.stl", box_stl(10, 10, 1));
+  check_passes(slice(scratch, "tower.stl", {"--copies", "2", "--spacing", "40", "-s", "skirt_line_count=0", "-s", "bed_exclude_areas=97x60,103x60,103x140,97x140"}));
   check_start_code_found({"bed_shape=polygon", "bed_polygon=0x0,200x0,200x200,150x200,150x130,50x130,50x200,0x200"}, "G1 X20 Y180\\nG1 X180 Y180\\nG1 X180 Y20",
                          "outside -x 50.000 mm, custom, travel", "G1 X180 Y180", 1);
   check_start_code_found({"bed_exclude_areas=90x170,110x170,110x190,90x190"}, "G1 X20 Y180\\nG1 X180 Y180\\nG1 X180 Y20", "inside no-go area 1 10.000 mm, custom, travel",
