@@ -8,12 +8,14 @@
 #include "mesh/read.h"
 #include "settings/profile.h"
 #include "slice/slice.h"
+#include "travel/tour.h"
 #include "walls/walls.h"
 
 #include <benchmark/benchmark.h>
 
 #include <fstream>
 #include <iterator>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -79,6 +81,18 @@ struct Bench {
   }
 };
 
+/// Short paths at random on a layer of 200 × 200 mm.
+std::vector<travel::Stop> short_paths(std::size_t count) {
+  std::mt19937 random(1);
+  std::vector<travel::Stop> stops(count);
+  for (auto& stop : stops) {
+    const auto at = [&](Um reach) { return static_cast<Um>(random() % static_cast<unsigned>(reach)); };
+    stop.a = {at(200'000), at(200'000)};
+    stop.b = {stop.a.x + at(2'000), stop.a.y + at(2'000)};
+  }
+  return stops;
+}
+
 template <class Work>
 void add(const char* name, std::int64_t items, Work work) {
   benchmark::RegisterBenchmark(name, [=](benchmark::State& state) {
@@ -117,6 +131,8 @@ int main(int count, char** arguments) {
   add("walls/vertex", vertices, [] { return bench.build_walls().size(); });
   add("shells/vertex", vertices, [] { return bench.find_areas().size(); });
   add("fill/bead", static_cast<std::int64_t>(bench.fill()), [] { return bench.fill(); });
+  static const auto stops = short_paths(20'000);
+  add("order/path", static_cast<std::int64_t>(stops.size()), [] { return travel::tour(PathOrder::optimized, stops, {}).size(); });
   benchmark::RunSpecifiedBenchmarks();
   return 0;
 }
