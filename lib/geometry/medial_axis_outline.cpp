@@ -63,8 +63,15 @@ std::uint64_t mixed(GridPoint p) {
   return z ^ (z >> 31);
 }
 
+constexpr std::int64_t finer = shaken_steps / grid_steps;
+
+/// The point on the finer grid.
+GridPoint magnified(GridPoint p) {
+  return {p.x * finer, p.y * finer};
+}
+
 GridPoint shaken(GridPoint p) {
-  constexpr std::int64_t finer = shaken_steps / grid_steps, reach = finer / 4;  // neighbours on the grid stay apart
+  constexpr std::int64_t reach = finer / 4;  // neighbours on the grid stay apart
   const std::uint64_t random = mixed(p);
   const auto shift = [](std::uint64_t bits) { return static_cast<std::int64_t>(bits % (2 * reach + 1)) - reach; };
   return {p.x * finer + shift(random & 0xFFFFFFFF), p.y * finer + shift(random >> 32)};
@@ -84,7 +91,6 @@ Outline indexed(const GridRings& rings) {
       const auto a = index(ring[i]), b = index(ring[(i + 1) % ring.size()]);
       if (a != b) out.segments.emplace_back(a, b);
     }
-  for (auto& p : out.points) p = shaken(p);
   return out;
 }
 
@@ -149,23 +155,23 @@ GridRings united(const GridRings& rings) {
 }  // namespace
 
 Outline simple_outline(const Region& region, Point origin) {
-  constexpr int attempts = 4;  // each union moves points by less than 1/64 µm; crossings left by rounding die out
+  constexpr int attempts = 5;  // each union moves points by less than 1/64 µm; crossings left by rounding die out
   GridRings rings = rings_of(region, origin);
-  Outline outline = indexed(rings);
   for (int i = 0; i < attempts; ++i) {
-    if (proven_simple(outline)) {
-      outline.simple = true;
-      return outline;
+    const Outline outline = indexed(rings);
+    for (const auto move : {shaken, magnified}) {  // what touches may cross when shaken
+      Outline moved = outline;
+      std::transform(outline.points.begin(), outline.points.end(), moved.points.begin(), move);
+      moved.simple = proven_simple(moved);
+      if (moved.simple) return moved;
     }
     try {
       rings = united(rings);
     } catch (const ClipperLib::clipperException&) {
-      return outline;
+      break;
     }
-    outline = indexed(rings);
   }
-  outline.simple = proven_simple(outline);
-  return outline;
+  return {};
 }
 
 }  // namespace weft::geometry::detail

@@ -22,7 +22,7 @@ struct Outline {
   bool simple = false;                                            ///< proven
 };
 
-/// Every point is moved by up to 1/256 µm, at random by its place: parts that were drawn symmetric lie on the lattice with
+/// Where that keeps it simple, every point is moved by up to 1/256 µm, at random by its place: parts that were drawn symmetric lie on the lattice with
 /// four and more edges touching one circle, and there CGAL decides by exact arithmetic, at thirty times the cost.
 /// Pre: |coordinates - origin| <= 2²⁴ µm.
 Outline simple_outline(const Region& region, Point origin);
