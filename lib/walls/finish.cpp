@@ -13,15 +13,6 @@ constexpr double straight_um = 1.0;     // a vertex this close to its neighbours
 constexpr double even_um = 2.0;         // … where the width is this close to theirs
 constexpr double width_step_um = 10.0;  // a segment is printed at one width: no more difference over it than this
 
-double distance(Place a, Place b) {
-  return std::hypot(b.x - a.x, b.y - a.y);
-}
-double length_of(const std::vector<Vertex>& path) {
-  double sum = 0;
-  for (std::size_t i = 1; i < path.size(); ++i) sum += distance(path[i - 1].at, path[i].at);
-  return sum;
-}
-
 /// True when b lies on the way from a to c.
 bool on_the_way(const Vertex& a, const Vertex& b, const Vertex& c) {
   const double dx = c.at.x - a.at.x, dy = c.at.y - a.at.y, d2 = dx * dx + dy * dy;

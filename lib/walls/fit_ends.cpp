@@ -12,13 +12,6 @@ constexpr double step_um = 20;
 constexpr double under_share = 0.9;  // of half a wall's width: closer to its middle an end lies under it
 constexpr double most_widths = 2;    // no more than so many widths of the wall are cut; else it lies there on purpose
 
-double distance(Place a, Place b) {
-  return std::hypot(b.x - a.x, b.y - a.y);
-}
-Place lerp(Place a, Place b, double t) {
-  return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
-}
-
 /// How deep p lies under a wall: half the wall's width there less the distance; at most 0 when beside it.
 struct Depth {
   double depth = 0, width = 0;
@@ -64,20 +57,6 @@ double length_under(const std::vector<Vertex>& path, const Line& wall, double wi
     done += length;
   }
   return 0;
-}
-
-void cut_end(std::vector<Vertex>& path, double by) {
-  while (path.size() > 1) {
-    Vertex &last = path.back(), &before = path[path.size() - 2];
-    const double length = distance(last.at, before.at);
-    if (length > by) {
-      const double t = by / length;
-      last = {lerp(last.at, before.at, t), last.width + t * (before.width - last.width)};
-      return;
-    }
-    by -= length;
-    path.pop_back();
-  }
 }
 
 }  // namespace

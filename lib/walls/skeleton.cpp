@@ -8,13 +8,6 @@ namespace {
 
 using geometry::MedialAxis;
 
-Place lerp(Place a, Place b, double t) {
-  return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
-}
-double distance(Place a, Place b) {
-  return std::hypot(b.x - a.x, b.y - a.y);
-}
-
 Place on_rib(Place foot, const Skeleton::Node& node, double d) {
   return node.clearance > 1e-6 ? lerp(foot, node.at, d / node.clearance) : node.at;
 }

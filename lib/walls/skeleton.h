@@ -1,5 +1,6 @@
 #pragma once
 #include "geometry/medial_axis.h"
+#include "walls/place.h"
 
 #include <cstdint>
 #include <vector>
@@ -7,8 +8,6 @@
 /// Private to walls: the medial axis cut into pieces short enough to be straight, with the ribs that join it to the
 /// outline. A point of the region is (rib, distance from the outline), and a bead is a curve of given distance.
 namespace weft::walls {
-
-using geometry::Place;
 
 struct Skeleton {
   struct Node {

@@ -13,19 +13,6 @@ constexpr double before_end_um = 4;  // the last chord: a square end need not be
 constexpr double off_share = 0.9;    // the middle of a chord stays within so much of the free width of the axis
 constexpr double reach_share = 1.9;  // a chord goes no further than so many times the free width on its side
 
-double distance(Place a, Place b) {
-  return std::hypot(b.x - a.x, b.y - a.y);
-}
-Place unit(Place from, Place to) {
-  const double d = std::max(1e-9, distance(from, to));
-  return {(to.x - from.x) / d, (to.y - from.y) / d};
-}
-Place lerp(Place a, Place b, double t) {
-  return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
-}
-double cross(Place a, Place b) {
-  return a.x * b.y - a.y * b.x;
-}
 double quad_area(Place a, Place b, Place c, Place d) {
   return 0.5 * std::abs(cross({c.x - a.x, c.y - a.y}, {d.x - b.x, d.y - b.y}));
 }

@@ -9,21 +9,8 @@ namespace {
 using Vertex = Line::Vertex;
 constexpr double same_um = 0.5;
 
-double distance(Place a, Place b) {
-  return std::hypot(b.x - a.x, b.y - a.y);
-}
-Place unit(Place from, Place to) {
-  const double d = std::max(1e-9, distance(from, to));
-  return {(to.x - from.x) / d, (to.y - from.y) / d};
-}
-double cross(Place o, Place a, Place b) {
-  return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
-}
 double quad_area(Place a, Place b, Place c, Place d) {
   return 0.5 * std::abs(cross(a, b, c) + cross(a, c, d));
-}
-Place lerp(Place a, Place b, double t) {
-  return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
 }
 
 /// What the widths of a piece are multiplied with, so that its volume is the area it stands for: ribs of a tapering
@@ -50,27 +37,6 @@ Piece pair_piece(const Skeleton& s, const Laying& laying, std::uint32_t h, std::
     p.end.width *= f;
   }
   return p;
-}
-
-double length_of(const std::vector<Vertex>& path) {
-  double sum = 0;
-  for (std::size_t i = 1; i < path.size(); ++i) sum += distance(path[i - 1].at, path[i].at);
-  return sum;
-}
-
-/// Takes `by` from the end of a chain.
-void shorten(std::vector<Vertex>& path, double by) {
-  while (path.size() > 1) {
-    Vertex &last = path.back(), &before = path[path.size() - 2];
-    const double d = distance(last.at, before.at);
-    if (d > by) {
-      const double t = by / d;
-      last = {lerp(last.at, before.at, t), last.width + t * (before.width - last.width)};
-      return;
-    }
-    by -= d;
-    path.pop_back();
-  }
 }
 
 /// A stretch of a loop between turns.
@@ -104,9 +70,9 @@ void set_back(Chain& chain) {
   std::reverse(path.begin(), path.end());
   const double head = turning_room(path, chain.before);
   const double scale = std::min(1.0, 0.9 * length_of(path) / std::max(1.0, head + tail));
-  shorten(path, head * scale);
+  cut_end(path, head * scale);
   std::reverse(path.begin(), path.end());
-  shorten(path, tail * scale);
+  cut_end(path, tail * scale);
 }
 
 struct Loop {
@@ -131,6 +97,26 @@ Line joined(Loop& loop, int inset) {
 }
 
 }  // namespace
+
+double length_of(const std::vector<Vertex>& path) {
+  double sum = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) sum += distance(path[i - 1].at, path[i].at);
+  return sum;
+}
+
+void cut_end(std::vector<Vertex>& path, double by) {
+  while (path.size() > 1) {
+    Vertex &last = path.back(), &before = path[path.size() - 2];
+    const double d = distance(last.at, before.at);
+    if (d > by) {
+      const double t = by / d;
+      last = {lerp(last.at, before.at, t), last.width + t * (before.width - last.width)};
+      return;
+    }
+    by -= d;
+    path.pop_back();
+  }
+}
 
 void append(std::vector<Vertex>& path, Vertex start, const Vertex& end) {
   if (path.empty() || distance(path.back().at, start.at) >= same_um) {

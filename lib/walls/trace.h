@@ -19,6 +19,10 @@ struct Line {
 /// Adds a piece to a line in the making; its width need not be that of the line's end.
 void append(std::vector<Line::Vertex>& path, Line::Vertex start, const Line::Vertex& end);
 
+double length_of(const std::vector<Line::Vertex>& path);
+/// Takes `by` from the end of a path; a point is left at least.
+void cut_end(std::vector<Line::Vertex>& path, double by);
+
 /// Walls on both sides of the axis: closed without exception, because what joins pieces is a permutation of them.
 std::vector<Line> trace_pairs(const Skeleton& skeleton, const Laying& laying);
 /// Beads on the axis, led on to the ends of the part.

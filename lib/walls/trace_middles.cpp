@@ -10,17 +10,6 @@ namespace {
 using Vertex = Line::Vertex;
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-double distance(Place a, Place b) {
-  return std::hypot(b.x - a.x, b.y - a.y);
-}
-double cross(Place o, Place a, Place b) {
-  return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
-}
-Place unit(Place from, Place to) {
-  const double d = std::max(1e-9, distance(from, to));
-  return {(to.x - from.x) / d, (to.y - from.y) / d};
-}
-
 class Tracer {
  public:
   Tracer(const Skeleton& s, const Laying& laying) : s_(s), laying_(laying), onward_(s.halves.size(), none) {}

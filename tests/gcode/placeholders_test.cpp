@@ -4,6 +4,7 @@
 #include "gcode/custom_code.h"
 #include "gcode/writer.h"
 #include "settings/profile.h"
+#include "settings_error.h"
 
 #include <filesystem>
 
@@ -28,13 +29,7 @@ std::string expanded(std::string_view text) {
   return expanded(text, s);
 }
 std::string message_of(std::string_view text) {
-  try {
-    expanded(text);
-  } catch (const Error& e) {
-    CHECK(e.kind() == Error::Kind::settings);
-    return e.what();
-  }
-  return "nothing was thrown";
+  return weft::test::settings_error([&] { expanded(text); });
 }
 }  // namespace
 

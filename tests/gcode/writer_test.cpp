@@ -4,6 +4,7 @@
 #include "gcode/header.h"
 #include "model/flow.h"
 #include "settings/catalogue.h"
+#include "settings_error.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -71,13 +72,7 @@ struct Sample {
   std::string text() const { return write(job()); }
   std::string layer(std::size_t i) const { return Writer(job()).layer(i); }
   std::string message() const {
-    try {
-      Writer writer(job());
-    } catch (const Error& e) {
-      CHECK(e.kind() == Error::Kind::settings);
-      return e.what();
-    }
-    return "nothing was thrown";
+    return weft::test::settings_error([&] { Writer writer(job()); });
   }
 };
 

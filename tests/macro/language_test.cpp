@@ -1,5 +1,6 @@
 #include "core/error.h"
 #include "macro/macro.h"
+#include "settings_error.h"
 
 #include <random>
 
@@ -32,13 +33,7 @@ std::string expanded(std::string_view text) {
 }
 
 std::string message(std::string_view text) {
-  try {
-    expanded(text);
-  } catch (const Error& e) {
-    CHECK(e.kind() == Error::Kind::settings);
-    return e.what();
-  }
-  return "nothing was thrown";
+  return weft::test::settings_error([&] { expanded(text); });
 }
 
 }  // namespace

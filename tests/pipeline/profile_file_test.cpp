@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "mesh/zip_fixture.h"
+#include "settings_error.h"
 
 using namespace weft;
 using Catch::Matchers::Contains;
@@ -22,13 +23,7 @@ fs::path written(const std::string& bytes) {
 
 std::string refusal(const std::string& bytes) {
   Profile profile;
-  try {
-    apply_profile(profile, written(bytes));
-  } catch (const Error& e) {
-    CHECK(e.kind() == Error::Kind::settings);
-    return e.what();
-  }
-  return "(nothing was thrown)";
+  return test::settings_error([&] { apply_profile(profile, written(bytes)); });
 }
 
 }  // namespace

@@ -10,8 +10,10 @@
 
 #include "core/error.h"
 #include "settings/profile.h"
+#include "settings_error.h"
 
 using namespace weft;
+using weft::test::settings_error;
 using Catch::Matchers::Contains;
 namespace ps = weft::prusaslicer;
 
@@ -83,16 +85,7 @@ Profile applied(const std::string& text, const ImportOptions& options = {}) {
   return profile;
 }
 
-template <class F>
-std::string message_of(F f) {
-  try {
-    f();
-  } catch (const Error& e) {
-    CHECK(e.kind() == Error::Kind::settings);
-    return e.what();
-  }
-  return "(nothing was thrown)";
-}
+
 
 /// Does a print with that condition fit a printer with a list of nozzles and notes?
 bool asked(const std::string& condition) {
@@ -115,7 +108,7 @@ TEST_CASE("bundle: conditions are asked of the printer's own keys, and of PrusaS
   }
   for (const auto* bad : {"no_such_key==1", "nozzle_diameter[0]==", "(1==1", "printer_model=~/(/", "1 1"}) {
     INFO(bad);
-    CHECK_THAT(message_of([&] { asked(bad); }), Contains("b.ini:2, compatible_printers_condition of [print:P]"));
+    CHECK_THAT(settings_error([&] { asked(bad); }), Contains("b.ini:2, compatible_printers_condition of [print:P]"));
   }
 }
 
@@ -164,13 +157,13 @@ TEST_CASE("bundle: a filament overrides the printer's retraction where it does n
 }
 
 TEST_CASE("bundle: an error names the presets that there are, or those that fit") {
-  CHECK_THAT(message_of([] { applied(vendor_bundle); }), Contains("2 printer presets") && Contains("--preset printer=NAME: 'One 0.4', 'One 0.8'"));
-  CHECK_THAT(message_of([] { applied(vendor_bundle, {{"Sped", "", "One 0.4"}, false}); }), Contains("did you mean 'Speed'"));
-  CHECK_THAT(message_of([] { applied(vendor_bundle, {{"Coarse", "", "One 0.4"}, false}); }), Contains("not made for the printer 'One 0.4'"));
-  CHECK_THAT(message_of([] { applied(vendor_bundle, {{"Speed", "Flex", "One 0.4"}, false}); }), Contains("not made for the print preset"));
-  CHECK_THAT(message_of([] { applied("[vendor]\nname = V\n[print:A]\ninherits = B\n[print:B]\ninherits = A\n"); }), Contains("b.ini:6") || Contains("inherits itself"));
-  CHECK_THAT(message_of([] { applied("[vendor]\nname = V\n[print:A]\ninherits = *none*\n"); }), Contains("b.ini:4") && Contains("inherits '*none*', which is not there"));
-  CHECK_THAT(message_of([] { applied("[print:A]\nperimeters = 1\nperimeters = 2\n"); }), Contains("b.ini:3") && Contains("already given on line 2"));
+  CHECK_THAT(settings_error([] { applied(vendor_bundle); }), Contains("2 printer presets") && Contains("--preset printer=NAME: 'One 0.4', 'One 0.8'"));
+  CHECK_THAT(settings_error([] { applied(vendor_bundle, {{"Sped", "", "One 0.4"}, false}); }), Contains("did you mean 'Speed'"));
+  CHECK_THAT(settings_error([] { applied(vendor_bundle, {{"Coarse", "", "One 0.4"}, false}); }), Contains("not made for the printer 'One 0.4'"));
+  CHECK_THAT(settings_error([] { applied(vendor_bundle, {{"Speed", "Flex", "One 0.4"}, false}); }), Contains("not made for the print preset"));
+  CHECK_THAT(settings_error([] { applied("[vendor]\nname = V\n[print:A]\ninherits = B\n[print:B]\ninherits = A\n"); }), Contains("b.ini:6") || Contains("inherits itself"));
+  CHECK_THAT(settings_error([] { applied("[vendor]\nname = V\n[print:A]\ninherits = *none*\n"); }), Contains("b.ini:4") && Contains("inherits '*none*', which is not there"));
+  CHECK_THAT(settings_error([] { applied("[print:A]\nperimeters = 1\nperimeters = 2\n"); }), Contains("b.ini:3") && Contains("already given on line 2"));
 }
 
 TEST_CASE("bundle: what was selected in the window when a bundle was exported is what it stands for") {
@@ -183,7 +176,7 @@ TEST_CASE("bundle: what was selected in the window when a bundle was exported is
 TEST_CASE("bundle: a chain of ancestors without end is an error, not a crash") {
   std::string text = "[vendor]\nname = V\n";
   for (int i = 0; i < 5000; ++i) text += fmt::format("[print:P{}]\ninherits = P{}\n", i, i + 1);
-  CHECK_THAT(message_of([&] { bundle_of(text + "[print:P5000]\nperimeters = 1\n"); }), Contains("generations"));
+  CHECK_THAT(settings_error([&] { bundle_of(text + "[print:P5000]\nperimeters = 1\n"); }), Contains("generations"));
 }
 
 namespace {

@@ -10,8 +10,10 @@
 #include "settings/catalogue.h"
 #include "settings/ini.h"
 #include "settings/profile.h"
+#include "settings_error.h"
 
 using namespace weft;
+using weft::test::settings_error;
 using Catch::Matchers::Contains;
 
 namespace {
@@ -25,15 +27,7 @@ struct Folder {
     return path / name;
   }
 };
-std::string message_of(const std::function<void()>& f) {
-  try {
-    f();
-  } catch (const Error& e) {
-    CHECK(e.kind() == Error::Kind::settings);
-    return e.what();
-  }
-  return "nothing was thrown";
-}
+
 }  // namespace
 
 TEST_CASE("settings: every setting's text is read back to the same text, and its default lies in its range") {
@@ -59,19 +53,19 @@ TEST_CASE("settings: values carry their unit or none, and nothing else") {
   CHECK(p.origins["layer_height"].size() == 2);
   for (const auto* bad : {"0.2abc", "0,2", "", "0.2 %", "nan", "inf", "0.2 0.3", "0.12345"}) {
     INFO(bad);
-    CHECK_THAT(message_of([&] { apply_value(p, "layer_height", bad, "--set"); }), Contains("is not a length"));
+    CHECK_THAT(settings_error([&] { apply_value(p, "layer_height", bad, "--set"); }), Contains("is not a length"));
   }
   CHECK(p.settings.layers.layer_height == 300);
 }
 
 TEST_CASE("settings: a value out of range names the range") {
   Profile p;
-  CHECK_THAT(message_of([&] { apply_value(p, "layer_height", "20", "--set"); }), Contains("outside 0.02 … 2 mm"));
+  CHECK_THAT(settings_error([&] { apply_value(p, "layer_height", "20", "--set"); }), Contains("outside 0.02 … 2 mm"));
 }
 
 TEST_CASE("settings: an unknown key is an error with the nearest known one") {
   Profile p;
-  CHECK_THAT(message_of([&] { apply_value(p, "layer_heigth", "0.2", "--set"); }), Contains("did you mean 'layer_height'?"));
+  CHECK_THAT(settings_error([&] { apply_value(p, "layer_heigth", "0.2", "--set"); }), Contains("did you mean 'layer_height'?"));
 }
 
 TEST_CASE("settings: a child overrides its parent, and the history is kept") {
@@ -89,7 +83,7 @@ TEST_CASE("settings: a child overrides its parent, and the history is kept") {
 TEST_CASE("settings: broken profiles are refused with file and line") {
   Folder folder;
   Profile p;
-  const auto said = [&](const std::string& text) { return message_of([&] { apply_file(p, folder.write("bad.ini", text)); }); };
+  const auto said = [&](const std::string& text) { return settings_error([&] { apply_file(p, folder.write("bad.ini", text)); }); };
   CHECK_THAT(said("layer_height = 0.2\nlayer_height = 0.3\n"), Contains("bad.ini:2") && Contains("already given on line 1"));
   CHECK_THAT(said("layer_height\n"), Contains("bad.ini:1") && Contains("is not 'key = value'"));
   CHECK_THAT(said("inherits = bad.ini\n"), Contains("break the circle"));
@@ -103,5 +97,5 @@ TEST_CASE("settings: settings that contradict each other are refused") {
   Profile p;
   apply_value(p, "nozzle_diameter", "0.25", "--set");
   apply_value(p, "layer_height", "0.3", "--set");
-  CHECK_THAT(message_of([&] { check_consistency(p); }), Contains("layer_height") && Contains("--set"));
+  CHECK_THAT(settings_error([&] { check_consistency(p); }), Contains("layer_height") && Contains("--set"));
 }

@@ -1,0 +1,102 @@
+#pragma once
+#include "walls/laying.h"
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace weft::walls {
+
+/// Private to laying: decides the beads of one part, step by step on the edges of its skeleton. Lengths are µm; an edge
+/// has its two halves 2e and 2e + 1, and one that is split keeps its first part.
+class Planner {
+ public:
+  /// All three must outlive the planner; nodes are added to the skeleton.
+  Planner(Skeleton& skeleton, const Widths& widths, const LayingOptions& options)
+      : s_(skeleton), w_(widths), o_(options) {}
+
+  /// Call once.
+  Laying run();
+
+ private:
+  /// How a core edge's bounds approach those of a neighbouring count.
+  struct Blend {
+    Count other;
+    double at_start = 0, at_end = 0;  ///< share of the other
+  };
+  struct Descent {
+    std::uint32_t half;
+    Span span;
+  };
+
+  double slope(std::uint32_t e) const {
+    const double length = s_.length(e);
+    const double rise = std::abs(s_.start(2 * e).clearance - s_.end(2 * e).clearance);
+    return length > same_um ? rise / length : 0;
+  }
+
+  template <class F>
+  void for_each_leaving(std::uint32_t half, F f) const {  // all halves that leave the node `half` leaves
+    std::uint32_t h = half;
+    do {
+      f(h);
+      h = s_.halves[Skeleton::twin(h)].next;
+    } while (h != half);
+  }
+
+  // what runs into corners and what does not
+  void find_core();
+  /// Where the axis climbs steeply from a thin part into a thick one, the walls of the thick part turn back as they do
+  /// in a corner, and the beads of the thin part end.
+  void cut_mouths(std::vector<int>& degree);
+  /// A tip is led on to only straight ahead: at the end of a rib the axis also bends into the sharper of two corners.
+  void cut_bent_tips(std::vector<int>& degree);
+  Place direction(std::uint32_t h) const;
+
+  // how many beads
+  Count count_of(std::uint32_t e) const {
+    return count_for(w_, s_.start(2 * e).clearance + s_.end(2 * e).clearance, steep_[e] != 0);
+  }
+  std::uint32_t split(std::uint32_t e, double t);
+  void cut_at_thresholds();
+  /// The band of the widest bead when that many share a thickness.
+  double widest(Count count, double thickness);
+  /// Regions of one count along the core, joined where they touch.
+  void filter();
+  /// How wide a bead may grow for a short way, rather than be joined by another.
+  double wide_bead() const { return std::min(w_.most, 1.7 * std::min(w_.inner, w_.outer)); }
+
+  // ramps between counts
+  void ramps();
+  /// The one core half that leads on from the end of h, or h itself when there is none or more.
+  std::uint32_t onward(std::uint32_t h) const;
+  double stretch(std::uint32_t h) const;
+  void blend_along(std::uint32_t h, Count other, double reach);
+  void set_core_bounds(std::uint32_t e);
+  std::uint32_t bounds_at(Count mine, Count other, double share, double half);
+
+  // corners
+  bool climbs_mouth(std::uint32_t h) const { return mouth_[h / 2] && s_.end(h).clearance > s_.start(h).clearance; }
+  void run_into_corners();
+  void descend_from(std::uint32_t n, const Span& span);
+  double track(const Span& span, int i) const;
+  /// Beads end on the axis where the clearance falls to their distance.
+  void descend(std::uint32_t h, Span span);
+
+  static constexpr double same_um = 1e-3;     // lengths that differ by less are equal
+  static constexpr double stub_share = 0.25;  // of the clearance: flat ends of the axis shorter than this are corners
+  static constexpr double dip_share = 0.02;   // of the clearance: … and never reach over a rise of more than this
+
+  Skeleton& s_;
+  const Widths& w_;
+  const LayingOptions& o_;
+  std::vector<std::uint32_t> any_, peaks_, tops_;  // a half that leaves each node; nodes with corners all around
+  std::vector<std::uint8_t> core_, steep_, mouth_, reached_;
+  std::vector<Count> count_;
+  std::vector<Blend> blend_;
+  std::vector<double> scratch_;
+  std::vector<Descent> leave_;
+  Laying out_;
+};
+
+}  // namespace weft::walls

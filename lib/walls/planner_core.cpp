@@ -1,0 +1,126 @@
+// What runs into corners and what does not.
+#include "walls/planner.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft::walls {
+
+void Planner::find_core() {
+  const auto edges = static_cast<std::uint32_t>(s_.edge_count());
+  core_.assign(edges, 1);
+  steep_.assign(edges, 0);
+  std::vector<int> degree(s_.nodes.size(), 0);
+  std::vector<double> shallow(s_.nodes.size(), 0);  // length of flat stretches cut off so far
+  for (std::uint32_t e = 0; e < edges; ++e) {
+    steep_[e] = slope(e) > o_.steep;
+    ++degree[s_.halves[2 * e].from];
+    ++degree[s_.halves[2 * e + 1].from];
+  }
+  any_.resize(s_.nodes.size());
+  for (std::uint32_t h = 0; h < s_.halves.size(); ++h) any_[s_.halves[h].from] = h;
+  // From the thinnest up, so that what is left last of a part that is all corners is its thickest place.
+  const auto thicker = [&](std::uint32_t a, std::uint32_t b) {
+    return s_.nodes[a].clearance != s_.nodes[b].clearance ? s_.nodes[a].clearance > s_.nodes[b].clearance : a > b;
+  };
+  std::vector<std::uint32_t> leaves;
+  for (std::uint32_t n = 0; n < degree.size(); ++n)
+    if (degree[n] == 1) leaves.push_back(n);
+  std::make_heap(leaves.begin(), leaves.end(), thicker);
+  const auto add_leaf = [&](std::uint32_t n) {
+    leaves.push_back(n);
+    std::push_heap(leaves.begin(), leaves.end(), thicker);
+  };
+  while (!leaves.empty()) {
+    std::pop_heap(leaves.begin(), leaves.end(), thicker);
+    const std::uint32_t n = leaves.back();
+    leaves.pop_back();
+    if (degree[n] != 1) continue;
+    std::uint32_t h = any_[n];
+    for_each_leaving(any_[n], [&](std::uint32_t g) {
+      if (core_[g / 2]) h = g;
+    });
+    const std::uint32_t m = s_.to(h);
+    const double rise = s_.nodes[m].clearance - s_.nodes[n].clearance;
+    if (rise < -dip_share * s_.nodes[n].clearance) continue;  // the thickest place of its surroundings stays
+    double flat = shallow[n];
+    if (slope(h / 2) <= o_.corner || rise < 0) flat += s_.length(h / 2);
+    if (flat > stub_share * s_.nodes[m].clearance) continue;
+    core_[h / 2] = 0;
+    --degree[n];
+    shallow[m] = std::max(shallow[m], flat);
+    if (--degree[m] == 1) add_leaf(m);
+    if (degree[m] == 0) peaks_.push_back(m);
+  }
+  cut_bent_tips(degree);
+  cut_mouths(degree);
+}
+
+void Planner::cut_mouths(std::vector<int>& degree) {
+  mouth_.assign(core_.size(), 0);
+  const auto climbs = [&](std::uint32_t h) {
+    return core_[h / 2] && !mouth_[h / 2] && slope(h / 2) > o_.corner && s_.end(h).clearance > s_.start(h).clearance;
+  };
+  std::vector<std::uint32_t> run;
+  for (std::uint32_t start = 0; start < s_.halves.size(); ++start) {
+    if (!climbs(start)) continue;
+    std::uint32_t below = start;  // begins there: what leads to it does not climb
+    for (std::uint32_t h = onward(Skeleton::twin(start)); h != Skeleton::twin(below) && climbs(Skeleton::twin(h));
+         h = onward(h))
+      below = Skeleton::twin(h);
+    run.assign(1, below);
+    for (std::uint32_t h = onward(below); h != run.back() && climbs(h); h = onward(h)) run.push_back(h);
+    const std::uint32_t low = s_.halves[below].from, high = s_.to(run.back());
+    const int fewer = count_for(w_, 2 * s_.nodes[low].clearance, false).beads();
+    const int more = count_for(w_, 2 * s_.nodes[high].clearance, true).beads();
+    const double rise = s_.nodes[high].clearance - s_.nodes[low].clearance;
+    const bool splits = fewer == 1 && 2 * s_.nodes[high].clearance > wide_bead() && rise > 0.3 * w_.inner;
+    if (more - fewer < (splits ? 1 : 2)) continue;
+    for (const std::uint32_t h : run) {
+      core_[h / 2] = 0;
+      mouth_[h / 2] = 1;
+      --degree[s_.halves[h].from];
+      --degree[s_.to(h)];
+    }
+    tops_.push_back(high);
+  }
+  for (const std::uint32_t n : tops_) {
+    bool peak = degree[n] == 0;
+    for_each_leaving(any_[n], [&](std::uint32_t h) { peak = peak && !climbs_mouth(h); });
+    if (peak && std::find(peaks_.begin(), peaks_.end(), n) == peaks_.end()) peaks_.push_back(n);
+  }
+}
+
+void Planner::cut_bent_tips(std::vector<int>& degree) {
+  constexpr double most_bend_cos = 0.82;
+  for (std::uint32_t n = 0; n < degree.size(); ++n) {
+    if (degree[n] != 1 || s_.nodes[n].clearance > 5) continue;
+    std::uint32_t h = any_[n];
+    for_each_leaving(any_[n], [&](std::uint32_t g) {
+      if (core_[g / 2]) h = g;
+    });
+    std::vector<std::uint32_t> chain;
+    while (steep_[h / 2]) {
+      chain.push_back(h);
+      if (degree[s_.to(h)] != 2) break;
+      const std::uint32_t g = onward(h);
+      if (g == h) break;
+      const Place u = direction(h), v = direction(g);
+      if (u.x * v.x + u.y * v.y < most_bend_cos) {
+        for (const std::uint32_t c : chain) core_[c / 2] = 0;
+        degree[n] = 0;
+        degree[s_.to(h)] = 1;
+        break;
+      }
+      h = g;
+    }
+  }
+}
+
+Place Planner::direction(std::uint32_t h) const {
+  const Place a = s_.start(h).at, b = s_.end(h).at;
+  const double d = std::max(1e-9, std::hypot(b.x - a.x, b.y - a.y));
+  return {(b.x - a.x) / d, (b.y - a.y) / d};
+}
+
+}  // namespace weft::walls
