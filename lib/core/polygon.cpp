@@ -44,12 +44,19 @@ double perimeter_of(const Ring& ring) {
 
 Side side_of(const Ring& ring, Point p) {
   bool inside = false;
-  for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-    const Point a = ring[j], b = ring[i];
-    const bool in_box = p.x >= std::min(a.x, b.x) && p.x <= std::max(a.x, b.x) && p.y >= std::min(a.y, b.y) &&
-                        p.y <= std::max(a.y, b.y);
-    if (in_box && orient(a, b, p) == 0) return Side::on;
-    if ((a.y > p.y) != (b.y > p.y) && (orient(a, b, p) > 0) == (b.y > a.y)) inside = !inside;
+  if (ring.empty()) return Side::outside;
+  Point a = ring.back();
+  bool a_above = a.y > p.y;
+  for (const Point b : ring) {
+    const bool b_above = b.y > p.y;
+    if (a_above != b_above) {
+      const std::int64_t turn = orient(a, b, p);
+      if (turn == 0) return Side::on;
+      inside = inside != ((turn > 0) == b_above);
+    } else if (b.y == p.y && (b.x == p.x || (a.y == p.y && (a.x < p.x) != (b.x < p.x)))) {
+      return Side::on;
+    }
+    a = b, a_above = b_above;
   }
   return inside ? Side::inside : Side::outside;
 }

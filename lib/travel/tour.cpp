@@ -49,11 +49,15 @@ std::vector<Visit> nearest_tour(std::span<const Stop> stops, const TourEnds& end
 /// Local search on the order. Edge k lies before position k; edge n leads to the end.
 class Search {
  public:
-  Search(std::span<const Stop> stops, std::vector<Visit> visits, const TourEnds& ends)
-      : stops_(stops), visits_(std::move(visits)), ends_(ends), n_(static_cast<int>(stops.size())) {
+  Search(std::span<const Stop> stops, const std::vector<Visit>& visits, const TourEnds& ends)
+      : stops_(stops), ends_(ends), n_(static_cast<int>(stops.size())) {
+    places_.reserve(stops.size());
+    for (const auto& v : visits)
+      places_.push_back({entry_of(stops[v.stop], v.reversed), exit_of(stops[v.stop], v.reversed), v.stop, v.reversed});
+    edge_.resize(stops.size() + 1);
     position_.resize(stops.size());
     look_.assign(stops.size(), 1);
-    for (int i = 0; i < n_; ++i) position_[visits_[at(i)].stop] = i;
+    settled(0, n_);
     for (const auto& s : stops) any_fixed_ = any_fixed_ || !s.reversible;
     const auto points = endpoints(stops);
     neighbours_ = nearest_neighbours(points, neighbour_count);
@@ -63,13 +67,23 @@ class Search {
   std::vector<Visit> run() {
     // A move shortens the way by at least a micron, and the budget bounds the worst case.
     queue_.clear();
-    for (const auto& v : visits_) queue_.push_back(v.stop);
+    for (const auto& place : places_) queue_.push_back(place.stop);
     settle(40L * n_ + 1000);
     if (n_ >= fewest_to_kick && n_ <= most_to_kick) kick_and_settle();
-    return std::move(visits_);
+    std::vector<Visit> visits;
+    visits.reserve(places_.size());
+    for (const auto& place : places_) visits.push_back({place.stop, place.reversed});
+    return visits;
   }
 
  private:
+  /// A stop on its position: where it is entered and left.
+  struct Place {
+    Point entry, exit;
+    std::uint32_t stop;
+    bool reversed;
+  };
+
   /// Looks at the stops of the queue, and at those that moves touch, until nothing more is gained.
   void settle(long budget) {
     for (std::size_t head = 0; head < queue_.size() && budget > 0; ++head, --budget) {
@@ -87,8 +101,10 @@ class Search {
   /// Exchanges two neighbouring runs somewhere, which no single move can undo, lets the order settle, and keeps what is
   /// shorter. Source: Martin, Otto & Felten 1991, "Large-step Markov chains for the TSP" (double bridge).
   void kick_and_settle() {
-    double length = way(stops_, visits_, ends_);
-    auto kept = visits_;
+    double length = whole_way();
+    auto kept = places_;
+    auto kept_edge = edge_;
+    auto kept_position = position_;
     for (int kick = 0; kick < kicks_a_stop * n_; ++kick) {
       int cut[3];
       const int window = std::min(n_, kick_window),
@@ -96,18 +112,18 @@ class Search {
       for (int& c : cut) c = base + static_cast<int>(random(static_cast<std::uint32_t>(window + 1)));
       std::sort(std::begin(cut), std::end(cut));
       if (cut[0] == cut[1] || cut[1] == cut[2]) continue;
-      std::rotate(visits_.begin() + cut[0], visits_.begin() + cut[1], visits_.begin() + cut[2]);
-      for (int i = cut[0]; i < cut[2]; ++i) position_[visits_[at(i)].stop] = i;
+      std::rotate(places_.begin() + cut[0], places_.begin() + cut[1], places_.begin() + cut[2]);
+      settled(cut[0], cut[2]);
       for (const int c :
            {cut[0] - 1, cut[0], cut[0] + cut[2] - cut[1] - 1, cut[0] + cut[2] - cut[1], cut[2] - 1, cut[2]})
-        if (c >= 0 && c < n_) queue_.push_back(visits_[at(c)].stop);
+        if (c >= 0 && c < n_) queue_.push_back(places_[at(c)].stop);
       settle(1000);
-      const double now = way(stops_, visits_, ends_);
+      const double now = whole_way();
       if (now < length - least_gain_um) {
-        length = now, kept = visits_;
+        length = now;
+        kept = places_, kept_edge = edge_, kept_position = position_;
       } else {
-        visits_ = kept;
-        for (int i = 0; i < n_; ++i) position_[visits_[at(i)].stop] = i;
+        places_ = kept, edge_ = kept_edge, position_ = kept_position;
       }
     }
   }
@@ -126,42 +142,63 @@ class Search {
   static constexpr double least_gain_um = 1.0;
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-  Point entry(int i) const { return entry_of(stops_[visits_[at(i)].stop], visits_[at(i)].reversed); }
-  Point exit(int i) const { return exit_of(stops_[visits_[at(i)].stop], visits_[at(i)].reversed); }
-  /// Way from what is left at position i to what is entered at position j.
-  double hop(std::optional<Point> from, std::optional<Point> to) const {
-    return from && to ? distance(*from, *to) : 0.0;
+  /// Way from what is left at position i to what is entered at position j; none where there is no such place.
+  double hop(int i, int j) const {
+    if ((i < 0 && !ends_.from) || (j >= n_ && !ends_.to)) return 0.0;
+    return distance(i < 0 ? *ends_.from : places_[at(i)].exit, j >= n_ ? *ends_.to : places_[at(j)].entry);
   }
-  std::optional<Point> left(int i) const { return i < 0 ? ends_.from : std::optional(exit(i)); }
-  std::optional<Point> entered(int i) const { return i >= n_ ? ends_.to : std::optional(entry(i)); }
+  double hop(int i, Point to) const {
+    if (i < 0) return ends_.from ? distance(*ends_.from, to) : 0.0;
+    return distance(places_[at(i)].exit, to);
+  }
+  double hop(Point from, int j) const {
+    if (j >= n_) return ends_.to ? distance(from, *ends_.to) : 0.0;
+    return distance(from, places_[at(j)].entry);
+  }
+  double whole_way() const {
+    double sum = 0;
+    for (const double e : edge_) sum += e;
+    return sum;
+  }
 
   bool reversible(int first, int last) const {
     if (!any_fixed_) return true;
     for (int i = first; i <= last; ++i)
-      if (!stops_[visits_[at(i)].stop].reversible) return false;
+      if (!stops_[places_[at(i)].stop].reversible) return false;
     return true;
   }
 
   void touch(int i) {
-    if (i >= 0 && i < n_) touched_.push_back(visits_[at(i)].stop);
+    if (i >= 0 && i < n_) touched_.push_back(places_[at(i)].stop);
+  }
+
+  /// To be called when the places first … last − 1 are not what they were.
+  void settled(int first, int last) {
+    for (int i = first; i < last; ++i) position_[places_[at(i)].stop] = i, edge_[at(i)] = hop(i - 1, i);
+    edge_[at(last)] = hop(last - 1, last);
   }
 
   void reverse(int first, int last) {
-    std::reverse(visits_.begin() + first, visits_.begin() + last + 1);
+    std::reverse(places_.begin() + first, places_.begin() + last + 1);
     for (int i = first; i <= last; ++i) {
-      visits_[at(i)].reversed = !visits_[at(i)].reversed;
-      position_[visits_[at(i)].stop] = i;
+      Place& place = places_[at(i)];
+      place.reversed = !place.reversed;
+      std::swap(place.entry, place.exit);
     }
   }
 
-  /// 2-opt: turns the positions first … last around.
+  /// 2-opt: turns the positions first … last around. Gains are summed from what is known to what is not: a sum that is
+  /// too small already decides.
   bool try_reverse(int first, int last) {
     if (first > last || last - first >= longest_move_) return false;
-    const auto before = left(first - 1), after = entered(last + 1);
-    const double gain =
-        hop(before, entry(first)) + hop(exit(last), after) - hop(before, exit(last)) - hop(entry(first), after);
+    double gain = edge_[at(first)] + edge_[at(last + 1)];
+    if (gain < least_gain_um) return false;
+    gain -= hop(first - 1, places_[at(last)].exit);
+    if (gain < least_gain_um) return false;
+    gain -= hop(places_[at(first)].entry, last + 1);
     if (gain < least_gain_um || !reversible(first, last)) return false;
     reverse(first, last);
+    settled(first, last + 1);
     touch(first - 1), touch(first), touch(last), touch(last + 1);
     return true;
   }
@@ -170,17 +207,21 @@ class Search {
   bool try_move(int first, int last, int gap, bool turned) {
     if (gap >= first && gap <= last + 1) return false;
     if (std::max(last, gap) - std::min(first, gap) >= longest_move_) return false;
-    const auto before = left(first - 1), after = entered(last + 1), gap_from = left(gap - 1), gap_to = entered(gap);
-    const Point head = turned ? exit(last) : entry(first), tail = turned ? entry(first) : exit(last);
-    const double gain = hop(before, entry(first)) + hop(exit(last), after) + hop(gap_from, gap_to) -
-                        hop(before, after) - hop(gap_from, head) - hop(tail, gap_to);
+    double gain = edge_[at(first)] + edge_[at(last + 1)] + edge_[at(gap)];
+    if (gain < least_gain_um) return false;
+    gain -= hop(first - 1, last + 1);
+    if (gain < least_gain_um) return false;
+    const Place &begin = places_[at(first)], &end = places_[at(last)];
+    gain -= hop(gap - 1, turned ? end.exit : begin.entry);
+    if (gain < least_gain_um) return false;
+    gain -= hop(turned ? begin.entry : end.exit, gap);
     if (gain < least_gain_um || (turned && !reversible(first, last))) return false;
     touch(first - 1), touch(first), touch(last), touch(last + 1), touch(gap - 1), touch(gap);
     if (turned) reverse(first, last);
     const int low = std::min(first, gap), high = std::max(last + 1, gap);
     const int middle = gap < first ? first : last + 1;
-    std::rotate(visits_.begin() + low, visits_.begin() + middle, visits_.begin() + high);
-    for (int i = low; i < high; ++i) position_[visits_[at(i)].stop] = i;
+    std::rotate(places_.begin() + low, places_.begin() + middle, places_.begin() + high);
+    settled(low, high);
     return true;
   }
 
@@ -200,22 +241,22 @@ class Search {
   bool improve(std::uint32_t stop) {
     const int i = position_[stop];
     if (try_reverse(i, i)) return true;
-    const bool reversed = visits_[at(i)].reversed;
+    const bool reversed = places_[at(i)].reversed;
     for (const bool from_exit : {false, true}) {
       const std::uint32_t end = 2 * stop + ((from_exit != reversed) ? 1U : 0U);
-      const Point here = from_exit ? exit(i) : entry(i);
-      const double now = from_exit ? hop(here, entered(i + 1)) : hop(left(i - 1), here);
+      const Point here = from_exit ? places_[at(i)].exit : places_[at(i)].entry;
+      const double now = edge_[at(from_exit ? i + 1 : i)];
+      // A neighbour farther than the present one cannot begin a gain here; the last position's free end always may.
+      const bool free_end = from_exit ? i + 1 >= n_ && !ends_.to : i == 0 && !ends_.from;
       for (int k = 0; k < neighbour_count; ++k) {
         const std::uint32_t other_end = neighbours_[std::size_t{end} * neighbour_count + static_cast<std::size_t>(k)];
         if (other_end == none) break;
         const std::uint32_t other = other_end / 2;
         if (other == stop) continue;
         const Point there = other_end % 2 != 0 ? stops_[other].b : stops_[other].a;
-        const int j = position_[other];
-        const bool there_is_entry = (other_end % 2 != 0) == visits_[at(j)].reversed;
-        // A neighbour farther than the present one cannot begin a gain here; the last position's free end always may.
-        const bool free_end = from_exit ? !entered(i + 1) : !left(i - 1);
         if (!free_end && distance(here, there) >= now) break;
+        const int j = position_[other];
+        const bool there_is_entry = (other_end % 2 != 0) == places_[at(j)].reversed;
         if (from_exit) {
           if (!there_is_entry && try_reverse(std::min(i, j) + 1, std::max(i, j))) return true;
           if (try_moves(j, i + 1, there_is_entry, true)) return true;
@@ -232,7 +273,8 @@ class Search {
   bool try_ends(int i) { return try_reverse(0, i) || try_reverse(i, n_ - 1); }
 
   std::span<const Stop> stops_;
-  std::vector<Visit> visits_;
+  std::vector<Place> places_;
+  std::vector<double> edge_;
   TourEnds ends_;
   int n_, longest_move_ = 0;
   bool any_fixed_ = false;
@@ -257,9 +299,8 @@ double way(std::span<const Stop> stops, std::span<const Visit> visits, const Tou
 
 std::vector<Visit> tour(PathOrder order, std::span<const Stop> stops, const TourEnds& ends) {
   if (stops.empty()) return {};
-  auto visits = nearest_tour(stops, ends);
-  if (order == PathOrder::nearest) return visits;
-  return Search(stops, std::move(visits), ends).run();
+  const auto visits = nearest_tour(stops, ends);
+  return order == PathOrder::nearest ? visits : Search(stops, visits, ends).run();
 }
 
 }  // namespace weft::travel
