@@ -130,7 +130,7 @@ class Reading {
       p = end_of_name(text_, index);
       if (p == index || !starts_name(text_[index]) || p == text_.size() || text_[p] != ']') return false;
       statement.index = variable_at(index, p);
-      if (statement.text.back() == '_') statement.text.pop_back();
+      if (statement.text.size() > 1 && statement.text.back() == '_') statement.text.pop_back();
       ++p;
     }
     skip();

@@ -9,7 +9,8 @@ namespace weft::prusaslicer {
 struct DefaultRow {
   std::string_view key, value;
 };
-inline constexpr std::array default_rows{
+// to_array: deducing the size of a std::array folds over its elements, and clang ends at 256.
+inline constexpr auto default_rows = std::to_array<DefaultRow>({
     DefaultRow{"arc_fitting", "disabled"},
     DefaultRow{"autoemit_temperature_commands", "1"},
     DefaultRow{"automatic_extrusion_widths", "0"},
@@ -327,6 +328,6 @@ inline constexpr std::array default_rows{
     DefaultRow{"wiping_volumes_use_custom_matrix", "0"},
     DefaultRow{"xy_size_compensation", "0"},
     DefaultRow{"z_offset", "0"},
-};
+});
 
 }  // namespace weft::prusaslicer

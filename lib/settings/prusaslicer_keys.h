@@ -203,7 +203,8 @@ inline constexpr std::array acceleration_rows{
 struct OtherRow {
   std::string_view key, neutral, why;
 };
-inline constexpr std::array other_rows{
+// to_array: deducing the size of a std::array folds over its elements, and clang ends at 256.
+inline constexpr auto other_rows = std::to_array<OtherRow>({
     OtherRow{"printer_variant", "*", "for people and for the window"},
     OtherRow{"printer_settings_id", "*", "for people and for the window"},
     OtherRow{"printer_notes", "*", "for people and for the window"},
@@ -449,7 +450,7 @@ inline constexpr std::array other_rows{
     OtherRow{"support_material", "0", "not supported yet"},
     OtherRow{"support_material_enforce_layers", "0", "not supported yet"},
     OtherRow{"complete_objects", "0", "not supported yet"},
-};
+});
 
 /// The key's name today; old names are still found in profiles.
 struct Renamed {

@@ -1,12 +1,11 @@
-// libFuzzer target for everything that reads settings: ini text of weft's own and of PrusaSlicer's family, and custom
-// G-code. What is wrong is refused with an Error that names settings; what is taken can be written out and read again
-// to the same settings.
-//   build/fuzz/tests/fuzz_settings -max_total_time=900 -max_len=8192 corpus/ profiles/printers profiles/quality
+// libFuzzer target for everything that reads settings: ini text of weft's own, configurations and bundles of PrusaSlicer's
+// family, G-code that holds one in its comments, and custom G-code. What is wrong is refused with an Error that names
+// settings; what is taken can be written out and read again to the same settings.
+//   build/fuzz/tests/fuzz_settings -max_total_time=900 -max_len=8192 corpus/ profiles tests/fuzz/seeds/settings
 #include "core/error.h"
 #include "gcode/writer.h"
 #include "settings/catalogue.h"
 #include "settings/profile.h"
-#include "settings/prusaslicer.h"
 
 #include <cstdint>
 #include <cstdlib>
@@ -20,17 +19,9 @@ void require(bool holds) {
   if (!holds) std::abort();
 }
 
-/// Lays the lines of the text over a profile as apply_file does, without a file.
 Profile applied(const std::string& text) {
   Profile profile;
-  const auto entries = parse_ini(text, "fuzz.ini");
-  if (prusaslicer::recognises(text, entries)) {
-    for (const auto& a : prusaslicer::translate(entries, "fuzz.ini").assignments)
-      apply_value(profile, a.key, a.text, "fuzz.ini");
-  } else {
-    for (const auto& e : entries)
-      if (e.section.empty() && e.key != "inherits") apply_value(profile, e.key, e.value, "fuzz.ini");
-  }
+  apply_text(profile, text, "fuzz.ini");
   check_consistency(profile);
   return profile;
 }

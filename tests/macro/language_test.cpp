@@ -135,6 +135,7 @@ TEST_CASE("macro: what is wrong is told with line, column and what to try") {
   CHECK_THAT(message("{round(1, 2)}"), Contains("round takes 1 arguments, not 2"));
   CHECK_THAT(message("{if layer_num}x{endif}"), Contains("neither true nor false"));
   CHECK_THAT(message("{if layer_num == 3}x"), Contains("start_gcode:1:2: {if} without {endif}"));
+  CHECK_THAT(message("[_[layer_num]]"), Contains("start_gcode:1:2: unknown placeholder '_'"));
   CHECK_THAT(message("x{endif}"), Contains("start_gcode:1:3: there is no {if} before this"));
   CHECK_THAT(message("{if true}{else}{elsif true}{endif}"), Contains("only {endif} may follow {else}"));
   CHECK_THAT(message("{if true then 1}x{endif}"), Contains("without endif before '}'"));
