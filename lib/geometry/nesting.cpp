@@ -30,24 +30,60 @@ struct Place {
   bool sliver() const { return std::abs(static_cast<double>(double_area)) < 2 * tolerances::sliver_area_um2; }
 };
 
-/// Any point of a ring tells what is around it, as long as no other ring touches it there.
-std::vector<Place> places_of(std::span<const Ring> rings, const SegmentIndex& index) {
-  std::vector<Place> places(rings.size());
-  std::vector<SegmentIndex::RingWinding> windings;
-  for (std::size_t r = 0; r < rings.size(); ++r) {
-    places[r].double_area = double_area(rings[r]);
-    if (places[r].sliver()) continue;
-    for (const Point p : rings[r]) {
-      index.windings(p, windings);
-      const auto touching = [&](const auto& w) { return w.on && w.ring != r; };
-      if (std::none_of(windings.begin(), windings.end(), touching)) break;
-    }
-    for (const auto& other : windings) {
-      if (other.ring == r || other.winding == 0) continue;
-      places[r].outside += other.winding;
-      places[r].around.push_back(other.ring);
-    }
+/// What is around ring r, asked of everything to its left. Any point of a ring tells, as long as no other ring touches
+/// it there.
+void look_around(std::size_t r, const Ring& ring, const SegmentIndex& index,
+                 std::vector<SegmentIndex::RingWinding>& windings, Place& place) {
+  for (const Point p : ring) {
+    index.windings(p, windings);
+    const auto touching = [&](const auto& w) { return w.on && w.ring != r; };
+    if (std::none_of(windings.begin(), windings.end(), touching)) break;
   }
+  for (const auto& other : windings) {
+    if (other.ring == r || other.winding == 0) continue;
+    place.outside += other.winding;
+    place.around.push_back(other.ring);
+  }
+}
+
+/// What is around each ring, found from its neighbour to the left, which is looked at before it: either both lie in the
+/// same rings, or the neighbour is around it. A look at everything to the left would take rings^1.5 steps.
+/// Pre: no two rings touch, none touches itself.
+void ask_neighbours(std::span<const Ring> rings, const SegmentIndex& index, std::vector<Place>& places) {
+  std::vector<std::pair<Point, std::uint32_t>> leftmost;
+  leftmost.reserve(rings.size());
+  for (std::uint32_t r = 0; r < rings.size(); ++r)
+    if (!places[r].sliver()) leftmost.emplace_back(*std::min_element(rings[r].begin(), rings[r].end()), r);
+  std::sort(leftmost.begin(), leftmost.end());
+  std::vector<SegmentIndex::RingWinding> windings;
+  for (const auto& [p, r] : leftmost) {
+    const auto met = index.first_left_of(p);
+    if (met == SegmentIndex::none) continue;
+    const auto left = met == SegmentIndex::unsure ? r : index.origin(met).region;
+    if (left == r || places[left].sliver()) {
+      look_around(r, rings[r], index, windings, places[r]);
+      continue;
+    }
+    places[r].around = places[left].around;
+    places[r].outside = places[left].outside;
+    const auto& edge = index.segments()[met];
+    const bool counter_clockwise = places[left].double_area > 0;
+    if ((edge.a.y > edge.b.y) != counter_clockwise) continue;  // p is on its outer side
+    places[r].around.push_back(left);
+    places[r].outside += counter_clockwise ? 1 : -1;
+  }
+}
+
+std::vector<Place> places_of(std::span<const Ring> rings, const SegmentIndex& index, bool apart) {
+  std::vector<Place> places(rings.size());
+  for (std::size_t r = 0; r < rings.size(); ++r) places[r].double_area = double_area(rings[r]);
+  if (apart) {
+    ask_neighbours(rings, index, places);
+    return places;
+  }
+  std::vector<SegmentIndex::RingWinding> windings;
+  for (std::size_t r = 0; r < rings.size(); ++r)
+    if (!places[r].sliver()) look_around(r, rings[r], index, windings, places[r]);
   return places;
 }
 
@@ -79,7 +115,7 @@ Regions assembled(std::span<const Ring> rings, const std::vector<Place>& places)
 std::optional<Regions> nested(std::span<const Ring> rings, WindingRule rule) {
   const SegmentIndex index(rings);
   if (!index.simple()) return std::nullopt;
-  auto places = places_of(rings, index);
+  auto places = places_of(rings, index, true);
   for (auto& place : places) {
     if (place.sliver()) continue;
     const int inside = place.outside + (place.double_area > 0 ? 1 : -1);
@@ -90,7 +126,8 @@ std::optional<Regions> nested(std::span<const Ring> rings, WindingRule rule) {
 }
 
 Regions nested_by_orientation(std::span<const Ring> rings, const SegmentIndex& index) {
-  auto places = places_of(rings, index);
+  constexpr std::size_t many = 256;  // of fewer, asking for simplicity costs more than it saves
+  auto places = places_of(rings, index, rings.size() > many && index.simple());
   for (auto& place : places)
     if (!place.sliver()) place.kind = place.double_area > 0 ? Place::Kind::outer : Place::Kind::hole;
   return assembled(rings, places);

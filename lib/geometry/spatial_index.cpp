@@ -244,6 +244,32 @@ void SegmentIndex::windings(Point p, std::vector<RingWinding>& found) const {
   found.resize(kept);
 }
 
+std::uint32_t SegmentIndex::first_left_of(Point p) const {
+  if (segments_.empty() || !box_.contains(p)) return none;
+  const int r = row(p.y);
+  std::uint32_t best = none;
+  double best_x_um = 0;
+  bool tie = false;
+  for (int c = column(p.x); c >= 0; --c) {
+    for (const std::uint32_t i : cell(static_cast<std::size_t>(r * columns_ + c))) {
+      const auto& [a, b] = segments_[i];
+      if (std::min(a.y, b.y) > p.y || std::max(a.y, b.y) < p.y || std::min(a.x, b.x) > p.x || i == best) continue;
+      const std::int64_t side = orient(a, b, p);
+      const bool up = b.y > p.y;
+      if ((a.y > p.y) == up || (side > 0) == up || side == 0) continue;  // as for_each_left_of
+      const double x_um =
+          a.x + (static_cast<double>(p.y) - a.y) / (static_cast<double>(b.y) - a.y) * (static_cast<double>(b.x) - a.x);
+      constexpr double equal_um =
+          0.001;  // above what a double rounds, below what two lattice segments differ by nearly always
+      if (best != none && x_um < best_x_um - equal_um) continue;
+      tie = best != none && x_um < best_x_um + equal_um;
+      if (!tie || x_um > best_x_um) best = i, best_x_um = x_um;
+    }
+    if (best != none && best_x_um > static_cast<double>(box_.min.x) + std::ldexp(c, shift_) + 1) break;
+  }
+  return tie ? unsure : best;
+}
+
 std::optional<std::size_t> SegmentIndex::region_at(Point p) const {
   std::optional<std::size_t> on;
   for_each_left_of(p, [&](std::uint32_t i, int step) {

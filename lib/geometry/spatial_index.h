@@ -79,6 +79,11 @@ class SegmentIndex {
   };
   void windings(Point p, std::vector<RingWinding>& found) const;
 
+  /// The segment that a ray from p to the left crosses first, those that p is on left out: `none` when it crosses
+  /// nothing, `unsure` when it is one of several that meet there. Looks only at the cells between.
+  static constexpr std::uint32_t none = ~std::uint32_t{0}, unsure = none - 1;
+  std::uint32_t first_left_of(Point p) const;
+
   /// The region that p is inside of or on the edge of, the lowest of several. Pre: made from regions.
   std::optional<std::size_t> region_at(Point p) const;
 

@@ -3,6 +3,8 @@
 #include "geometry/spatial_index.h"
 #include "shapes.h"
 
+#include <algorithm>
+
 #include <catch2/catch.hpp>
 
 using namespace weft;
@@ -112,4 +114,58 @@ TEST_CASE("geometry: no edges cross after a Boolean, also where hundreds of cros
     CHECK(SegmentIndex(regions).crossing_pairs().empty());
     for (const auto& region : regions) CHECK(double_area(region.outer) > 0);
   }
+}
+
+TEST_CASE("geometry: a thousand places worked on at once are the places one by one", "[law]") {
+  shapes::Dice dice(11);
+  constexpr int side = 32;
+  constexpr Um pitch = 12'000;
+  Regions all, bites, expected_cut, expected_union;
+  for (int i = 0; i < side * side; ++i) {
+    const Point at{pitch * (i % side), pitch * (i / side)};
+    // a plate with a star for a hole, and islands of islands in that
+    const Ring outer = rectangle(at - Point{5000, 5000}, at + Point{5000, 5000}).outer;
+    const Regions place = subtract({{outer, {}}}, {{shapes::star(dice, at, 4000, dice.between(3, 12)), {}}});
+    const Regions middle{{shapes::star(dice, at, 700, 5), {}}};
+    const Regions here = unite(place, middle);
+    const Regions bite{{shapes::star(dice, at + Point{dice.between(-4000, 4000), 3000}, 2500, 7), {}}};
+    all.insert(all.end(), here.begin(), here.end());
+    bites.insert(bites.end(), bite.begin(), bite.end());
+    for (const auto& r : subtract(here, bite)) expected_cut.push_back(r);
+    for (const auto& r : unite(here, bite)) expected_union.push_back(r);
+  }
+  const auto sorted = [](Regions regions) {
+    for (auto& region : regions) {
+      const auto turned = [](Ring& ring) {
+        std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
+      };
+      turned(region.outer);
+      for (auto& hole : region.holes) turned(hole);
+      std::sort(region.holes.begin(), region.holes.end());
+    }
+    std::sort(regions.begin(), regions.end(), [](const Region& a, const Region& b) { return a.outer < b.outer; });
+    return regions;
+  };
+  CHECK((sorted(subtract(all, bites)) == sorted(expected_cut)));
+  CHECK((sorted(unite(all, bites)) == sorted(expected_union)));
+  CHECK((sorted(regions_from_rings(rings_of(all))) == sorted(all)));
+}
+
+TEST_CASE("geometry: rings nested deep, many times, are told apart by both rules") {
+  constexpr int side = 20, deep = 6;
+  std::vector<Ring> rings;
+  for (int i = 0; i < side * side; ++i)
+    for (int k = 0; k < deep; ++k) {
+      const Point at{20'000 * (i % side), 20'000 * (i / side)}, reach{9000 - 1400 * k, 9000 - 1300 * k};
+      const Ring ring = rectangle(at - reach, at + reach).outer;
+      rings.push_back((i + k) % 3 == 0 ? shapes::reversed(ring) : ring);
+    }
+  const Ring frame = rectangle({-15'000, -15'000}, {20'000 * side, 20'000 * side}).outer;
+  rings.push_back(frame);
+  const Regions stripes = regions_from_rings(rings, WindingRule::even_odd);
+  CHECK(stripes.size() == 1 + side * side * deep / 2);
+  CHECK(std::count_if(stripes.begin(), stripes.end(), [](const Region& r) { return r.holes.size() == 1; }) ==
+        side * side * (deep / 2 - 1));
+  CHECK(std::count_if(stripes.begin(), stripes.end(), [](const Region& r) { return r.holes.size() == side * side; }) ==
+        1);
 }
