@@ -11,6 +11,8 @@
 #include <cstdlib>
 #include <exception>
 #include <string_view>
+#include <system_error>
+#include <utility>
 
 namespace weft::app {
 namespace {
@@ -55,6 +57,45 @@ Error Limits::error() const {
     default:
       return {Error::Kind::interrupted, "interrupted", {}, "nothing was written"};
   }
+}
+
+Watchdog::Watchdog(const Limits& limits, std::function<void(const Error&, Report)> last_words)
+    : limits_(limits), last_words_(std::move(last_words)) {
+  try {
+    thread_ = std::thread([this] { watch(); });
+  } catch (const std::system_error&) {  // no thread to be had: then only the work itself looks at the limits
+  }
+}
+
+Watchdog::~Watchdog() {
+  dismiss();
+  if (thread_.joinable()) thread_.join();
+}
+
+void Watchdog::remember(const Report& report) {
+  using namespace std::chrono_literals;
+  const auto now = std::chrono::steady_clock::now();
+  if (now - remembered_ < 100ms) return;
+  const std::lock_guard lock(mutex_);
+  remembered_ = now;
+  known_ = report;
+}
+
+void Watchdog::dismiss() {
+  const std::lock_guard lock(mutex_);
+  dismissed_ = true;
+  changed_.notify_one();
+}
+
+void Watchdog::watch() {
+  using namespace std::chrono_literals;
+  constexpr std::chrono::milliseconds often = 50ms, patience = 1s;  // a layer takes milliseconds, unless it is one of those
+  std::unique_lock lock(mutex_);
+  while (!limits_.reached())
+    if (changed_.wait_for(lock, often, [&] { return dismissed_; })) return;
+  if (changed_.wait_for(lock, patience, [&] { return dismissed_; })) return;
+  last_words_(limits_.error(), known_);  // the lock is kept: who comes to write now waits for the end
+  std::_Exit(exit_status(Error::Kind::interrupted));
 }
 
 void explain_termination() {

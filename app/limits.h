@@ -1,9 +1,14 @@
 #pragma once
 #include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "core/error.h"
+#include "pipeline/report.h"
 
 namespace weft::app {
 
@@ -26,6 +31,35 @@ class Limits {
  private:
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   double timeout_s_, max_memory_mb_;
+};
+
+/// Ends the program where a limit was reached and the work does not end by itself soon after: it is asked between layers,
+/// and a layer may hold a million islands.
+class Watchdog {
+ public:
+  /// @param last_words says why, from the watchdog's thread, with what the report knew; then the status is 130
+  Watchdog(const Limits& limits, std::function<void(const Error&, Report)> last_words);
+  /// Dismisses.
+  ~Watchdog();
+  Watchdog(const Watchdog&) = delete;
+  Watchdog& operator=(const Watchdog&) = delete;
+
+  /// Keeps a copy of what is known, at most ten a second.
+  void remember(const Report& report);
+  /// From here on nothing is ended from outside: the result is being written, or the work has ended by itself.
+  void dismiss();
+
+ private:
+  void watch();
+
+  const Limits& limits_;
+  const std::function<void(const Error&, Report)> last_words_;
+  std::mutex mutex_;  ///< of all below
+  std::condition_variable changed_;
+  bool dismissed_ = false;
+  Report known_;
+  std::chrono::steady_clock::time_point remembered_{};
+  std::thread thread_;
 };
 
 /// Makes std::terminate say what happened where the system refused memory or a thread while one was being made, which the

@@ -84,10 +84,26 @@ Job job_of(const Command& command, const Settings& settings) {
   return job;
 }
 
+/// What a job that is ended from outside leaves: the error, and the report of what was known.
+void say_last(const Command& command, const Error& error, Report known) {
+  auto options = command.console;
+  options.progress = ProgressMode::never;
+  Console console(options);
+  console.error(error);
+  known.status = Report::Status::failed;
+  known.error = error.what();
+  known.peak_memory_mb = peak_memory_mb();
+  try {
+    if (command.report) write_output(*command.report, to_json(known));
+  } catch (const Error& unwritten) {
+    console.error(unwritten);
+  }
+}
+
 /// The value of an option that limits something. @throws Error{usage}
 double limit_of(const po::variables_map& options, const std::string& name) {
   const double value = options[name].as<double>();
-  if (!(value >= 0 && value <= 1e9)) throw Error{Error::Kind::usage, "must be above 0", "--" + name};
+  if (!(value >= 0 && value <= 1e9)) throw Error{Error::Kind::usage, fmt::format("{:g} is outside 0 … 1e9", value), "--" + name, "0 is no limit"};
   return value;
 }
 
@@ -145,16 +161,21 @@ int slice(const Words& words) {
     finish();
     return error;
   };
+  Watchdog watchdog(limits, [&](const Error& error, Report known) { say_last(command, error, std::move(known)); });
   try {
     const auto profile = resolve(command);
     report.warnings = profile.notices;
     Watch watch;
-    watch.progress = [&](std::string_view stage, double share) { console.progress(stage, share); };
+    watch.progress = [&](std::string_view stage, double share) {
+      console.progress(stage, share);
+      watchdog.remember(report);
+    };
     watch.cancelled = [&] { return limits.reached(); };
     const auto cache_options = cache_options_of(command);
     std::optional<StageCache> cache;
     if (!cache_options.folder.empty()) cache.emplace(cache_options);
     const auto gcode = run(job_of(command, profile.settings), watch, report, cache ? &*cache : nullptr);
+    watchdog.dismiss();
     if (cache) console.detail("cache: " + told(*cache));
     if (gcode && !preview.empty())
       write_preview(preview, gcode->gcode(), profile.settings.material.filament_diameter,
@@ -165,8 +186,10 @@ int slice(const Words& words) {
     console.info(summary(report));
     return 0;
   } catch (const std::bad_alloc&) {
+    watchdog.dismiss();
     throw failed({Error::Kind::interrupted, "the machine's memory is used up", command.inputs.front(), "nothing was written; try a coarser mesh or layer_height, or fewer copies"});
   } catch (const Error& error) {
+    watchdog.dismiss();
     if (report.status == Report::Status::rejected) throw;
     throw failed(error.kind() == Error::Kind::interrupted ? limits.error() : error);
   }

@@ -98,7 +98,36 @@ TEST_CASE("faults: --timeout and --max-memory end a job with status 130 and a re
   CHECK(fat.status == 130);
   CHECK_THAT(fat.err, Contains("weft: error: --max-memory: stopped above 30 MB"));
   CHECK_FALSE(scratch.has("out.gcode"));
-  CHECK(shell(long_job + " --timeout -1", scratch.path()).status == 2);
+  const auto wrong = shell(long_job + " --timeout -1", scratch.path());
+  CHECK(wrong.status == 2);
+  CHECK_THAT(wrong.err, Contains("--timeout: -1 is outside 0 … 1e9; 0 is no limit"));
+}
+
+TEST_CASE("faults: a limit is kept within a layer, however much is in it") {
+  Scratch scratch;
+  scratch.write("bed.ini", "machine_width = 400\nmachine_depth = 400\n");
+  scratch.write("islands.stl", boxes_stl(0.5F, 0.5F, 0.2F, 350, 1));
+  const auto run = shell("$WEFT slice islands.stl -p bed.ini -o out.gcode --report r.json --timeout 0.1", scratch.path());
+  CHECK(run.status == 130);
+  CHECK_THAT(run.err, Contains("weft: error: --timeout: stopped after 0.1 s; nothing was written"));
+  const auto report = json::parse(scratch.read("r.json"));
+  CHECK(report["status"] == "failed");
+  CHECK_THAT(report["error"].get<std::string>(), StartsWith("--timeout: "));
+  CHECK(scratch.names() == std::vector<std::string>{"bed.ini", "islands.stl", "r.json"});
+}
+
+TEST_CASE("faults: thousands of islands on a layer are each printed") {
+  Scratch scratch;
+  scratch.write("bed.ini", "machine_width = 400\nmachine_depth = 400\nskirt_line_count = 0\n");
+  scratch.write("one.stl", box_stl(0.8F, 0.8F, 0.4F));
+  scratch.write("islands.stl", boxes_stl(0.8F, 0.8F, 0.4F, 70, 1.5F));
+  const auto plastic = [&](const char* model) {
+    const auto run = weft({"slice", model, "-p", "bed.ini", "-o", "out.gcode", "--report", "r.json"}, scratch.path());
+    INFO(run.err);
+    REQUIRE(run.status == 0);
+    return json::parse(scratch.read("r.json"))["filament"]["mm3"].get<double>();
+  };
+  CHECK(plastic("islands.stl") == Approx(70 * 70 * plastic("one.stl")).epsilon(0.01));
 }
 
 TEST_CASE("faults: memory that the system refuses is told, never a crash") {
@@ -107,14 +136,17 @@ TEST_CASE("faults: memory that the system refuses is told, never a crash") {
 #else
   Scratch scratch;
   write_long_job(scratch);
+  int refused = 0;
   for (const int kilobytes : {60'000, 120'000, 250'000, 400'000}) {
     const auto run = shell("ulimit -v " + std::to_string(kilobytes) + "; " + long_job + " -j 2", scratch.path());
     CAPTURE(kilobytes, run.err);
     CHECK((run.status == 130 || run.status == 0));
     if (run.status == 0) continue;
+    ++refused;
     CHECK_THAT(run.err, Contains("memory"));
     CHECK_FALSE(scratch.has("out.gcode"));
   }
+  CHECK(refused > 0);  // or nothing was tested
 #endif
 }
 

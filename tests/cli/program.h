@@ -35,3 +35,5 @@ class Scratch {
 
 /// A watertight binary STL of a box from the origin, mm.
 std::string box_stl(float x, float y, float z);
+/// The same box side × side times, in rows, their corners `pitch` apart.
+std::string boxes_stl(float x, float y, float z, int side, float pitch);
