@@ -1,83 +1,18 @@
 #include "geometry/medial_axis.h"
 
-// The outline is proven simple before CGAL sees it; its own checks cost a third of the time and cannot fail then.
-#define CGAL_NDEBUG 1
-#define CGAL_SDG_NO_FACE_MAP 1
-
 #include "geometry/medial_axis_outline.h"
+#include "geometry/segment_graph.h"
 
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include <CGAL/Mpzf.h>
-#include <CGAL/Segment_Delaunay_graph_2.h>
-#include <CGAL/Segment_Delaunay_graph_face_base_2.h>
-#include <CGAL/Segment_Delaunay_graph_filtered_traits_2.h>
-#include <CGAL/Segment_Delaunay_graph_storage_traits_2.h>
-#include <CGAL/Segment_Delaunay_graph_vertex_base_2.h>
-#include <CGAL/Simple_cartesian.h>
-#include <CGAL/Triangulation_data_structure_2.h>
-
 namespace weft::geometry {
 namespace {
 
-/// A vertex of the graph (a site) or a face of it (a Voronoi vertex) with its number.
-template <class Base>
-struct Numbered : Base {
-  using Base::Base;
-  template <class Tds>
-  struct Rebind_TDS {
-    using Other = Numbered<typename Base::template Rebind_TDS<Tds>::Other>;
-  };
-  std::uint32_t number = 0;
-};
-
-using Kernel = CGAL::Simple_cartesian<double>;
-using Exact = CGAL::Simple_cartesian<CGAL::Mpzf>;
-using FilteredTraits =
-    CGAL::Segment_Delaunay_graph_filtered_traits_without_intersections_2<Kernel, CGAL::Field_with_sqrt_tag, Exact>;
-
-/// CGAL's predicates, but for two that are asked oftest. Every site is a point of the outline or an edge between two, and
-/// edges are proven to meet in common ends only: then equality of sites is equality of their coordinates.
-struct Traits : FilteredTraits {
-  using Site = Site_2;
-  struct Equal_2 {
-    using result_type = bool;
-    using argument_type = Site;
-    bool operator()(const Site& p, const Site& q) const { return same(p.point(), q.point()); }
-    static bool same(const Point_2& p, const Point_2& q) { return p.x() == q.x() && p.y() == q.y(); }
-  };
-  struct Arrangement_type_2 : CGAL::SegmentDelaunayGraph_2::Internal::Arrangement_enum {
-    using result_type = Arrangement_type;
-    using argument_type = Site;
-    Arrangement_type operator()(const Site& p, const Site& q) const {
-      if (p.is_point() && q.is_point()) return Equal_2()(p, q) ? IDENTICAL : DISJOINT;
-      if (p.is_point()) return end_of(q, p.point());
-      if (q.is_point()) return end_of(p, q.point());
-      const auto p1 = p.source(), p2 = p.target(), q1 = q.source(), q2 = q.target();
-      const bool s11 = Equal_2::same(p1, q1), s22 = Equal_2::same(p2, q2), s12 = Equal_2::same(p1, q2), s21 = Equal_2::same(p2, q1);
-      if ((s11 && s22) || (s12 && s21)) return IDENTICAL;
-      return s11 ? TOUCH_11 : s12 ? TOUCH_12 : s21 ? TOUCH_21 : s22 ? TOUCH_22 : DISJOINT;
-    }
-    static Arrangement_type end_of(const Site& edge, const Point_2& p) {
-      return Equal_2::same(p, edge.source()) ? TOUCH_1 : Equal_2::same(p, edge.target()) ? TOUCH_2 : DISJOINT;
-    }
-  };
-  Equal_2 equal_2_object() const { return {}; }
-  Arrangement_type_2 arrangement_type_2_object() const { return {}; }
-};
-using Storage = CGAL::Segment_Delaunay_graph_storage_traits_2<Traits>;
-using VertexBase = Numbered<CGAL::Segment_Delaunay_graph_vertex_base_2<Storage>>;
-using FaceBase = Numbered<CGAL::Segment_Delaunay_graph_face_base_2<Traits>>;
-using Graph =
-    CGAL::Segment_Delaunay_graph_2<Traits, Storage, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
-using Face = Graph::Face_handle;
-using Vertex = Graph::Vertex_handle;
-
 using Site = MedialAxis::Site;
 
-double length_of(double x, double y) {  // std::hypot guards against overflow that microns cannot reach, at four times the cost
+double length_of(double x, double y) {  // std::hypot guards against overflow that microns cannot reach
   return std::sqrt(x * x + y * y);
 }
 
@@ -212,12 +147,12 @@ Place unshaken(double x, double y) {
 
 Diagram diagram_of(const detail::Outline& outline) {
   constexpr double step = 1.0 / static_cast<double>(detail::shaken_steps);
-  std::vector<Traits::Point_2> points;
+  std::vector<detail::SegmentGraph::Point> points;
   points.reserve(outline.points.size());
   for (const auto p : outline.points)
     points.emplace_back(static_cast<double>(p.x) * step, static_cast<double>(p.y) * step);
-  Graph graph;
-  graph.insert_segments(points, outline.segments.begin(), outline.segments.end());
+  detail::SegmentGraph graph;
+  graph.build(points, outline.segments);
 
   Diagram out;
   if (graph.dimension() < 2) return out;
@@ -236,7 +171,7 @@ Diagram diagram_of(const detail::Outline& outline) {
     v.half_edge.fill(none);
     for (int i = 0; i < 3; ++i) {
       const auto k = static_cast<std::size_t>(i);
-      const Face neighbour = f->neighbor(i);
+      const auto neighbour = f->neighbor(i);
       v.site[k] = f->vertex(i)->number;
       v.neighbour[k] = neighbour->number;
       v.index_in_neighbour[k] = static_cast<std::uint8_t>(graph.tds().mirror_index(f, i));
@@ -245,8 +180,8 @@ Diagram diagram_of(const detail::Outline& outline) {
       v.where = Where::outside;
       continue;
     }
-    const auto centre = graph.circumcenter(f);
-    v.at = {centre.x(), centre.y()};
+    const auto [x, y] = graph.centre_of(f);
+    v.at = {x, y};
     locate(out, v);
   }
   spread_sides(out);
