@@ -155,22 +155,28 @@ Regions offset_outlines(const WallSettings& settings, const Regions& regions, st
   return geometry::subtract(solid, holes);
 }
 
-bool inside(const Regions& regions, Point p) {
-  return std::any_of(regions.begin(), regions.end(), [&](const Region& region) {
-    return side_of(region.outer, p) == Side::inside &&
-           std::none_of(region.holes.begin(), region.holes.end(),
-                        [&](const Ring& hole) { return side_of(hole, p) == Side::inside; });
-  });
+bool inside(const Region& region, Point p) {
+  return side_of(region.outer, p) == Side::inside &&
+         std::none_of(region.holes.begin(), region.holes.end(),
+                      [&](const Ring& hole) { return side_of(hole, p) == Side::inside; });
 }
 
 /// Over air there is nothing to press a bead against: it keeps the width the nozzle gives it.
 void steady_over_air(const Regions& over_air, const Widths& widths, Beads& beads) {
   const Box box = box_of(over_air);
   if (box.empty()) return;
+  std::vector<Box> boxes;
+  boxes.reserve(over_air.size());
+  for (const Region& region : over_air) boxes.push_back(box_of(region.outer));
+  const auto over = [&](Point p) {
+    if (!box.contains(p)) return false;
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+      if (boxes[i].contains(p) && inside(over_air[i], p)) return true;
+    return false;
+  };
   for (Bead& bead : beads)
     for (Junction& j : bead.path)
-      if (j.flow == 1.F && box.contains(j.at) && inside(over_air, j.at))
-        j.width = rounded(bead.inset == 0 ? widths.outer : widths.inner);
+      if (j.flow == 1.F && over(j.at)) j.width = rounded(bead.inset == 0 ? widths.outer : widths.inner);
 }
 
 std::string place_of(const WallInput& input, const Region& region) {
