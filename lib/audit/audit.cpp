@@ -35,15 +35,20 @@ HeaderPlace header_place(std::string_view gcode) {
   return {end + 1, 0};
 }
 
+std::string_view line_end_of(std::string_view gcode) { return gcode.substr(0, gcode.find('\n')).ends_with('\r') ? "\r\n" : "\n"; }
+
+std::string header_line(std::string_view gcode, const HeaderPlace& place, const Report& report) {
+  const auto line_end = line_end_of(gcode);
+  return fmt::format("{}{}{}{}", place.needs_line_feed_before ? line_end : "", header_key, header_value(report), line_end);
+}
+
 /// The text with the verdict in its header and the marks before their lines. Findings are renumbered to its lines.
 std::string stated(std::string_view gcode, const std::vector<Mark>& marks, Report& report) {
   const auto place = header_place(gcode);
-  const bool crlf = gcode.substr(0, gcode.find('\n')).ends_with('\r');
-  const std::string_view line_end = crlf ? "\r\n" : "\n";
-  const auto header_line =
-      fmt::format("{}{}{}{}", place.needs_line_feed_before ? line_end : "", header_key, header_value(report), line_end);
+  const auto line_end = line_end_of(gcode);
+  const auto header = header_line(gcode, place, report);
   std::string out;
-  std::size_t size = gcode.size() + header_line.size();
+  std::size_t size = gcode.size() + header.size();
   for (const Mark& m : marks) size += m.text.size() + line_end.size();
   out.reserve(size);
   std::size_t done = 0;
@@ -53,7 +58,7 @@ std::string stated(std::string_view gcode, const std::vector<Mark>& marks, Repor
   };
   const auto state = [&] {
     copy_to(place.at);
-    out += header_line;
+    out += header;
     done += place.replaced;
   };
   bool is_stated = false;
@@ -96,6 +101,11 @@ Passed check(const MachineSettings& machine, const MaterialSettings& material, c
   if (!report.clean()) {
     if (mode == Mode::reject) throw Rejected(std::move(report));
     report.verdict = Verdict::annotated;
+  }
+  if (auditor.marks().empty() && report.findings.empty()) {  // the usual case: a copy of the text would be as large again
+    const auto place = header_place(gcode);
+    gcode.replace(place.at, place.replaced, header_line(gcode, place, report));
+    return {std::move(gcode), std::move(report)};
   }
   auto text = stated(gcode, auditor.marks(), report);
   return {std::move(text), std::move(report)};

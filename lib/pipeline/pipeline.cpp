@@ -40,17 +40,36 @@ Statistics plan_motion(const Settings& settings, PrintPlan& plan, const Watch& w
   return statistics;
 }
 
-/// The text of the file, layers side by side.
-std::string write_gcode(const gcode::Job& job, Report& report) {
+/// The most bytes that the text of a plan may take, about: what is not used is address space, no memory.
+std::size_t room_for(const PrintPlan& plan) {
+  std::size_t bytes = 1U << 16;
+  for (const auto& layer : plan.layers) {
+    bytes += 1024 + 96 * layer.steps.size();
+    for (const auto& step : layer.steps)
+      if (const auto* bead = std::get_if<Extrude>(&step)) bytes += 48 * bead->path.size();
+  }
+  return bytes;
+}
+
+/// The text of the file: runs of layers, in each of them side by side. A layer's steps are let go of when they are
+/// written, so that plan and text are never both there as a whole.
+std::string write_gcode(const gcode::Job& job, PrintPlan& plan, Report& report) {
   const Stopwatch stopwatch(report.timings_ms.gcode);
   const gcode::Writer writer(job);
-  const auto blocks = parallel_map(job.plan.layers.size(), [&](std::size_t i) { return writer.layer(i); });
-  std::string text = writer.head();
+  std::string text;
+  text.reserve(room_for(plan));
+  text += writer.head();
   const std::string tail = writer.tail();
-  std::size_t size = text.size() + tail.size();
-  for (const auto& block : blocks) size += block.size();
-  text.reserve(size);
-  for (const auto& block : blocks) text += block;
+  const std::size_t count = plan.layers.size();
+  constexpr std::size_t run = 128;
+  for (std::size_t begin = 0; begin < count; begin += run) {
+    const auto blocks = parallel_map(std::min(run, count - begin), [&](std::size_t i) {
+      auto block = writer.layer(begin + i);
+      plan.layers[begin + i].steps = {};
+      return block;
+    });
+    for (const auto& block : blocks) text += block;
+  }
   return text += tail;
 }
 
@@ -96,12 +115,10 @@ std::optional<audit::Passed> audit_gcode(const Job& job, std::string text, Repor
 }
 
 /// A job that prints nothing is not done: a model in metres, or thinner than a layer, would pass every check.
-void refuse_emptiness(const Job& job, const std::vector<PlacedObject>& objects, const std::vector<PrintedLayers>& layers) {
+void refuse_emptiness(const Job& job, const Box3& box, const std::vector<PrintedLayers>& layers) {
   for (const auto& object : layers)
     for (const auto& layer : object)
       if (!layer.beads.empty()) return;
-  Box3 box;
-  for (const auto& object : objects) box.add(box_of(object.mesh));
   const auto size = box.size();
   throw Error{Error::Kind::model, fmt::format("holds nothing to print: it is {:.3f} × {:.3f} × {:.3f} mm", to_mm(size.x), to_mm(size.y), to_mm(size.z)),
               job.models.front(), "is it drawn in metres or inches? --scale 1000 or --scale 25.4; else look at layer_height and wall_line_count"};
@@ -116,14 +133,19 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
   };
   report.settings_sha256 = sha256(as_text(job.settings));
   gcode::check_custom_code(job.settings);  // a typo in the start G-code is told before an hour of slicing
-  const auto objects = place_models(job, report, cache);
+  auto objects = place_models(job, report, cache);
+  auto thumbnails = thumbnails_of(job.settings, objects);
   begin("slicing", 0.05);
   std::vector<PrintedLayers> layers;
-  for (const auto& object : objects) layers.push_back(print_object(job.settings, object, watch, report, cache));
-  refuse_emptiness(job, objects, layers);
+  Box3 box;
+  for (auto& object : objects) {
+    box.add(box_of(object.mesh));
+    layers.push_back(print_object(job.settings, object, watch, report, cache));
+    object.mesh = {};
+  }
+  refuse_emptiness(job, box, layers);
   begin("travel", 0.65);
-  PrintPlan plan = plan_plate(job.settings, objects, layers, watch, report);
-  layers.clear();
+  PrintPlan plan = plan_plate(job.settings, objects, std::move(layers), watch, report);
   begin("motion", 0.8);
   const Statistics statistics = plan_motion(job.settings, plan, watch, report);
   note_statistics(statistics, report);
@@ -132,8 +154,8 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
   report.warnings.insert(report.warnings.end(), plan.notices.begin(), plan.notices.end());
   begin("G-code", 0.85);
   auto text = write_gcode({job.settings, plan, statistics, std::filesystem::path(job.models.front()).stem().string(),
-                           thumbnails_of(job.settings, objects), provenance_lines(report.models, job.placement)},
-                          report);
+                           std::move(thumbnails), provenance_lines(report.models, job.placement)},
+                          plan, report);
   begin("audit", 0.95);
   auto passed = audit_gcode(job, std::move(text), report);
   watch.progress("done", 1.0);

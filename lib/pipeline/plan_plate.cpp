@@ -3,7 +3,6 @@
 #include "pipeline/stopwatch.h"
 
 #include "adhesion/adhesion.h"
-#include "geometry/convex_hull.h"
 #include "travel/travel.h"
 
 #include <fmt/format.h>
@@ -25,12 +24,8 @@ Beads moved(Beads beads, Point by) {
 std::vector<ObjectLabel> labels_of(const std::vector<PlacedObject>& objects) {
   std::vector<ObjectLabel> out;
   for (const auto& object : objects) {
-    std::vector<Point> corners;
-    corners.reserve(object.mesh.vertices.size());
-    for (const auto& v : object.mesh.vertices) corners.push_back(flat(v));
-    const Ring hull = convex_hull(std::move(corners));
     for (std::size_t copy = 0; copy < object.offsets.size(); ++copy) {
-      Ring outline = hull;
+      Ring outline = object.hull;
       for (auto& p : outline) p = p + object.offsets[copy];
       const Point centre = box_of(outline).centre();
       out.push_back({object.offsets.size() == 1 ? object.name : fmt::format("{}_{}", object.name, copy + 1), centre, std::move(outline)});
@@ -39,20 +34,25 @@ std::vector<ObjectLabel> labels_of(const std::vector<PlacedObject>& objects) {
   return out;
 }
 
-/// All copies of all objects at one height. Objects end at different heights; layers are those of the tallest.
-travel::LayerInput plate_layer(const std::vector<PlacedObject>& objects, const std::vector<PrintedLayers>& layers, std::size_t index) {
+/// All copies of all objects at one height. Objects end at different heights; layers are those of the tallest. The last
+/// copy of an object takes what the layer holds.
+travel::LayerInput plate_layer(const std::vector<PlacedObject>& objects, std::vector<PrintedLayers>& layers, std::size_t index) {
   travel::LayerInput input;
   input.index = index;
   std::uint32_t label = 0;
   for (std::size_t o = 0; o < objects.size(); ++o) {
-    for (const Point offset : objects[o].offsets) {
+    const auto& offsets = objects[o].offsets;
+    for (std::size_t copy = 0; copy < offsets.size(); ++copy) {
       const auto object = label++;
       if (index >= layers[o].size()) continue;
-      const auto& layer = layers[o][index];
+      auto& kept = layers[o][index];
+      auto layer = copy + 1 < offsets.size() ? kept : std::move(kept);
+      const Point by = offsets[copy];
       input.z = layer.z;
       input.height = layer.height;
-      input.objects.push_back({object, moved(layer.beads, offset), weft::moved(layer.outline, offset), weft::moved(layer.skin, offset),
-                               weft::moved(layer.top, offset), weft::moved(layer.sparse, offset)});
+      input.objects.push_back({object, moved(std::move(layer.beads), by), weft::moved(std::move(layer.outline), by),
+                               weft::moved(std::move(layer.skin), by), weft::moved(std::move(layer.top), by),
+                               weft::moved(std::move(layer.sparse), by)});
     }
   }
   return input;
@@ -81,7 +81,7 @@ void add_adhesion(const Settings& settings, std::vector<travel::LayerInput>& lay
 
 }  // namespace
 
-PrintPlan plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects, const std::vector<PrintedLayers>& layers, const Watch& watch,
+PrintPlan plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects, std::vector<PrintedLayers> layers, const Watch& watch,
                      Report& report) {
   const Stopwatch stopwatch(report.timings_ms.travel);
   std::size_t count = 0;
@@ -98,7 +98,7 @@ PrintPlan plan_plate(const Settings& settings, const std::vector<PlacedObject>& 
   }
   for (auto& notice : travel::check(settings.travel, settings.retraction)) plan.notices.push_back(std::move(notice));
 
-  const auto prepared = parallel_map(count, [&](std::size_t i) {
+  auto prepared = parallel_map(count, [&](std::size_t i) {
     stop_if_cancelled(watch);
     return travel::prepare(settings.travel, std::move(inputs[i]));
   });
@@ -111,7 +111,8 @@ PrintPlan plan_plate(const Settings& settings, const std::vector<PlacedObject>& 
   for (std::size_t i = 1; i < count; ++i) from[i] = ordered[i - 1].end ? ordered[i - 1].end : from[i - 1];
   auto routed = parallel_map(count, [&](std::size_t i) {
     stop_if_cancelled(watch);
-    return travel::route(settings.travel, settings.retraction, prepared[i], ordered[i], from[i]);
+    const auto layer = std::move(prepared[i]);  // done with: what it holds is as large as the plan
+    return travel::route(settings.travel, settings.retraction, layer, ordered[i], from[i]);
   });
   for (auto& notice : travel::notices_of(routed)) plan.notices.push_back(std::move(notice));
   for (auto& layer : routed) plan.layers.push_back(std::move(layer.plan));

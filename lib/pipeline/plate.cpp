@@ -1,5 +1,6 @@
 #include "pipeline/plate.h"
 
+#include "geometry/convex_hull.h"
 #include "mesh/file_bytes.h"
 #include "mesh/placement.h"
 #include "mesh/read.h"
@@ -44,6 +45,13 @@ mesh::Loaded read_model(const std::string& path, double scale, StageCache* cache
                 [&] { return mesh::read(file.view(), path, {.scale = scale}); }).take();
 }
 
+Ring hull_of(const Mesh& mesh) {
+  std::vector<Point> corners;
+  corners.reserve(mesh.vertices.size());
+  for (const auto& v : mesh.vertices) corners.push_back(flat(v));
+  return convex_hull(std::move(corners));
+}
+
 }  // namespace
 
 std::vector<PlacedObject> place_models(const Job& job, Report& report, StageCache* cache) {
@@ -63,7 +71,8 @@ std::vector<PlacedObject> place_models(const Job& job, Report& report, StageCach
   std::vector<PlacedObject> out;
   for (std::size_t m = 0; m < placed.size(); ++m)
     for (std::size_t i = 0; i < placed[m].objects.size(); ++i)
-      out.push_back({name_of(loaded[m], i), std::move(placed[m].objects[i]), placed[m].instances});
+      out.push_back({name_of(loaded[m], i), std::move(placed[m].objects[i]), {}, placed[m].instances});
+  for (auto& object : out) object.hull = hull_of(object.mesh);
   return out;
 }
 

@@ -14,7 +14,8 @@ namespace weft::pipeline {
 /// A model on the bed: sliced once, printed at each offset.
 struct PlacedObject {
   std::string name;
-  Mesh mesh;                   ///< where its first copy stands, on z = 0
+  Mesh mesh;                   ///< where its first copy stands, on z = 0; empty once it is sliced
+  Ring hull;                   ///< of the mesh, seen from above
   std::vector<Point> offsets;  ///< one a copy, the first is usually {0, 0}
 };
 
@@ -34,7 +35,7 @@ using PrintedLayers = std::vector<PrintedLayer>;
 PrintedLayers print_object(const Settings& settings, const PlacedObject& object, const Watch& watch, Report& report, StageCache* cache);
 
 /// The whole plate as steps: copies put in their places, adhesion around them, order, seams and travels.
-PrintPlan plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects, const std::vector<PrintedLayers>& layers, const Watch& watch,
+PrintPlan plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects, std::vector<PrintedLayers> layers, const Watch& watch,
                      Report& report);
 
 /// @throws Error{interrupted} when the watch says so

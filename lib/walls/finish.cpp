@@ -122,6 +122,7 @@ void emit(const std::vector<Vertex>& path, bool closed, int inset, const FinishO
   bead.inset = static_cast<std::uint16_t>(inset);
   bead.part = o.part;
   const double stable = inset == 0 ? o.stable_outer : o.stable_inner;
+  bead.path.reserve(path.size());
   for (const Vertex& v : path) {
     Junction j{{o.origin.x + rounded(v.at.x), o.origin.y + rounded(v.at.y)},
                rounded(std::clamp(v.width, 1.0, o.most_width)),
