@@ -19,6 +19,10 @@
 #include <algorithm>
 #include <filesystem>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace weft {
 namespace {
 using namespace pipeline;
@@ -38,6 +42,13 @@ Statistics plan_motion(const Settings& settings, PrintPlan& plan, const Watch& w
     statistics.append(planned[i].statistics);
   }
   return statistics;
+}
+
+/// Gives back to the system what earlier stages have used and freed in pieces: the text takes its place.
+void give_back_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
 }
 
 /// The most bytes that the text of a plan may take, about: what is not used is address space, no memory.
@@ -61,7 +72,7 @@ std::string write_gcode(const gcode::Job& job, PrintPlan& plan, Report& report) 
   text += writer.head();
   const std::string tail = writer.tail();
   const std::size_t count = plan.layers.size();
-  constexpr std::size_t run = 128;
+  constexpr std::size_t run = 32;
   for (std::size_t begin = 0; begin < count; begin += run) {
     const auto blocks = parallel_map(std::min(run, count - begin), [&](std::size_t i) {
       auto block = writer.layer(begin + i);
@@ -69,8 +80,10 @@ std::string write_gcode(const gcode::Job& job, PrintPlan& plan, Report& report) 
       return block;
     });
     for (const auto& block : blocks) text += block;
+    give_back_memory();
   }
-  return text += tail;
+  text += tail;
+  return text;  // not `text += tail`: that is a reference, and copied
 }
 
 void note_statistics(const Statistics& s, Report& report) {
