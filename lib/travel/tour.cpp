@@ -61,6 +61,9 @@ class Search {
     for (const auto& s : stops) any_fixed_ = any_fixed_ || !s.reversible;
     const auto points = endpoints(stops);
     neighbours_ = nearest_neighbours(points, neighbour_count);
+    apart_.reserve(neighbours_.size());
+    for (std::size_t k = 0; k < neighbours_.size(); ++k)
+      apart_.push_back(neighbours_[k] == none ? 0.0 : distance(points[k / neighbour_count], points[neighbours_[k]]));
     longest_move_ = n_ <= 4000 ? n_ : 1000;
   }
 
@@ -244,17 +247,16 @@ class Search {
     const bool reversed = places_[at(i)].reversed;
     for (const bool from_exit : {false, true}) {
       const std::uint32_t end = 2 * stop + ((from_exit != reversed) ? 1U : 0U);
-      const Point here = from_exit ? places_[at(i)].exit : places_[at(i)].entry;
       const double now = edge_[at(from_exit ? i + 1 : i)];
       // A neighbour farther than the present one cannot begin a gain here; the last position's free end always may.
       const bool free_end = from_exit ? i + 1 >= n_ && !ends_.to : i == 0 && !ends_.from;
       for (int k = 0; k < neighbour_count; ++k) {
-        const std::uint32_t other_end = neighbours_[std::size_t{end} * neighbour_count + static_cast<std::size_t>(k)];
+        const std::size_t neighbour = std::size_t{end} * neighbour_count + static_cast<std::size_t>(k);
+        const std::uint32_t other_end = neighbours_[neighbour];
         if (other_end == none) break;
         const std::uint32_t other = other_end / 2;
         if (other == stop) continue;
-        const Point there = other_end % 2 != 0 ? stops_[other].b : stops_[other].a;
-        if (!free_end && distance(here, there) >= now) break;
+        if (!free_end && apart_[neighbour] >= now) break;
         const int j = position_[other];
         const bool there_is_entry = (other_end % 2 != 0) == places_[at(j)].reversed;
         if (from_exit) {
@@ -275,6 +277,7 @@ class Search {
   std::span<const Stop> stops_;
   std::vector<Place> places_;
   std::vector<double> edge_;
+  std::vector<double> apart_;  // beside neighbours_: how far they are
   TourEnds ends_;
   int n_, longest_move_ = 0;
   bool any_fixed_ = false;

@@ -10,7 +10,8 @@ namespace weft::walls {
 using geometry::Place;
 
 inline double distance(Place a, Place b) {
-  return std::hypot(b.x - a.x, b.y - a.y);
+  const double x = b.x - a.x, y = b.y - a.y;
+  return std::sqrt(x * x + y * y);  // microns cannot overflow, which is what std::hypot is slower for
 }
 /// The direction from one place to another; none if they coincide.
 inline Place unit(Place from, Place to) {

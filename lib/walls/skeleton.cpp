@@ -33,7 +33,7 @@ struct Curve {
   double angle_of(double x) const { return parabola ? 2 * std::atan(x / h) : std::atan(x / h); }
   double x_at(double angle) const { return parabola ? h * std::tan(angle / 2) : h * std::tan(angle); }
   Skeleton::Node at(double x) const {
-    if (!parabola) return {{origin.x + x * ux, origin.y + x * uy}, std::hypot(x, h)};
+    if (!parabola) return {{origin.x + x * ux, origin.y + x * uy}, std::sqrt(x * x + h * h)};
     const double r = (x * x + h * h) / (2 * h);
     return {{origin.x + x * ux + r * vx, origin.y + x * uy + r * vy}, r};
   }
@@ -46,7 +46,7 @@ Curve curve_of(const MedialAxis::Site& s, const MedialAxis::Site& t) {
     return {lerp(s.a, t.a, 0.5), -ny, nx, 0, 0, d / 2, false};
   }
   const auto &line = s.corner ? t : s, &corner = s.corner ? s : t;
-  const double ux0 = line.b.x - line.a.x, uy0 = line.b.y - line.a.y, length = std::hypot(ux0, uy0);
+  const double ux0 = line.b.x - line.a.x, uy0 = line.b.y - line.a.y, length = distance(line.a, line.b);
   const double ux = ux0 / length, uy = uy0 / length;
   const double along = (corner.a.x - line.a.x) * ux + (corner.a.y - line.a.y) * uy;
   const double h = (corner.a.y - line.a.y) * ux - (corner.a.x - line.a.x) * uy;
