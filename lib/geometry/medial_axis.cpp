@@ -180,8 +180,8 @@ Diagram diagram_of(const detail::Outline& outline) {
       v.where = Where::outside;
       continue;
     }
-    const auto [x, y] = graph.centre_of(f);
-    v.at = {x, y};
+    const auto centre = graph.circumcenter(f);
+    v.at = {centre.x(), centre.y()};
     locate(out, v);
   }
   spread_sides(out);

@@ -18,6 +18,34 @@ double certain_turn(double ax, double ay, double bx, double by, double cx, doubl
   return std::abs(turn) > 1e-15 * (std::abs(l) + std::abs(r)) ? turn : 0.0;
 }
 
+/// Distance from a site, and its gradient.
+struct Slope {
+  double distance = 0, x = 0, y = 0;
+};
+
+/// False where there is no gradient, or the foot is not within the edge.
+bool slope_at(const GraphSite& s, double px, double py, Slope& out) {
+  double x = px - s.ax, y = py - s.ay;
+  if (s.edge) {
+    const double ux = s.bx - s.ax, uy = s.by - s.ay, along = x * ux + y * uy, length2 = ux * ux + uy * uy;
+    if (!(along >= 0 && along <= length2)) return false;
+    const double across = (ux * y - uy * x) / length2;
+    x = -uy * across, y = ux * across;
+  }
+  out.distance = length_of(x, y);
+  if (!(out.distance > 0)) return false;
+  out.x = x / out.distance, out.y = y / out.distance;
+  return true;
+}
+
+/// Whether the site is, or ends in, a point that is one of the face's sites.
+template <class Face>
+bool ends_in_a_point_of(const Face& f, const GraphSite& t) {
+  for (int i = 0; i < 3; ++i)
+    if (const GraphSite& s = f->vertex(i)->graph_site; !s.edge && t.ends_in(s.a)) return true;
+  return false;
+}
+
 CGAL::Sign sign_of_turn(double turn) {
   return turn > 0 ? CGAL::POSITIVE : turn < 0 ? CGAL::NEGATIVE : CGAL::ZERO;
 }
@@ -195,34 +223,71 @@ SegmentGraph::Vertex SegmentGraph::fill_hole(const Query& query) {
 
 void SegmentGraph::measure(Face f) {
   if (f->circle != Circle::unknown) return;
-  const auto centre = circumcenter(f);
-  f->x = centre.x(), f->y = centre.y();
-  f->circle = bound_circle(f, scale_) ? Circle::bounded : Circle::doubtful;
+  centre(f);
+  f->circle = bound_circle(f);
+}
+
+/// Of three points by the usual formula, else as CGAL constructs it.
+void SegmentGraph::centre(Face f) const {
+  const GraphSite &a = f->vertex(0)->graph_site, &b = f->vertex(1)->graph_site, &c = f->vertex(2)->graph_site;
+  if (a.edge || b.edge || c.edge) {
+    const auto at = circumcenter(f);
+    f->x = at.x(), f->y = at.y();
+    return;
+  }
+  const double bx = b.ax - a.ax, by = b.ay - a.ay, cx = c.ax - a.ax, cy = c.ay - a.ay;
+  const double b2 = bx * bx + by * by, c2 = cx * cx + cy * cy, twice = 2 * (bx * cy - by * cx);
+  f->x = a.ax + (cy * b2 - by * c2) / twice, f->y = a.ay + (bx * c2 - cx * b2) / twice;
+}
+
+SegmentGraph::Circle SegmentGraph::bound_circle(Face f) const {
+  int ends = 0, end = 0, edge = 0;  // points that are ends of an edge of the same face
+  for (int i = 0; i < 3; ++i) {
+    const GraphSite& s = f->vertex(i)->graph_site;
+    if (s.edge) continue;
+    int edges = 0;
+    for (const int k : {(i + 1) % 3, (i + 2) % 3})
+      if (const GraphSite& t = f->vertex(k)->graph_site; t.edge && t.ends_in(s.a)) ++edges, end = i, edge = k;
+    if (edges == 2) return Circle::point;
+    ends += edges;
+  }
+  return (ends == 0 ? bound_by_sites(f) : ends == 1 && bound_on_perpendicular(f, end, edge)) ? Circle::bounded
+                                                                                             : Circle::doubtful;
 }
 
 /// Newton-Kantorovich: where distances to three sites nearly agree and their gradients are far from one line, the place
 /// where they agree is near. Gradients in counter-clockwise order, and feet within the edges, tell it from the other
 /// places. Source: Ortega & Rheinboldt 1970, "Iterative solution of nonlinear equations in several variables", 12.6.
-bool SegmentGraph::bound_circle(Face f, double scale) const {
-  double gx[3], gy[3], d[3];
-  for (int i = 0; i < 3; ++i) {
-    const GraphSite& s = f->vertex(i)->graph_site;
-    double x = f->x - s.ax, y = f->y - s.ay;
-    if (s.edge) {
-      const double ux = s.bx - s.ax, uy = s.by - s.ay, along = x * ux + y * uy, length2 = ux * ux + uy * uy;
-      if (!(along >= 0 && along <= length2)) return false;
-      const double across = (ux * y - uy * x) / length2;
-      x = -uy * across, y = ux * across;
-    }
-    d[i] = length_of(x, y);
-    if (!(d[i] > 0)) return false;
-    gx[i] = x / d[i], gy[i] = y / d[i];
-  }
-  const double turn = (gx[1] - gx[0]) * (gy[2] - gy[0]) - (gy[1] - gy[0]) * (gx[2] - gx[0]);
+bool SegmentGraph::bound_by_sites(Face f) const {
+  Slope s[3];
+  for (int i = 0; i < 3; ++i)
+    if (!slope_at(f->vertex(i)->graph_site, f->x, f->y, s[i])) return false;
+  const double turn = (s[1].x - s[0].x) * (s[2].y - s[0].y) - (s[1].y - s[0].y) * (s[2].x - s[0].x);
+  const double least = std::min({s[0].distance, s[1].distance, s[2].distance});
+  const double most = std::max({s[0].distance, s[1].distance, s[2].distance});
+  return bound(f, least, most, most - least, turn);
+}
+
+/// An edge and its own end have one foot: the circle's centre lies on the perpendicular there, and as far from the
+/// third site.
+bool SegmentGraph::bound_on_perpendicular(Face f, int end, int edge) const {
+  const GraphSite &p = f->vertex(end)->graph_site, &e = f->vertex(edge)->graph_site;
+  Slope at_end, at_third;
+  if (!slope_at(p, f->x, f->y, at_end) || !slope_at(f->vertex(3 - end - edge)->graph_site, f->x, f->y, at_third))
+    return false;
+  const double sense = e.a == p.a ? 1.0 : -1.0, length = length_of(e.bx - e.ax, e.by - e.ay);
+  const double ux = sense * (e.bx - e.ax) / length, uy = sense * (e.by - e.ay) / length;  // into the edge
+  const double slip = std::abs((f->x - p.ax) * ux + (f->y - p.ay) * uy);
+  const double twist = ux * (at_end.y - at_third.y) - uy * (at_end.x - at_third.x);
+  const double least = std::min(at_end.distance, at_third.distance),
+               most = std::max(at_end.distance, at_third.distance);
+  return bound(f, least, most, std::max(most - least, slip), edge == (end + 1) % 3 ? twist : -twist);
+}
+
+/// @param turn  determinant of the equations' Jacobian, whose inverse is at most 6 / turn
+bool SegmentGraph::bound(Face f, double least, double most, double residual, double turn) const {
   if (!(turn > 1e-5)) return false;
-  const double least = std::min({d[0], d[1], d[2]}), most = std::max({d[0], d[1], d[2]});
-  const double residual = most - least + rounding * 100 * (scale + most);
-  const double error = 16 / turn * residual;  // the inverse of the Jacobian is at most 6 / turn
+  const double error = 16 / turn * (residual + 100 * rounding * (scale_ + most));
   if (!(error < 0.01 * least * turn)) return false;
   f->error = error;
   f->least = least - error, f->most = most + error;
@@ -237,6 +302,7 @@ bool SegmentGraph::enters(Face f, const Query& query) {
   } else {
     measure(f);
     if (f->circle == Circle::bounded) side = side_of_circle(f, query.site);
+    if (f->circle == Circle::point && !ends_in_a_point_of(f, query.site)) side = CGAL::POSITIVE;
   }
   if (side == CGAL::ZERO) side = incircle(f, query.exact);
   return side == CGAL::NEGATIVE;
@@ -295,8 +361,72 @@ bool SegmentGraph::enters_edge_between(Face f, int i, const Query& query) const 
     } else if (!t.edge || t.ends_in(p.a) || t.ends_in(q.a)) {
       return true;
     }
+    const Face g = f->neighbor(i);
+    if (t.edge && f->circle == Circle::bounded && g->circle == Circle::bounded) {
+      const int sign = p.edge == q.edge ? takes_between_points(f, g, p, q, t)
+                       : p.edge         ? takes_between(g, f, q, p, t)
+                                        : takes_between(f, g, p, q, t);
+      if (sign != 0) return sign > 0;
+    }
   }
   return edge_interior(f, i, query.exact, CGAL::NEGATIVE);
+}
+
+/// Sign of how far the circle's centre lies along (x, y), of unit length, from a point; 0 where that is not certain.
+int SegmentGraph::side_along(Face f, double px, double py, double x, double y) const {
+  const double along = (f->x - px) * x + (f->y - py) * y;
+  return std::abs(along) > f->error + 100 * rounding * (scale_ + f->most) ? (along > 0 ? 1 : -1) : 0;
+}
+
+/// Between two points and an edge t that ends in neither, which enters the circles f and g: 1 where it takes all
+/// between them, -1 where it does not, 0 where that is not certain. As in CGAL's Finite_edge_interior_conflict_C2,
+/// which says why.
+int SegmentGraph::takes_between_points(Face f, Face g, const GraphSite& p, const GraphSite& q,
+                                       const GraphSite& t) const {
+  const double length = length_of(t.bx - t.ax, t.by - t.ay), ux = (t.bx - t.ax) / length, uy = (t.by - t.ay) / length;
+  const double dp = ux * (p.ay - t.ay) - uy * (p.ax - t.ax), dq = ux * (q.ay - t.ay) - uy * (q.ax - t.ax);
+  const double doubt = 100 * rounding * scale_;
+  if (std::abs(dp) < doubt || std::abs(dq) < doubt) return 0;
+  if ((dp > 0) != (dq > 0)) return 1;
+  if (std::abs(dp - dq) < doubt) return 0;
+  const GraphSite& near = std::abs(dp) < std::abs(dq) ? p : q;
+  return side_along(f, near.ax, near.ay, ux, uy) * side_along(g, near.ax, near.ay, ux, uy);
+}
+
+/// The same between a point p and an edge q that does not end in it. Pre: f is the circle of p, q and a third site in
+/// that order, g that of q, p and a fourth.
+int SegmentGraph::takes_between(Face f, Face g, const GraphSite& p, const GraphSite& q, const GraphSite& t) const {
+  const double doubt = 100 * rounding * scale_;
+  const double q_length = length_of(q.bx - q.ax, q.by - q.ay), qx = (q.bx - q.ax) / q_length,
+               qy = (q.by - q.ay) / q_length;
+  const double p_off = qx * (p.ay - q.ay) - qy * (p.ax - q.ax);
+  const int f_along = side_along(f, p.ax, p.ay, qx, qy), g_along = side_along(g, p.ax, p.ay, qx, qy);
+  if (t.ends_in(p.a)) {
+    if (f_along * g_along == 0) return 0;
+    if (f_along == g_along) return 1;  // on one arc of the parabola
+    if (q.ends_in(t.a) || q.ends_in(t.b)) return 1;
+    const bool to_b = t.a == p.a;
+    const double other_off = qx * ((to_b ? t.by : t.ay) - q.ay) - qy * ((to_b ? t.bx : t.ax) - q.ax);
+    if (std::abs(p_off) < doubt || std::abs(other_off) < doubt ||
+        std::abs(std::abs(p_off) - std::abs(other_off)) < doubt)
+      return 0;
+    if ((p_off > 0) != (other_off > 0)) return 1;
+    return std::abs(p_off) > std::abs(other_off) ? 1 : -1;
+  }
+  const double t_length = length_of(t.bx - t.ax, t.by - t.ay), tx = (t.bx - t.ax) / t_length,
+               ty = (t.by - t.ay) / t_length;
+  if (std::abs(tx * qy - ty * qx) < 1e-6) return 0;  // nearly parallel
+  const double off = tx * (p.ay - t.ay) - ty * (p.ax - t.ax);
+  if (std::abs(off) < doubt) return 0;
+  // Along t, so that p lies to the left of it.
+  const double ax = off > 0 ? -tx : tx, ay = off > 0 ? -ty : ty;
+  const int f_side = side_along(f, p.ax, p.ay, ax, ay), g_side = side_along(g, p.ax, p.ay, ax, ay);
+  if (f_side * g_side == 0) return 0;
+  if (f_side != g_side) return f_side > 0 ? -1 : 1;
+  if (f_along * g_along == 0) return 0;
+  if (f_along == g_along) return 1;
+  const double foot = (qy * p_off) * ax - (qx * p_off) * ay;  // from p to its foot on q, along t
+  return std::abs(foot) < doubt ? 0 : (foot > 0) == (f_side > 0) ? 1 : -1;
 }
 
 }  // namespace weft::geometry::detail

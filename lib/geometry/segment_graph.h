@@ -57,8 +57,8 @@ struct GraphFace : Base {
     using Other = GraphFace<typename Base::template Rebind_TDS<Tds>::Other>;
   };
   std::uint32_t number = 0;
-  enum class Circle : std::uint8_t { unknown, bounded, doubtful } circle = Circle::unknown;
-  double x = 0, y = 0;         ///< as CGAL constructs it
+  enum class Circle : std::uint8_t { unknown, bounded, doubtful, point } circle = Circle::unknown;
+  double x = 0, y = 0;
   double least = 0, most = 0;  ///< of its radius
   double error = 0;            ///< of its centre
 };
@@ -117,12 +117,6 @@ class SegmentGraph : public GraphBase {
   /// are distinct.
   void build(const std::vector<Point>& points, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& segments);
 
-  /// The centre of a finite face's circle.
-  std::pair<double, double> centre_of(Face f) {
-    measure(f);
-    return {f->x, f->y};
-  }
-
  private:
   struct Query {
     GraphSite site;
@@ -138,11 +132,18 @@ class SegmentGraph : public GraphBase {
   Vertex fill_hole(const Query& query);
 
   void measure(Face f);
-  bool bound_circle(Face f, double scale) const;
+  void centre(Face f) const;
+  Circle bound_circle(Face f) const;
+  bool bound_by_sites(Face f) const;
+  bool bound_on_perpendicular(Face f, int end, int edge) const;
+  bool bound(Face f, double least, double most, double residual, double turn) const;
   bool enters(Face f, const Query& query);
   CGAL::Sign side_of_circle(Face f, const GraphSite& t) const;
   CGAL::Sign side_of_hull(Face f, const GraphSite& t) const;
   bool enters_edge_between(Face f, int i, const Query& query) const;
+  int takes_between_points(Face f, Face g, const GraphSite& p, const GraphSite& q, const GraphSite& t) const;
+  int takes_between(Face f, Face g, const GraphSite& p, const GraphSite& q, const GraphSite& t) const;
+  int side_along(Face f, double px, double py, double x, double y) const;
 
   Data_structure& structure() { return const_cast<Data_structure&>(tds()); }  // CGAL inherits it privately
 
