@@ -101,6 +101,29 @@ double interpolated(const std::vector<Argument>& a) {
 /// Longer ones are none that a person writes; the library reads them by recursion.
 constexpr std::size_t most_pattern = 1000, most_subject = 100'000;
 
+/// Steps of the automaton for each character of a text, at most: the pattern's length, multiplied by every repetition
+/// count in it, as if they were all within each other.
+double steps_of(const std::string& pattern) {
+  double steps = static_cast<double>(pattern.size());
+  for (std::size_t at = pattern.find('{'); at != pattern.npos; at = pattern.find('{', at + 1)) {
+    double most = 1;
+    for (std::size_t i = at + 1; i < pattern.size() && pattern[i] != '}';) {
+      double count = 0;
+      for (; i < pattern.size() && pattern[i] >= '0' && pattern[i] <= '9'; ++i) count = 10 * count + (pattern[i] - '0');
+      most = std::max(most, count);
+      if (i < pattern.size() && pattern[i] != '}') ++i;
+    }
+    steps *= most;
+  }
+  return steps;
+}
+
+/// @throws std::invalid_argument when a few of these would take seconds
+void refuse_slow(double steps) {
+  constexpr double most_steps = 1e8;
+  if (steps > most_steps) throw std::invalid_argument("the regular expression would take too long on so long a text");
+}
+
 std::regex compiled(const std::string& pattern) {
   if (pattern.size() > most_pattern)
     throw std::invalid_argument(fmt::format("a regular expression of more than {} characters", most_pattern));
@@ -155,6 +178,7 @@ bool matches(const std::string& text, const std::string& pattern) {
   if (text.size() > most_subject)
     throw std::invalid_argument(
         fmt::format("a text of more than {} characters for a regular expression", most_subject));
+  refuse_slow(steps_of(pattern) * static_cast<double>(text.size()));
   return std::regex_match(text, compiled(pattern));
 }
 
@@ -173,6 +197,8 @@ Scalar call(std::string_view name, const std::vector<Argument>& a, std::uint64_t
   if (name == "regex_replace") {
     if (!a[1].regex) throw std::invalid_argument("regex_replace(text, /pattern/, text)");
     if (text(a[0]).size() > most_subject) throw std::invalid_argument("the text is too long");
+    const auto length = static_cast<double>(text(a[0]).size());
+    refuse_slow(steps_of(text({a[1].values})) * length * length);  // it may look at the rest from every place
     return std::regex_replace(text(a[0]), compiled(text({a[1].values})), text(a[2]));
   }
   throw std::logic_error("a function without body");

@@ -8,7 +8,7 @@
 
 using nlohmann::json;
 
-TEST_CASE("corpus: every model passes the audit, gives the same bytes for any number of threads, and verifies", "[corpus]") {
+TEST_CASE("corpus: every model passes the audit, gives the same bytes for any number of threads, with and without a cache, and verifies", "[corpus]") {
   for (const auto* name : {"MINI-minda-holder", "MINI-x-carriage", "benchy", "fandisk", "stanford-bunny"}) {
     const auto model = corpus("models/" + std::string(name) + ".stl");
     if (!model) return;
@@ -23,6 +23,12 @@ TEST_CASE("corpus: every model passes the audit, gives the same bytes for any nu
       CHECK(report["audit"]["verdict"] == "pass");
       if (first.empty()) first = report["gcode_sha256"];
       CHECK(report["gcode_sha256"] == first);
+    }
+    for (const auto* threads : {"3", "2"}) {  // the cache cold, then warm
+      const auto run = weft({"slice", model->string(), "-o", "cached.gcode", "-j", threads, "--cache", "cache", "--report", "-"}, scratch.path());
+      INFO(run.err);
+      REQUIRE(run.status == 0);
+      CHECK(json::parse(run.out)["gcode_sha256"] == first);
     }
     CHECK(weft({"verify", "out.gcode", model->string()}, scratch.path()).status == 0);
   }

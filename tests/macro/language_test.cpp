@@ -136,6 +136,11 @@ TEST_CASE("macro: what is wrong is told with line, column and what to try") {
   CHECK_THAT(message("{if layer_num}x{endif}"), Contains("neither true nor false"));
   CHECK_THAT(message("{if layer_num == 3}x"), Contains("start_gcode:1:2: {if} without {endif}"));
   CHECK_THAT(message("[_[layer_num]]"), Contains("start_gcode:1:2: unknown placeholder '_'"));
+  const std::string long_text =
+      "{local s = \"" + std::string(1000, 'a') + "\"; s = s + s; s = s + s; s = s + s; s = s + s}";
+  CHECK_THAT(message(long_text + "{s =~ /(a|aa|.){900}x/ ? 1 : 2}"), Contains("would take too long"));
+  CHECK_THAT(message(long_text + "{regex_replace(s, /a*b/, \"\")}"), Contains("would take too long"));
+  CHECK(expanded(long_text + "{s =~ /a+/ ? 1 : 2}") == "1");
   CHECK_THAT(message("x{endif}"), Contains("start_gcode:1:3: there is no {if} before this"));
   CHECK_THAT(message("{if true}{else}{elsif true}{endif}"), Contains("only {endif} may follow {else}"));
   CHECK_THAT(message("{if true then 1}x{endif}"), Contains("without endif before '}'"));
