@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <set>
 #include <sstream>
 
@@ -182,7 +185,8 @@ Point parse_point(const std::string& text, const std::string& option) {
 void write_output(const std::string& destination, std::string_view text) {
   if (destination != "-") return write_file(destination, text);
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
-    throw Error{Error::Kind::file, "cannot be written", "standard output", "was the pipe closed?"};
+    throw Error{Error::Kind::file, fmt::format("cannot be written ({})", std::strerror(errno)), "standard output",
+                errno == EPIPE ? "was the pipe closed?" : "free some space, or name a file"};
 }
 
 }  // namespace weft::app

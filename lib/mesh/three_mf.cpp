@@ -62,7 +62,9 @@ class ModelPart {
     }
     if (!full_name.starts_with(core_) || full_name.size() != core_.size() + name.size()) return;
     if (name == "vertex" && object_)
-      object_->vertices.emplace_back(number(attributes, "x"), number(attributes, "y"), number(attributes, "z"));
+      // braces: of several wrong ones the first is told, whatever order a compiler takes arguments in
+      object_->vertices.push_back(
+          Eigen::Vector3d{number(attributes, "x"), number(attributes, "y"), number(attributes, "z")});
     else if (name == "triangle" && object_)
       triangle(attributes);
     else if (name == "object")

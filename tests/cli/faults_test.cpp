@@ -2,6 +2,7 @@
 // what happened, the message where, and nothing half-written is left.
 #include <nlohmann/json.hpp>
 
+#include <cstring>
 #include <filesystem>
 
 #include <sys/mount.h>
@@ -32,6 +33,10 @@ TEST_CASE("faults: a full disk is status 6, says so, and keeps the old file") {
   CHECK(device.status == 6);
   CHECK_THAT(device.err, Contains("weft: error: /dev/full: cannot be written (No space left on device); free some space"));
 
+  const auto out = shell("$WEFT slice box.stl -o - > /dev/full", scratch.path());
+  CHECK(out.status == 6);
+  CHECK_THAT(out.err, Contains("weft: error: standard output: cannot be written (No space left on device); free some space"));
+
   const auto disk = scratch.path() / "disk";
   std::filesystem::create_directory(disk);
   if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=16k") != 0) {
@@ -45,6 +50,21 @@ TEST_CASE("faults: a full disk is status 6, says so, and keeps the old file") {
   CHECK((scratch.read("disk/out.gcode") == "the old one\n"));
   CHECK(std::distance(std::filesystem::directory_iterator(disk), {}) == 1);
   ::umount(disk.c_str());
+}
+
+TEST_CASE("faults: a file system that is read-only is status 6") {
+  Scratch scratch;
+  scratch.write("box.stl", box_stl(10, 10, 2));
+  const auto disk = scratch.path() / "disk";
+  std::filesystem::create_directory(disk);
+  if (::mount("tmpfs", disk.c_str(), "tmpfs", MS_RDONLY, "size=16k") != 0) {
+    WARN("SKIPPED: no right to mount a disk");
+    return;
+  }
+  const auto run = weft({"slice", "box.stl", "-o", "disk/out.gcode"}, scratch.path());
+  ::umount(disk.c_str());
+  CHECK(run.status == 6);
+  CHECK_THAT(run.err, Contains("weft: error: disk/out.gcode: cannot be written (Read-only file system)"));
 }
 
 TEST_CASE("faults: a folder that is gone, or that nothing may be written to, is status 6") {
@@ -64,7 +84,7 @@ TEST_CASE("faults: a reader that goes away ends the job with status 6, not with 
   scratch.write("box.stl", box_stl(20, 20, 20));
   const auto run = shell("$WEFT slice box.stl -o - | head -c 100 > /dev/null; echo ${PIPESTATUS[0]}", scratch.path());
   CHECK(run.out == "6\n");
-  CHECK_THAT(run.err, Contains("standard output: cannot be written; was the pipe closed?"));
+  CHECK_THAT(run.err, Contains("standard output: cannot be written (Broken pipe); was the pipe closed?"));
 }
 
 TEST_CASE("faults: a signal in the middle is status 130 and leaves nothing") {
@@ -184,4 +204,39 @@ TEST_CASE("faults: sizes at both ends of what can be printed") {
   CHECK(tiny["filament"]["mm3"].get<double>() < 0.006);
   const auto tall = done({"tall.stl", "-s", "layer_height=0.02", "-s", "initial_layer_height=0.02"});
   CHECK(tall["layers"] == 5'000);
+}
+
+TEST_CASE("faults: a model far from the origin is put on the bed, or told where it is") {
+  Scratch scratch;
+  auto far = box_stl(20, 10, 5);
+  const auto moved = [&](float x, float y, float z) {
+    std::string out = far;
+    for (std::size_t corner = 84; corner < out.size(); corner += 50)
+      for (std::size_t i = 0; i < 9; ++i) {
+        float v = 0;
+        std::memcpy(&v, out.data() + corner + 12 + 4 * i, 4);
+        v += i % 3 == 0 ? x : i % 3 == 1 ? y : z;
+        std::memcpy(out.data() + corner + 12 + 4 * i, &v, 4);
+      }
+    return out;
+  };
+  scratch.write("near.stl", far);
+  scratch.write("far.stl", moved(15'000, -15'000, 9'000));
+  scratch.write("beyond.stl", moved(20'000, 0, 0));
+  const auto body = [&](const char* model) {  // of the G-code, whose head and foot name the model
+    const auto run = weft({"slice", model, "-o", "out.gcode"}, scratch.path());
+    INFO(run.err);
+    CHECK(run.status == 0);
+    const auto text = scratch.read("out.gcode");
+    const auto begin = text.find(";LAYER_CHANGE");
+    return text.substr(begin, text.rfind(";LAYER_CHANGE") - begin);
+  };
+  CHECK((body("far.stl") == body("near.stl")));
+  const auto kept = weft({"slice", "far.stl", "--keep-position", "-o", "no.gcode"}, scratch.path());
+  CHECK(kept.status == 5);
+  CHECK_THAT(kept.err, Contains("far.stl: does not fit") && Contains("mm outside"));
+  const auto beyond = weft({"slice", "beyond.stl", "-o", "no.gcode"}, scratch.path());
+  CHECK(beyond.status == 4);
+  CHECK_THAT(beyond.err, Contains("beyond ±16 m"));
+  CHECK_FALSE(scratch.has("no.gcode"));
 }

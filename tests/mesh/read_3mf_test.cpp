@@ -126,6 +126,7 @@ TEST_CASE("mesh: a damaged 3MF is refused with its part and line", "[mesh][3mf]"
              Contains("part/3D/3dmodel.model:12: object 1, triangle 2: v1 is 8, but there are 8 vertices"));
   CHECK_THAT(refusal(with("v1=\"0\" v2=\"3\"", "v1=\"-1\" v2=\"3\"")), Contains("v1 is '-1', not a whole number"));
   CHECK_THAT(refusal(with("x=\"20\"", "x=\"nan\"")), Contains("object 1, vertex 1: x is 'nan', not a number"));
+  CHECK_THAT(refusal(with("x=\"20\" y=\"0\" z=\"0\"", "x=\"a\" y=\"b\" z=\"c\"")), Contains("vertex 1: x is 'a'"));
   CHECK_THAT(refusal(with("x=\"20\"", "y=\"0\"")), Contains("duplicate attribute"));
   CHECK_THAT(refusal(with("x=\"20\"", "x=\"1e7\"")), Contains("beyond ±16 m"));
   CHECK_THAT(refusal(with("<item objectid=\"1\"/>", "<item objectid=\"7\"/>")), Contains("there is no object 7"));
