@@ -54,7 +54,10 @@ bool add(ClipperLib::Clipper& sweep, const FineRings& rings, ClipperLib::PolyTyp
   ClipperLib::Path path;
   for (const auto& ring : rings) {
     path.clear();
-    for (const auto p : ring) path.emplace_back(nearest_quotient(p.x, coarser), nearest_quotient(p.y, coarser));
+    if (coarser == 1)
+      for (const auto p : ring) path.emplace_back(p.x, p.y);
+    else
+      for (const auto p : ring) path.emplace_back(nearest_quotient(p.x, coarser), nearest_quotient(p.y, coarser));
     added |= sweep.AddPath(path, type, true);
   }
   return added;

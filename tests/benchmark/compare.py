@@ -105,7 +105,7 @@ def generated(folder, size):
     models = {
         "plate of 50 parts": lambda: [t for i in range(50) for t in prism(circle(30 * (i % 10), 30 * (i // 10), 12, 60), 0, 10)],
         "5,000 islands a layer": lambda: [t for i in range(5000) for t in prism(circle(3 * (i % 100), 3 * (i // 100), 1.2, 8), 0, 2)],
-        "fine mesh": lambda: sphere(30, 1581 if size == "full" else 350),
+        "fine mesh": lambda: sphere(30, 1119 if size == "full" else 350),
         "2,000 layers": lambda: prism(circle(0, 0, 15, 40), 0, 400),
     }
     out = []
@@ -185,7 +185,7 @@ def main():
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--peers", default="prusa,cura,slic3r", help="comma separated; empty: weft alone")
     parser.add_argument("--timeout", type=float, default=300, help="seconds a run may take")
-    parser.add_argument("--size", choices=["small", "full"], default="small", help="of the generated fine mesh: 0.5 or 10 million triangles")
+    parser.add_argument("--size", choices=["small", "full"], default="small", help="of the generated fine mesh: 0.5 or 5 million triangles")
     args = parser.parse_args()
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     with tempfile.TemporaryDirectory(prefix="weft-compare-") as name:

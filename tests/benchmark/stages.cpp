@@ -1,14 +1,18 @@
 // What each stage costs a unit of its work, on one core, with the settings of the profiles given:
 //   benchmark_stages MODEL [PROFILE.ini]... [--benchmark_filter=walls]
-// `items_per_second` counts what the stage's cost grows with: triangles, vertices of outlines, beads, bytes.
+// `each` is what one costs of what the stage's cost grows with: triangles, vertices of outlines, beads, junctions, bytes. Travel
+// and motion are measured with a copy of their input, which is small beside them.
 #include "audit/audit.h"
+#include "gcode/writer.h"
 #include "geometry/medial_axis.h"
 #include "infill/infill.h"
 #include "infill/shells.h"
 #include "mesh/read.h"
+#include "motion/motion.h"
 #include "settings/profile.h"
 #include "slice/slice.h"
 #include "travel/tour.h"
+#include "travel/travel.h"
 #include "walls/walls.h"
 
 #include <benchmark/benchmark.h>
@@ -44,6 +48,10 @@ struct Bench {
   std::vector<WallLayer> walls;
   std::vector<infill::ShellLayer> seen;
   std::vector<infill::LayerAreas> areas;
+  std::vector<travel::LayerInput> inputs;
+  PrintPlan routed;
+  motion::Planned planned;
+  std::string text;
 
   void prepare() {
     mesh = mesh::read(bytes, path).objects.front().mesh;
@@ -54,6 +62,17 @@ struct Bench {
     walls = build_walls();
     for (std::size_t i = 0; i < layers.size(); ++i) seen.push_back({layers[i].z, layers[i].height, &layers[i].regions, &walls[i].inside});
     areas = find_areas();
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+      travel::LayerInput input{.index = i, .z = layers[i].z, .height = layers[i].height, .adhesion = {}, .objects = {}, .room = {}};
+      auto beads = walls[i].beads;
+      for (auto& bead : fill_layer(i)) beads.push_back(std::move(bead));
+      input.objects.push_back({0, std::move(beads), layers[i].regions, {}, {}, {}});
+      inputs.push_back(std::move(input));
+    }
+    routed.layers = travel();
+    routed.objects = {{"object", {}, {}}};
+    planned = motion();
+    text = gcode();
   }
   std::vector<SlicedLayer> slice_layers() const {
     const slice::Cutter cutter(mesh, planes);
@@ -71,13 +90,31 @@ struct Bench {
     const infill::ShellObject object{seen, infill::box_of(seen), settings.machine.nozzle_diameter};
     return infill::find_areas(settings.shells, settings.infill, object, 0, seen.size());
   }
+  Beads fill_layer(std::size_t i) const {
+    return infill::fill(settings.infill, settings.shells,
+                        {.areas = areas[i], .index = i, .z = layers[i].z, .height = layers[i].height, .nozzle = settings.machine.nozzle_diameter})
+        .beads;
+  }
   std::size_t fill() const {
     std::size_t beads = 0;
-    for (std::size_t i = 0; i < layers.size(); ++i)
-      beads += infill::fill(settings.infill, settings.shells,
-                            {.areas = areas[i], .index = i, .z = layers[i].z, .height = layers[i].height, .nozzle = settings.machine.nozzle_diameter})
-                   .beads.size();
+    for (std::size_t i = 0; i < layers.size(); ++i) beads += fill_layer(i).size();
     return beads;
+  }
+  std::vector<LayerPlan> travel() const { return travel::plan(settings.travel, settings.retraction, inputs); }
+  motion::Planned motion() const { return motion::plan(motion::rules_of(settings), routed); }
+  std::string gcode() const { return gcode::write({settings, planned.plan, planned.statistics, "object", {}}); }
+  std::int64_t audit() const { return audit::examine_text(settings.machine, settings.material, settings.audit, text).checked_moves; }
+
+  std::int64_t beads() const {
+    std::size_t count = 0;
+    for (const auto& input : inputs) count += input.objects.front().beads.size();
+    return static_cast<std::int64_t>(count);
+  }
+  std::int64_t junctions() const {
+    std::size_t count = 0;
+    for (const auto& input : inputs)
+      for (const auto& bead : input.objects.front().beads) count += bead.path.size();
+    return static_cast<std::int64_t>(count);
   }
 };
 
@@ -97,7 +134,8 @@ template <class Work>
 void add(const char* name, std::int64_t items, Work work) {
   benchmark::RegisterBenchmark(name, [=](benchmark::State& state) {
     for (auto _ : state) benchmark::DoNotOptimize(work());
-    state.SetItemsProcessed(state.iterations() * items);
+    state.counters["each"] =
+        benchmark::Counter(static_cast<double>(state.iterations() * items), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
   })->Unit(benchmark::kMillisecond);
 }
 
@@ -131,6 +169,11 @@ int main(int count, char** arguments) {
   add("walls/vertex", vertices, [] { return bench.build_walls().size(); });
   add("shells/vertex", vertices, [] { return bench.find_areas().size(); });
   add("fill/bead", static_cast<std::int64_t>(bench.fill()), [] { return bench.fill(); });
+  const auto bytes = static_cast<std::int64_t>(bench.text.size());
+  add("travel/bead", bench.beads(), [] { return bench.travel().size(); });
+  add("motion/junction", bench.junctions(), [] { return bench.motion().plan.layers.size(); });
+  add("gcode/byte", bytes, [] { return bench.gcode().size(); });
+  add("audit/byte", bytes, [] { return bench.audit(); });
   static const auto stops = short_paths(20'000);
   add("order/path", static_cast<std::int64_t>(stops.size()), [] { return travel::tour(PathOrder::optimized, stops, {}).size(); });
   benchmark::RunSpecifiedBenchmarks();
