@@ -13,6 +13,7 @@ struct Sample {
   Point at;
   Um width;
   std::uint32_t wall;
+  std::uint16_t inset;
 };
 
 std::vector<Sample> samples_of(const Beads& beads, const std::vector<std::uint32_t>& walls) {
@@ -25,7 +26,7 @@ std::vector<Sample> samples_of(const Beads& beads, const std::vector<std::uint32
       const Point a = bead.path[i].at, b = bead.path[(i + 1) % n].at;
       const double step = distance(a, b);
       for (double s = sample_um - since; s < step; s += sample_um) {
-        samples.push_back({lerp(a, b, std::max(0.0, s) / step), bead.path[i].width, w});
+        samples.push_back({lerp(a, b, std::max(0.0, s) / step), bead.path[i].width, w, bead.inset});
         since = -s;
       }
       since = since < 0 ? since + step : since + step;
@@ -95,26 +96,28 @@ std::vector<Touch> touching_walls(const Beads& beads, const std::vector<std::uin
   const auto index = [&](int c, int r) {
     return static_cast<std::size_t>(r) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(c);
   };
-  std::vector<std::uint32_t> first(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) + 1, 0),
-      items(samples.size());
+  std::vector<std::uint32_t> first(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) + 1, 0);
   for (const auto& s : samples) ++first[index(column(s.at), row(s.at)) + 1];
   for (std::size_t c = 1; c < first.size(); ++c) first[c] += first[c - 1];
+  std::vector<Sample> sorted(samples.size());  // by cell: the three of a row beside each other are one run
   auto fill = first;
-  for (std::uint32_t i = 0; i < samples.size(); ++i)
-    items[fill[index(column(samples[i].at), row(samples[i].at))]++] = i;
+  for (const auto& s : samples) sorted[fill[index(column(s.at), row(s.at))]++] = s;
   std::vector<std::uint64_t> pairs;
   std::vector<std::uint32_t> touched_by(walls.size(),
                                         0xFFFFFFFF);  // the last wall that was found to: samples are in order of walls
-  for (const auto& s : samples)
-    for (int r = std::max(0, row(s.at) - 1); r <= std::min(rows - 1, row(s.at) + 1); ++r)
-      for (int c = std::max(0, column(s.at) - 1); c <= std::min(columns - 1, column(s.at) + 1); ++c)
-        for (std::uint32_t k = first[index(c, r)]; k < first[index(c, r) + 1]; ++k) {
-          const auto& other = samples[items[k]];
-          if (other.wall <= s.wall || beads[walls[other.wall]].inset == beads[walls[s.wall]].inset) continue;
-          if (touched_by[other.wall] == s.wall || static_cast<double>(distance2(s.at, other.at)) > near2) continue;
-          touched_by[other.wall] = s.wall;
-          pairs.push_back(std::uint64_t{s.wall} << 32 | other.wall);
-        }
+  for (const auto& s : samples) {
+    const int c = column(s.at), r = row(s.at), last_row = std::min(rows - 1, r + 1);
+    for (int y = std::max(0, r - 1); y <= last_row; ++y) {
+      const std::uint32_t end = first[index(std::min(columns - 1, c + 1), y) + 1];
+      for (std::uint32_t k = first[index(std::max(0, c - 1), y)]; k < end; ++k) {
+        const auto& other = sorted[k];
+        if (other.wall <= s.wall || other.inset == s.inset || touched_by[other.wall] == s.wall) continue;
+        if (static_cast<double>(distance2(s.at, other.at)) > near2) continue;
+        touched_by[other.wall] = s.wall;
+        pairs.push_back(std::uint64_t{s.wall} << 32 | other.wall);
+      }
+    }
+  }
   std::sort(pairs.begin(), pairs.end());
   for (const auto pair : pairs)
     touches.push_back({static_cast<std::uint32_t>(pair >> 32), static_cast<std::uint32_t>(pair)});
