@@ -100,7 +100,7 @@ PrintPlan plan_plate(const Settings& settings, const std::vector<PlacedObject>& 
 
   auto prepared = parallel_map(count, [&](std::size_t i) {
     stop_if_cancelled(watch);
-    return travel::prepare(settings.travel, std::move(inputs[i]));
+    return travel::prepare_order(settings.travel, std::move(inputs[i]));
   });
   const auto linked = travel::link(settings.travel, prepared);
   const auto ordered = parallel_map(count, [&](std::size_t i) {
@@ -111,7 +111,8 @@ PrintPlan plan_plate(const Settings& settings, const std::vector<PlacedObject>& 
   for (std::size_t i = 1; i < count; ++i) from[i] = ordered[i - 1].end ? ordered[i - 1].end : from[i - 1];
   auto routed = parallel_map(count, [&](std::size_t i) {
     stop_if_cancelled(watch);
-    const auto layer = std::move(prepared[i]);  // done with: what it holds is as large as the plan
+    auto layer = std::move(prepared[i]);  // done with: what it holds is as large as the plan
+    travel::prepare_ways(settings.travel, layer);
     return travel::route(settings.travel, settings.retraction, layer, ordered[i], from[i]);
   });
   for (auto& notice : travel::notices_of(routed)) plan.notices.push_back(std::move(notice));

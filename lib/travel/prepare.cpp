@@ -136,17 +136,26 @@ void add_seams(const TravelSettings& settings, Prepared& layer) {
 
 }  // namespace
 
-Prepared prepare(const TravelSettings& settings, LayerInput input) {
+Prepared prepare_order(const TravelSettings& settings, LayerInput input) {
   Prepared out;
   out.input = std::move(input);
   out.blocks = blocks_of(out.input);
-  const auto outline = gathered(out.input, &ObjectLayer::outline);
-  out.comb = comb_boundary(settings, out.input, outline);
-  out.outline = Comb(outline);
-  const auto free = free_area(out.input.room);
-  out.free = Comb(free);
-  out.around = Comb(area_around(settings, outline, out.input.room, free));
+  out.outline = Comb(gathered(out.input, &ObjectLayer::outline));
   add_seams(settings, out);
+  return out;
+}
+
+void prepare_ways(const TravelSettings& settings, Prepared& layer) {
+  const auto outline = gathered(layer.input, &ObjectLayer::outline);
+  layer.comb = comb_boundary(settings, layer.input, outline);
+  const auto free = free_area(layer.input.room);
+  layer.free = Comb(free);
+  layer.around = Comb(area_around(settings, outline, layer.input.room, free));
+}
+
+Prepared prepare(const TravelSettings& settings, LayerInput input) {
+  auto out = prepare_order(settings, std::move(input));
+  prepare_ways(settings, out);
   return out;
 }
 

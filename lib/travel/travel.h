@@ -116,7 +116,13 @@ Notices notices_of(std::span<const Routed> layers);
 /// What of the settings cannot have the effect the user may expect.
 Notices check(const TravelSettings& settings, const RetractionSettings& retraction);
 
-/// Seam candidates and the boundaries of combing. Cost: about 1 µs a vertex.
+/// Blocks and seam candidates: what `link` and `order` read. Cost: about 1 µs a vertex.
+Prepared prepare_order(const TravelSettings& settings, LayerInput input);
+
+/// The boundaries of combing: what only `route` reads, and as large as the beads.
+void prepare_ways(const TravelSettings& settings, Prepared& layer);
+
+/// Both.
 Prepared prepare(const TravelSettings& settings, LayerInput input);
 
 /// Chooses seams from layer to layer, and the order of the parts of all layers together. Sequential; cost: linear in
