@@ -74,13 +74,13 @@ std::string write_gcode(const gcode::Job& job, PrintPlan& plan, Report& report) 
   const std::size_t count = plan.layers.size();
   constexpr std::size_t run = 32;
   for (std::size_t begin = 0; begin < count; begin += run) {
+    give_back_memory();
     const auto blocks = parallel_map(std::min(run, count - begin), [&](std::size_t i) {
       auto block = writer.layer(begin + i);
       plan.layers[begin + i].steps = {};
       return block;
     });
     for (const auto& block : blocks) text += block;
-    give_back_memory();
   }
   text += tail;
   return text;  // not `text += tail`: that is a reference, and copied
