@@ -82,10 +82,11 @@ class Filler {
       : style_(style), beads_(beads), frame_(style.angle_rad, style.origin), outline_(region, frame_) {}
 
   void run() {
-    const double reach = outline_.greatest_y() - outline_.least_y() + 2 * style_.overlap_um;
-    if (!(reach > 2 * style_.overlap_um)) return;
+    // Lines reach over the edge with their ends only: beside a wall they lie as beside each other.
+    const double reach = outline_.greatest_y() - outline_.least_y();
+    if (!(reach > 0)) return;
     const double count = std::max(1.0, std::round(reach / style_.band));
-    lines_ = {outline_.least_y() - style_.overlap_um + reach / count / 2, reach / count, static_cast<int>(count)};
+    lines_ = {outline_.least_y() + reach / count / 2, reach / count, static_cast<int>(count)};
     width_ = style_.fixed_strand ? style_.band : std::max(1, rounded(lines_.spacing));
     all_ = outline_.cut(lines_);
     left_.reserve(all_.size()), right_.reserve(all_.size());

@@ -37,7 +37,7 @@ inline constexpr std::tuple infill_schema{
             "fill_angle"),
     setting(
         "infill_overlap", &InfillSettings::infill_overlap, Unit::mm, 0_mm, 5_mm,
-        "How far skin and infill reach into the innermost wall, to bond with it; a share is of that wall's line width.",
+        "How far the ends of skin and infill lines reach into the innermost wall, to bond with it; a share is of that wall's line width.",
         "infill_overlap"),
     setting(
         "infill_connect_lines", &InfillSettings::infill_connect_lines,
