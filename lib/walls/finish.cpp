@@ -9,9 +9,11 @@ namespace {
 
 using Vertex = Line::Vertex;
 
-constexpr double straight_um = 1.0;     // a vertex this close to its neighbours' chord is left out
-constexpr double even_um = 2.0;         // … where the width is this close to theirs
-constexpr double width_step_um = 10.0;  // a segment is printed at one width: no more difference over it than this
+constexpr double straight_um = 1.0;      // a vertex this close to its neighbours' chord is left out
+constexpr double even_um = 2.0;          // … where the width is this close to theirs
+constexpr double even_at_outline = 0.2;  // of the width: an end at the outline that tapers more keeps its steps
+constexpr double even_inside = 0.5;      // … and one inside
+constexpr double width_step_um = 10.0;   // a segment is printed at one width: no more difference over it than this
 
 /// True when b lies on the way from a to c.
 bool on_the_way(const Vertex& a, const Vertex& b, const Vertex& c) {
@@ -44,7 +46,7 @@ void thin_out(std::vector<Vertex>& path) {
 }
 
 /// The first segment of an open bead reaches as far as any later bend may swell back: half the width there.
-void steady_start(std::vector<Vertex>& path) {
+void steady_start(std::vector<Vertex>& path, double most_uneven) {
   std::size_t last = 0;
   double along = 0, volume = 0, volume_there = 0;
   for (std::size_t i = 1; i + 1 < path.size() && along < 2000; ++i) {
@@ -54,6 +56,9 @@ void steady_start(std::vector<Vertex>& path) {
     if (along < 0.98 * path[i].width / 2) last = i, volume_there = volume;
   }
   if (last == 0) return;
+  const auto [thin, thick] = std::minmax_element(path.begin(), path.begin() + static_cast<long>(last) + 2,
+                                                 [](const Vertex& a, const Vertex& b) { return a.width < b.width; });
+  if (thick->width - thin->width > most_uneven * thick->width) return;
   const Vertex from = path[last], next = path[last + 1];
   const double length = distance(from.at, next.at), reach = std::max(from.width, next.width) / 2;
   const double there = std::accumulate(path.begin() + 1, path.begin() + static_cast<long>(last) + 1, 0.0,
@@ -91,6 +96,25 @@ void limit_steps(std::vector<Vertex>& path) {
     out.push_back(path[i]);
   }
   path = std::move(out);
+}
+
+double volume_of(const std::vector<Vertex>& path, double most) {
+  double sum = 0;
+  for (std::size_t i = 1; i < path.size(); ++i)
+    sum +=
+        distance(path[i - 1].at, path[i].at) * (std::min(most, path[i - 1].width) + std::min(most, path[i].width)) / 2;
+  return sum;
+}
+
+/// What a bead may not be wide it is elsewhere, within limits.
+void keep_within(std::vector<Vertex>& path, double most) {
+  constexpr double most_more = 1.1;
+  if (std::none_of(path.begin(), path.end(), [&](const Vertex& v) { return v.width > most; })) return;
+  const double wanted = volume_of(path, 1e18);
+  for (int round = 0; round < 3; ++round) {  // again, for some that grow reach the limit themselves
+    const double more = std::min(most_more, wanted / std::max(1.0, volume_of(path, most)));
+    for (Vertex& v : path) v.width = std::min(most, v.width) * (v.width < most ? more : 1);
+  }
 }
 
 /// The stretches of a line at least `least` wide; ends lie where the width passes it.
@@ -159,11 +183,21 @@ void finish(Line line, const FinishOptions& o, Beads& out, double& dropped_mm) {
     const double length = length_of(stretch);
     if (length < o.least_length) continue;
     kept += length;
+    bool last_meets = line.last_meets && distance(stretch.back().at, line.path.back().at) < 1;
     // A bead begins at its thin end: what swells behind the nozzle there is least.
-    if (stretch.front().width > stretch.back().width) std::reverse(stretch.begin(), stretch.end());
+    if (stretch.front().width > stretch.back().width) {
+      last_meets = line.first_meets && distance(stretch.front().at, line.path.front().at) < 1;
+      std::reverse(stretch.begin(), stretch.end());
+    }
+    keep_within(stretch, o.most_width);
     thin_out(stretch);
     limit_steps(stretch);
-    steady_start(stretch);
+    steady_start(stretch, 1);
+    if (!last_meets) {  // travel may begin there
+      std::reverse(stretch.begin(), stretch.end());
+      steady_start(stretch, line.inset == 0 ? even_at_outline : even_inside);
+      std::reverse(stretch.begin(), stretch.end());
+    }
     emit(stretch, false, line.inset, o, out);
   }
   dropped_mm += (whole - kept) / 1000;

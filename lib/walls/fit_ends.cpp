@@ -1,7 +1,10 @@
 #include "walls/fit_ends.h"
 
+#include "geometry/spatial_index.h"
+
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace weft::walls {
 namespace {
@@ -11,67 +14,145 @@ using Vertex = Line::Vertex;
 constexpr double step_um = 20;
 constexpr double under_share = 0.9;  // of half a wall's width: closer to its middle an end lies under it
 constexpr double most_widths = 2;    // no more than so many widths of the wall are cut; else it lies there on purpose
+constexpr double most_gap = 0.8;     // of the bead's width: a wider gap before a wall is not an end's
+constexpr double beside = 0.3;       // of the bead's width: where beside its middle an end is looked at, too
+constexpr double most_deep = 0.15;   // of the bead's width: so far the middle goes under, for what is bare beside it
+constexpr double touch_um = 2;
 
-/// How deep p lies under a wall: half the wall's width there less the distance; at most 0 when beside it.
+/// How deep a place lies under a wall: half the wall's width there less the distance.
 struct Depth {
   double depth = 0, width = 0;
 };
-Depth depth_under(const Line& wall, double widest, Place p) {
-  Depth best;
-  const auto& path = wall.path;
-  for (std::size_t i = 0; i < path.size();) {
-    const Vertex &a = path[i], &b = path[(i + 1) % path.size()];
-    const double length = distance(a.at, b.at), from_a = distance(a.at, p);
-    if (from_a - length < widest) {
+
+/// The walls' segments near one end of a line, found once for all looks at it.
+class Walls {
+ public:
+  explicit Walls(const std::vector<Line>& lines) : lines_(lines) {
+    std::vector<geometry::Segment> segments;
+    for (std::uint32_t i = 0; i < lines.size(); ++i) {
+      const auto& path = lines[i].path;
+      for (std::uint32_t k = 0; k < path.size(); ++k) {
+        widest_ = std::max(widest_, path[k].width);
+        segments.push_back({lattice(path[k].at), lattice(path[(k + 1) % path.size()].at)});
+        origins_.push_back({i, k});
+      }
+    }
+    index_ = geometry::SegmentIndex(std::move(segments));
+  }
+
+  /// How long the end of a path lies under a wall of the inset.
+  double length_under(const std::vector<Vertex>& path, int inset) {
+    look_near(path.back().at, (most_widths + 0.5) * widest_ + step_um);
+    double longest = 0;
+    for (std::size_t from = 0, to = 0; from < near_.size(); from = to) {
+      const std::uint32_t line = origins_[near_[from]].line;
+      while (to < near_.size() && origins_[near_[to]].line == line) ++to;
+      if (lines_[line].inset == inset)
+        longest = std::max(longest, length_under(path, std::span(near_).subspan(from, to - from)));
+    }
+    return longest;
+  }
+
+  /// How far it is from the end of a path straight on to a wall of the inset, over the width of the bead on average; 0
+  /// if there is none.
+  double gap_before(const std::vector<Vertex>& path, int inset) {
+    const Vertex& end = path.back();
+    std::size_t back = path.size() - 1;
+    while (back > 0 && distance(path[back].at, end.at) < end.width / 2) --back;
+    const Place way = unit(path[back].at, end.at), n{-way.y, way.x};
+    const double most = most_gap * end.width;
+    look_near(end.at, most + beside * end.width + widest_ / 2);
+    std::erase_if(near_, [&](std::uint32_t s) { return lines_[origins_[s].line].inset != inset; });
+    if (near_.empty()) return 0;
+    const auto gap = [&](double aside) {
+      const Place from{end.at.x + aside * n.x, end.at.y + aside * n.y};
+      double x = 0;
+      while (x < most) {  // as far as the nearest wall is, there is none
+        const double free = -depth_under(near_, {from.x + x * way.x, from.y + x * way.y}, 1).depth;
+        if (free < touch_um) return x;
+        x += free;
+      }
+      return most;
+    };
+    const double middle = gap(0);
+    if (middle >= most) return 0;
+    const double mean = (middle + gap(-beside * end.width) + gap(beside * end.width)) / 3;
+    return std::min(mean, middle + most_deep * end.width);
+  }
+
+ private:
+  struct Origin {
+    std::uint32_t line, segment;
+  };
+  static Point lattice(Place p) { return {rounded(p.x), rounded(p.y)}; }
+
+  void look_near(Place p, double reach_um) {
+    const Point at = lattice(p);
+    const Um reach = rounded(reach_um) + 2;
+    index_.near({{at.x - reach, at.y - reach}, {at.x + reach, at.y + reach}}, near_);
+  }
+
+  /// Negative when beside it.
+  Depth depth_under(std::span<const std::uint32_t> wall, Place p, double share = under_share) const {
+    Depth best{-1e9, 0};
+    for (const std::uint32_t s : wall) {
+      const auto& path = lines_[origins_[s].line].path;
+      const Vertex &a = path[origins_[s].segment], &b = path[(origins_[s].segment + 1) % path.size()];
       const double dx = b.at.x - a.at.x, dy = b.at.y - a.at.y, l2 = dx * dx + dy * dy;
       const double t = l2 > 0 ? std::clamp(((p.x - a.at.x) * dx + (p.y - a.at.y) * dy) / l2, 0.0, 1.0) : 0;
       const double width = a.width + t * (b.width - a.width);
-      const double depth = under_share * width / 2 - distance(lerp(a.at, b.at, t), p);
+      const double depth = share * width / 2 - distance(lerp(a.at, b.at, t), p);
       if (depth > best.depth) best = {depth, width};
-      ++i;
-      continue;
     }
-    double room = from_a - widest;  // as far as this no segment comes near
-    while (i < path.size() && room > 0) {
-      room -= distance(path[i].at, path[(i + 1) % path.size()].at);
-      if (room > 0) ++i;
-    }
+    return best;
   }
-  return best;
-}
 
-/// The length at the end of a path that lies under the wall.
-double length_under(const std::vector<Vertex>& path, const Line& wall, double widest) {
-  const Depth end = depth_under(wall, widest, path.back().at);
-  if (end.depth <= 0) return 0;
-  double done = 0;
-  for (std::size_t i = path.size() - 1; i > 0; --i) {
-    const double length = distance(path[i].at, path[i - 1].at);
-    const int pieces = std::max(1, static_cast<int>(std::ceil(length / step_um)));
-    for (int k = 1; k <= pieces; ++k) {
-      const double at = done + length * k / pieces;
-      if (at > most_widths * end.width) return 0;
-      if (depth_under(wall, widest, lerp(path[i].at, path[i - 1].at, static_cast<double>(k) / pieces)).depth <= 0)
-        return at;
+  double length_under(const std::vector<Vertex>& path, std::span<const std::uint32_t> wall) const {
+    const Depth end = depth_under(wall, path.back().at);
+    if (end.depth <= 0) return 0;
+    double done = 0;
+    for (std::size_t i = path.size() - 1; i > 0; --i) {
+      const double length = distance(path[i].at, path[i - 1].at);
+      const int pieces = std::max(1, static_cast<int>(std::ceil(length / step_um)));
+      for (int k = 1; k <= pieces; ++k) {
+        const double at = done + length * k / pieces;
+        if (at > most_widths * end.width) return 0;
+        if (depth_under(wall, lerp(path[i].at, path[i - 1].at, static_cast<double>(k) / pieces)).depth <= 0) return at;
+      }
+      done += length;
     }
-    done += length;
+    return 0;
   }
-  return 0;
+
+  const std::vector<Line>& lines_;
+  std::vector<Origin> origins_;  ///< of the index's segments
+  geometry::SegmentIndex index_;
+  std::vector<std::uint32_t> near_;
+  double widest_ = 0;
+};
+
+void lead_on(std::vector<Vertex>& path, double by) {
+  const Vertex end = path.back();
+  const Place way = unit(path[path.size() - 2].at, end.at);
+  path.push_back({{end.at.x + by * way.x, end.at.y + by * way.y}, end.width});
 }
 
 }  // namespace
 
 void fit_ends(std::vector<Line>& middles, const std::vector<Line>& pairs) {
-  std::vector<double> widest(pairs.size(), 0);
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-    for (const Vertex& v : pairs[i].path) widest[i] = std::max(widest[i], v.width);
+  const bool ends = std::any_of(middles.begin(), middles.end(), [](const Line& line) { return !line.closed; });
+  if (!ends || pairs.empty()) return;
+  Walls walls(pairs);
   for (Line& line : middles) {
     if (line.closed || line.path.size() < 2) continue;
     for (int end = 0; end < 2; ++end) {
-      double by = 0;
-      for (std::size_t i = 0; i < pairs.size(); ++i)
-        if (pairs[i].inset == line.inset) by = std::max(by, length_under(line.path, pairs[i], widest[i]));
-      if (by > 0) cut_end(line.path, by);
+      const double by = walls.length_under(line.path, line.inset);
+      if (by > 0) {
+        cut_end(line.path, by);
+      } else if (end == 0 ? line.last_meets : line.first_meets) {
+        const double gap = walls.gap_before(line.path, line.inset);
+        if (gap > touch_um) lead_on(line.path, gap);
+      }
       std::reverse(line.path.begin(), line.path.end());
     }
   }

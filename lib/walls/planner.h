@@ -54,9 +54,9 @@ class Planner {
   Place direction(std::uint32_t h) const;
 
   // how many beads
-  Count count_of(std::uint32_t e) const {
-    return count_for(w_, s_.start(2 * e).clearance + s_.end(2 * e).clearance, steep_[e] != 0);
-  }
+  Count count_of(std::uint32_t e);
+  /// The thickness from which a steep stretch gets a middle, too: that many beads, an even number, would be too wide.
+  double crowded(int beads);
   std::uint32_t split(std::uint32_t e, double t);
   void cut_at_thresholds();
   /// The band of the widest bead when that many share a thickness.
@@ -83,6 +83,8 @@ class Planner {
   /// Beads end on the axis where the clearance falls to their distance.
   void descend(std::uint32_t h, Span span);
 
+  static constexpr double outer_spread =
+      1.25;                                   // of its width: an outer wall alone on its side grows to this in a taper
   static constexpr double same_um = 1e-3;     // lengths that differ by less are equal
   static constexpr double stub_share = 0.25;  // of the clearance: flat ends of the axis shorter than this are corners
   static constexpr double dip_share = 0.02;   // of the clearance: … and never reach over a rise of more than this

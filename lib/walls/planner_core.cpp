@@ -106,7 +106,7 @@ void Planner::cut_bent_tips(std::vector<int>& degree) {
       const std::uint32_t g = onward(h);
       if (g == h) break;
       const Place u = direction(h), v = direction(g);
-      if (u.x * v.x + u.y * v.y < most_bend_cos) {
+      if (!steep_[g / 2] && u.x * v.x + u.y * v.y < most_bend_cos) {
         for (const std::uint32_t c : chain) core_[c / 2] = 0;
         degree[n] = 0;
         degree[s_.to(h)] = 1;

@@ -17,6 +17,23 @@ std::uint32_t Planner::split(std::uint32_t e, double t) {
   return f;
 }
 
+double Planner::crowded(int beads) {
+  const double most = beads == 2 ? outer_spread * w_.outer : wide_bead();  // the outer wall is to keep its width
+  double low = threshold(w_, beads), high = threshold(w_, beads + 1);
+  for (int i = 0; i < 30; ++i) {
+    const double middle = (low + high) / 2;
+    (widest({beads / 2, false}, middle) > most ? high : low) = middle;
+  }
+  return high;
+}
+
+Count Planner::count_of(std::uint32_t e) {
+  const double thickness = s_.start(2 * e).clearance + s_.end(2 * e).clearance;
+  if (!steep_[e]) return count_for(w_, thickness, false);
+  const Count even = count_for(w_, thickness, true);
+  return !even.middle && even.pairs > 0 && thickness >= crowded(even.beads()) ? count_for(w_, thickness, false) : even;
+}
+
 void Planner::cut_at_thresholds() {
   const auto edges = static_cast<std::uint32_t>(core_.size());
   std::vector<double> cuts;
@@ -27,8 +44,8 @@ void Planner::cut_at_thresholds() {
     if (high - low < same_um) continue;
     cuts.clear();
     for (int n = std::max(0, count_for(w_, low, false).beads() - 1); n <= 2 * w_.walls; ++n) {
-      if (steep_[e] && n % 2 == 0 && n > 0 && n < 2 * w_.walls) continue;
-      const double t = threshold(w_, n);
+      const bool late = steep_[e] && n % 2 == 0 && n > 0 && n < 2 * w_.walls;
+      const double t = late ? crowded(n) : threshold(w_, n);
       if (t >= high) break;
       if (t > low) cuts.push_back((t - low) / (high - low));
     }

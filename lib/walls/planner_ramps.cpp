@@ -15,7 +15,8 @@ void Planner::ramps() {
     const Count mine = count_[h / 2];
     Count other = mine;
     for_each_leaving(h, [&](std::uint32_t g) {
-      if (core_[g / 2] && count_[g / 2] != mine && other == mine) other = count_[g / 2];
+      if (!core_[g / 2] || count_[g / 2] == mine) return;
+      if (other == mine || count_[g / 2].beads() > other.beads()) other = count_[g / 2];  // whatever comes first
     });
     if (other == mine || other.beads() == 0 || mine.beads() == 0) continue;
     const double reach = std::min(o_.ramp / 2, stretch(h) / 2);

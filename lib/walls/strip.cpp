@@ -1,5 +1,7 @@
 #include "walls/strip.h"
 
+#include "walls/stub.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,9 +11,18 @@ namespace {
 using Vertex = Line::Vertex;
 
 constexpr double tip_step_um = 40;
-constexpr double before_end_um = 4;  // the last chord: a square end need not be quite square
-constexpr double off_share = 0.9;    // the middle of a chord stays within so much of the free width of the axis
-constexpr double reach_share = 1.9;  // a chord goes no further than so many times the free width on its side
+constexpr double before_end_um = 4;     // the last chord: a square end need not be quite square
+constexpr double off_share = 0.9;       // the middle of a chord stays within so much of the free width of the axis
+constexpr double straight_share = 0.8;  // of the free width at its end: so far before it a bead goes straight on
+constexpr double most_lean = 0.25;      // … and leans no more than so much to where there is more room
+constexpr double closing = 2.5;         // sides that close in faster than this are the end
+constexpr double width_of_end = 0.5;    // … no further than so many widths before it
+constexpr double square_share = 0.4;    // … if all of it is at least so near to its mean distance
+constexpr double end_beside = 0.4;      // of the width: beside its middle a blunt end is looked at, too
+constexpr double stubby_share = 1.2;    // of its width: a strip whose axis is shorter is filled straight across
+constexpr double outside_um = 8;        // so far a corner of a band may reach over the part's outline
+constexpr std::uint32_t end_tags = 64;  // so many pieces of the axis before an end may have sides ahead of it
+constexpr double reach_share = 1.9;     // a chord goes no further than so many times the free width on its side
 
 double quad_area(Place a, Place b, Place c, Place d) {
   return 0.5 * std::abs(cross({c.x - a.x, c.y - a.y}, {d.x - b.x, d.y - b.y}));
@@ -137,27 +148,73 @@ Strip::Chord Strip::across(Place p, Place way, double s, double free) const {
   return {{p.x + left * n.x, p.y + left * n.y}, {p.x + right * n.x, p.y + right * n.y}, found};
 }
 
-/// How far it is from an end of the axis straight on to the outline.
-double Strip::reach_of_tip(Place end, Place way, bool first) const {
+/// How far it is from a place near an end of the axis straight on to what bounds the strip; 0 if nothing does.
+double Strip::ahead(Place p, Place way, bool first) const {
   double reach = 1e18;
-  Place from = first ? left_.front().at : right_.back().at;
-  auto meet = [&](Place to) {
-    const Place a{from.x - end.x, from.y - end.y}, b{to.x - end.x, to.y - end.y};
+  const auto last = static_cast<std::uint32_t>(axis_.size() - 1), some = std::min(last, end_tags);
+  for (std::size_t i = first_[first ? 0 : last - some]; i < first_[first ? some + 1 : last + 1]; ++i) {
+    const Side& side = sides_[i];
+    const Place a{side.a.x - p.x, side.a.y - p.y}, b{side.b.x - p.x, side.b.y - p.y};
     const double da = cross(way, a), db = cross(way, b);
-    if ((da < 0) != (db < 0)) {
-      const double u = da / (da - db), t = way.x * (a.x + u * (b.x - a.x)) + way.y * (a.y + u * (b.y - a.y));
-      if (t > 0) reach = std::min(reach, t);
-    }
-    from = to;
-  };
-  for (const Place p : first ? first_tip : last_tip) meet(p);
-  meet(first ? right_.front().at : left_.back().at);
+    if ((da < 0) == (db < 0)) continue;
+    const double u = da / (da - db), t = way.x * (a.x + u * (b.x - a.x)) + way.y * (a.y + u * (b.y - a.y));
+    if (t > 0) reach = std::min(reach, t);
+  }
   return reach < 1e17 ? reach : 0;
 }
 
+/// The axis itself bends into the sharper corner of an end that is not quite square, and the bead would turn aside: it
+/// goes straight on instead. Returns where on the axis that begins; `out` gets its vertices from there to the end.
+double Strip::end_straight(bool first, std::vector<Vertex>& out) const {
+  const double whole = along_.back(), s_end = first ? 0 : whole, free = std::max(free_at(s_end), 20.0);
+  const double before = std::min(straight_share * free, 0.4 * whole), back = std::min(whole, before + 2 * free);
+  std::size_t edge = 0;
+  const auto inward = [&](double u) { return at(first ? u : whole - u, edge); };
+  const double s = first ? before : whole - before;
+  const Place start = inward(before), way = unit(inward(back), start), n{-way.y, way.x};
+  double shift = 0, x = 0;
+  const auto on_line = [&](double along, double aside) {
+    return Place{start.x + along * way.x + aside * n.x, start.y + along * way.y + aside * n.y};
+  };
+  const auto lay = [&](double most) {
+    const Place p = on_line(x, shift);
+    const Chord chord = across(p, way, s_end, std::max(free, 100.0));
+    if (!chord.found && x > before) return false;  // beside the axis a rib may lean
+    const double left = (chord.left.x - p.x) * n.x + (chord.left.y - p.y) * n.y;
+    const double right = (p.x - chord.right.x) * n.x + (p.y - chord.right.y) * n.y;
+    const double by = std::clamp((left - right) / 2, -most, most);
+    const double width = std::max(1.0, 2 * std::min(left - by, right + by));
+    shift += by;
+    out.push_back({on_line(x, shift), width});
+    return true;
+  };
+  lay(off_share * free_at(s));
+  const double reach = ahead(out.back().at, way, first) - before_end_um;
+  const int pieces = std::clamp(static_cast<int>(std::ceil(reach / tip_step_um)), 0, 100);
+  bool blunt = true;  // until proven tapered
+  for (int i = 1; i <= pieces; ++i) {
+    const double laid = x, straight = shift, width = out.back().width;
+    x = reach * i / pieces;
+    if (!lay(most_lean * reach / pieces)) return s;
+    if (!blunt || reach - x > width_of_end * width || out.back().width > width - closing * tip_step_um) continue;
+    // The end's own edge, nearly square: it is met in the middle.
+    double least = 1e18, sum = 0;
+    for (const double aside : {-end_beside * width, 0.0, end_beside * width}) {
+      const double d = std::min(ahead(on_line(laid, straight + aside), way, first), width);
+      least = std::min(least, d), sum += d / 3;
+    }
+    blunt = i == pieces || least > square_share * sum;
+    if (!blunt) continue;
+    const double on = (outline ? std::min(sum, least + outside_um) : sum) - before_end_um;
+    out.pop_back();
+    if (on > 0) out.push_back({on_line(laid + on, straight), width});
+    return s;
+  }
+  return s;
+}
+
 /// Where chords are laid: at each point of the axis, and closer where the sides may turn.
-void Strip::sample(std::vector<double>& out) const {
-  const double from = skip_first, to = along_.back() - skip_last;
+void Strip::sample(double from, double to, std::vector<double>& out) const {
   out.push_back(from);
   for (std::size_t i = 0; i + 1 < axis_.size(); ++i) {
     const double a = along_[i], b = along_[i + 1], step = std::max(30.0, 0.35 * std::min(free_[i], free_[i + 1]));
@@ -209,7 +266,23 @@ void Strip::add(std::vector<Vertex>& path, const Chord& chord, Place on_axis, Pl
   last_ = chord;
 }
 
+/// Whether the strip is hardly longer than wide.
+bool Strip::stubby() const {
+  if (closed || first_tip.empty() || last_tip.empty()) return false;
+  return along_.back() < stubby_share * 2 * *std::max_element(free_.begin(), free_.end());
+}
+
+std::vector<Place> Strip::ring() const {
+  std::vector<Place> out;
+  for (const Point& p : right_) out.push_back(p.at);
+  out.insert(out.end(), last_tip.begin(), last_tip.end());
+  for (auto p = left_.rbegin(); p != left_.rend(); ++p) out.push_back(p->at);
+  out.insert(out.end(), first_tip.begin(), first_tip.end());
+  return out;
+}
+
 std::vector<Vertex> Strip::bead() {
+  if (stubby()) return stub_bead(ring());
   std::vector<Vertex> path;
   const double whole = along_.back();
   double lean_first = 0, lean_last = 0;
@@ -224,29 +297,12 @@ std::vector<Vertex> Strip::bead() {
     skip_first = std::min(skip_first, skip_first * most / skipped),
     skip_last = std::min(skip_last, skip_last * most / skipped);
   collect_sides();
+  double from = skip_first, to = whole - skip_last;
+  std::vector<Vertex> first_end, last_end;
+  if (!closed && skip_first <= 0 && !first_tip.empty()) from = end_straight(true, first_end);
+  if (!closed && skip_last <= 0 && !last_tip.empty()) to = end_straight(false, last_end);
   std::vector<double> samples;
-  sample(samples);
-  auto lead_on = [&](bool first) {  // beyond the axis, to the end of the tip
-    if (closed || (first ? skip_first > 0 || first_tip.empty() : skip_last > 0 || last_tip.empty())) return;
-    const double s = first ? 0 : whole, free = std::max(free_at(s), 20.0), over = std::min(whole, 2 * free);
-    std::size_t edge = 0;
-    const Place inner = at(first ? over : whole - over, edge), end = first ? axis_.front() : axis_.back();
-    const Place way = unit(inner, end);
-    const double reach = reach_of_tip(end, way, first);
-    const int pieces = std::clamp(static_cast<int>(std::ceil(reach / tip_step_um)), 1, 60);
-    if (reach < 5) return;
-    for (int i = 1; i <= pieces; ++i) {
-      const double x = reach * i / pieces - (i == pieces ? before_end_um : 0);
-      const Place p{end.x + x * way.x, end.y + x * way.y};
-      const Chord chord = across(p, first ? Place{-way.x, -way.y} : way, s, std::max(free, 100.0));
-      if (!chord.found) break;
-      if (first) {
-        path.insert(path.begin(), {lerp(chord.left, chord.right, 0.5), distance(chord.left, chord.right)});
-      } else {
-        path.push_back({lerp(chord.left, chord.right, 0.5), distance(chord.left, chord.right)});
-      }
-    }
-  };
+  sample(from, to, samples);
   for (const double s : samples) {
     const double free = free_at(s);
     std::size_t edge = 0;
@@ -254,13 +310,19 @@ std::vector<Vertex> Strip::bead() {
     const Chord chord = across(at(s, edge), way, s, free);
     add(path, chord, at(s, edge), way, free);
   }
-  if (path.size() < 2) return {};
-  if (closed) {
+  if (closed && path.size() > 1) {
     path.front().width = (path.front().width + path.back().width) / 2;
     path.pop_back();
   }
-  lead_on(true);
-  lead_on(false);
+  if (!first_end.empty()) {
+    if (!path.empty()) path.erase(path.begin());  // the end begins there
+    path.insert(path.begin(), first_end.rbegin(), first_end.rend());
+  }
+  if (!last_end.empty()) {
+    if (path.size() > first_end.size()) path.pop_back();
+    path.insert(path.end(), last_end.begin(), last_end.end());
+  }
+  if (path.size() < 2) return {};
   double volume = 0;
   for (std::size_t i = 1; i < path.size(); ++i)
     volume += distance(path[i - 1].at, path[i].at) * (path[i - 1].width + path[i].width) / 2;

@@ -21,7 +21,8 @@ class Strip {
   double skip_first = 0, skip_last = 0;  ///< the bead begins (ends) so far inside the axis' ends, µm
   /// What is skipped is not the strip's own: a wall turns back there.
   bool turn_first = false, turn_last = false;
-  bool closed = false;  ///< the axis ends where it begins
+  bool closed = false;   ///< the axis ends where it begins
+  bool outline = false;  ///< its sides are the part's outline: no end may reach beyond
 
   /// Centreline and widths of the bead that fills it: chords across the strip, at right angles to the axis.
   std::vector<Line::Vertex> bead();
@@ -40,6 +41,8 @@ class Strip {
     bool found = false;
   };
   std::uint32_t tag() const { return axis_.empty() ? 0 : static_cast<std::uint32_t>(axis_.size() - 1); }
+  bool stubby() const;
+  std::vector<Place> ring() const;
   void collect_sides();
   void lean();
   double area() const;
@@ -47,8 +50,9 @@ class Strip {
   Place direction(double s, double over) const;
   double free_at(double s) const;
   Chord across(Place p, Place way, double s, double free) const;
-  double reach_of_tip(Place end, Place way, bool first) const;
-  void sample(std::vector<double>& out) const;
+  double ahead(Place p, Place way, bool first) const;
+  double end_straight(bool first, std::vector<Line::Vertex>& out) const;
+  void sample(double from, double to, std::vector<double>& out) const;
   void add(std::vector<Line::Vertex>& path, const Chord& chord, Place on_axis, Place way, double free);
 
   std::vector<Place> axis_;

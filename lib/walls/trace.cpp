@@ -45,21 +45,19 @@ struct Chain {
   double before = 0, after = 0;  ///< how far the turn at its start (end) lies beyond the node where the count changes
 };
 
-/// Width at a distance from the end of a path.
-double width_before_end(const std::vector<Vertex>& path, double d) {
-  for (std::size_t i = path.size() - 1; i > 0; --i) {
-    const double length = distance(path[i].at, path[i - 1].at);
-    if (length >= d) return path[i].width + d / std::max(length, 1e-9) * (path[i - 1].width - path[i].width);
-    d -= length;
-  }
-  return path.front().width;
-}
-
 /// How much to take from the end of a path so that a turn there, half as wide again, ends `beyond` before the end.
 double turning_room(const std::vector<Vertex>& path, double beyond) {
-  double d = 0;
-  for (int round = 0; round < 4; ++round) d = std::max(0.0, width_before_end(path, d) / 2 + beyond);
-  return d;
+  double done = 0;
+  for (std::size_t i = path.size() - 1; i > 0; --i) {
+    const Vertex &a = path[i], &b = path[i - 1];
+    const double length = distance(a.at, b.at);
+    const double missing = a.width / 2 + beyond - done;  // falls to 0 where there is room
+    const double there = b.width / 2 + beyond - done - length;
+    if (missing <= 0) return done;
+    if (there <= 0) return done + length * missing / (missing - there);
+    done += length;
+  }
+  return done;
 }
 
 /// Where a wall turns back in the middle of a part, its turn lies half its width inside its own stretch: the bead on
@@ -119,13 +117,20 @@ void cut_end(std::vector<Vertex>& path, double by) {
 }
 
 void append(std::vector<Vertex>& path, Vertex start, const Vertex& end) {
+  constexpr double step_um = 10;  // on either side
   if (path.empty() || distance(path.back().at, start.at) >= same_um) {
     path.push_back(start);
-  } else if (std::abs(path.back().width - start.width) <= 4) {
+  } else if (std::abs(path.back().width - start.width) <= 4 || path.size() < 2) {
     path.back().width = (path.back().width + start.width) / 2;
   } else {  // the step stays where it is, or it would be spread over the length of the pieces
-    const double length = distance(start.at, end.at), t = std::min(0.5, 20 / std::max(1.0, length));
-    path.push_back({lerp(start.at, end.at, t), start.width + t * (end.width - start.width)});
+    const Vertex at = path.back(), before = path[path.size() - 2];
+    const auto near = [&](const Vertex& from, const Vertex& other) {
+      const double t = std::min(0.25, step_um / std::max(1.0, distance(from.at, other.at)));
+      return Vertex{lerp(from.at, other.at, t), from.width + t * (other.width - from.width)};
+    };
+    path.back() = near(at, before);
+    path.push_back({at.at, (at.width + start.width) / 2});
+    path.push_back(near(start, end));
   }
   path.push_back(end);
 }

@@ -14,6 +14,7 @@ struct Line {
   std::vector<Vertex> path;
   bool closed = false;
   int inset = 0;
+  bool first_meets = false, last_meets = false;  ///< the part goes on beyond the end: it meets a wall there
 };
 
 /// Adds a piece to a line in the making; its width need not be that of the line's end.

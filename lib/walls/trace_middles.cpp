@@ -1,4 +1,5 @@
 #include "walls/strip.h"
+#include "walls/stub.h"
 
 #include <algorithm>
 #include <cmath>
@@ -85,15 +86,16 @@ class Tracer {
       chain.push_back(h);
       h = onward_[h];
     }
+    // From its thinner end, so that the mirror image of a part is walked the mirrored way.
+    if (!closed && thins_out(chain)) turn_round(chain);
     Strip strip;
     strip.closed = closed;
+    strip.outline = inset == 0;
     if (!closed) {
       strip.skip_last = into_mouth(chain, strip.turn_last);
-      for (auto& g : chain) g = Skeleton::twin(g);
-      std::reverse(chain.begin(), chain.end());
+      turn_round(chain);
       strip.skip_first = into_mouth(chain, strip.turn_first);
-      for (auto& g : chain) g = Skeleton::twin(g);
-      std::reverse(chain.begin(), chain.end());
+      turn_round(chain);
     }
     fill(strip, chain);
     if (!closed) {
@@ -104,8 +106,22 @@ class Tracer {
     Line line;
     line.closed = closed;
     line.inset = inset;
+    line.first_meets = strip.first_tip.empty();
+    line.last_meets = strip.last_tip.empty();
     line.path = strip.bead();
     if (line.path.size() >= 2) out_.push_back(std::move(line));
+  }
+
+  bool thins_out(const std::vector<std::uint32_t>& chain) const {
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+      const double here = s_.start(chain[i]).clearance, there = s_.end(chain[chain.size() - 1 - i]).clearance;
+      if (std::abs(here - there) > 0.1) return here > there;
+    }
+    return false;
+  }
+  static void turn_round(std::vector<std::uint32_t>& chain) {
+    for (auto& h : chain) h = Skeleton::twin(h);
+    std::reverse(chain.begin(), chain.end());
   }
 
   /// Distance from the outline at which the walls around the middle end.
@@ -227,7 +243,7 @@ class Tracer {
     return std::max(0.0, ((right.x + left.x) / 2 - node.x) * back.x + ((right.y + left.y) / 2 - node.y) * back.y);
   }
 
-  /// What is as long as it is wide, a part or the middle of one, gets a single bead along its longest edge.
+  /// What is as long as it is wide, a part or the middle of one.
   void dot(std::uint32_t start) {
     std::vector<Place> ring;
     std::uint32_t h = start;
@@ -237,31 +253,10 @@ class Tracer {
       add_piece(h, inner, ring);
       h = s_.halves[h].next;
     } while (h != start);
-    if (ring.size() < 3) return;
-    Place d{1, 0};
-    double longest = 0;
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const double length = distance(ring[i], ring[(i + 1) % ring.size()]);
-      if (length > longest) longest = length, d = unit(ring[i], ring[(i + 1) % ring.size()]);
-    }
-    const Place centre = s_.start(start).at;
-    double behind = 0, ahead = 0, area = 0;
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Place p = ring[i], q = ring[(i + 1) % ring.size()];
-      area += cross(centre, p, q) / 2;
-      const double a = (p.y - centre.y) * d.x - (p.x - centre.x) * d.y,
-                   b = (q.y - centre.y) * d.x - (q.x - centre.x) * d.y;
-      if ((a < 0) == (b < 0)) continue;
-      const double t = a / (a - b);  // where the line through the centre leaves the part
-      const double at = (p.x + t * (q.x - p.x) - centre.x) * d.x + (p.y + t * (q.y - p.y) - centre.y) * d.y;
-      behind = std::min(behind, at), ahead = std::max(ahead, at);
-    }
-    if (ahead - behind < 1) return;
-    const double width = area / (ahead - behind);
     Line line;
     line.inset = static_cast<int>(pairs);
-    line.path.push_back({{centre.x + behind * d.x, centre.y + behind * d.y}, width});
-    line.path.push_back({{centre.x + ahead * d.x, centre.y + ahead * d.y}, width});
+    line.path = stub_bead(ring);
+    if (line.path.size() < 2) return;
     out_.push_back(std::move(line));
   }
 
