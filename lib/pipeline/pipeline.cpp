@@ -13,6 +13,7 @@
 #include "settings/catalogue.h"
 
 #include <tbb/global_control.h>
+#include <tbb/task_group.h>
 
 #include <fmt/format.h>
 
@@ -147,15 +148,18 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
   report.settings_sha256 = sha256(as_text(job.settings));
   gcode::check_custom_code(job.settings);  // a typo in the start G-code is told before an hour of slicing
   auto objects = place_models(job, report, cache);
-  auto thumbnails = thumbnails_of(job.settings, objects);
+  std::vector<gcode::Thumbnail> thumbnails;
+  tbb::task_group beside;  // pictures are drawn while the model is sliced
+  beside.run([&] { thumbnails = thumbnails_of(job.settings, objects); });
   begin("slicing", 0.05);
   std::vector<PrintedLayers> layers;
   Box3 box;
   for (auto& object : objects) {
     box.add(box_of(object.mesh));
     layers.push_back(print_object(job.settings, object, watch, report, cache));
-    object.mesh = {};
   }
+  beside.wait();
+  for (auto& object : objects) object.mesh = {};
   refuse_emptiness(job, box, layers);
   begin("travel", 0.65);
   PrintPlan plan = plan_plate(job.settings, objects, std::move(layers), watch, report);
