@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
 namespace weft::travel {
 namespace {
@@ -14,6 +15,26 @@ constexpr double run_hop_um = 1500;
 constexpr std::size_t most_starts = 4;
 /// More runs than this are left in the greedy order.
 constexpr std::size_t most_runs = 24;
+
+/// Who touches each wall, in the order of the touches.
+class Neighbours {
+ public:
+  Neighbours(std::span<const Touch> touches, std::uint32_t walls) : begins_(walls + 1, 0), others_(2 * touches.size()) {
+    for (const auto& t : touches) ++begins_[t.first], ++begins_[t.second];
+    std::uint32_t sum = 0;
+    for (auto& begin : begins_) begin = sum += begin;  // ends, which filling from behind turns into begins
+    for (std::size_t i = touches.size(); i-- > 0;) {
+      others_[--begins_[touches[i].first]] = touches[i].second;
+      others_[--begins_[touches[i].second]] = touches[i].first;
+    }
+  }
+  std::span<const std::uint32_t> of(std::uint32_t wall) const {
+    return {others_.data() + begins_[wall], begins_[wall + 1] - begins_[wall]};
+  }
+
+ private:
+  std::vector<std::uint32_t> begins_, others_;
+};
 
 class WallOrder {
  public:
@@ -62,20 +83,18 @@ class WallOrder {
     if (settings_.z_seam_type == SeamType::shortest) return;
     for (std::uint32_t w = 0; w < n; ++w)
       if (block_.seams[w] != Block::no_seam) starts_[w].push_back(linked_.seams[block_.seams[w]]);
+    const Neighbours neighbours(touches_, n);
     std::vector<std::pair<std::uint32_t, Start>> spread;
-    std::vector<char> reached(n);
+    std::vector<std::uint32_t> reached_from(n, Block::no_seam);
     for (std::uint32_t w = 0; w < n; ++w) {
       if (block_.seams[w] == Block::no_seam) continue;
       // From the outer wall inwards, wall by wall.
-      std::fill(reached.begin(), reached.end(), 0);
       spread.assign(1, {w, starts_[w][0]});
       for (std::size_t k = 0; k < spread.size(); ++k) {
         const auto [wall, start] = spread[k];
-        for (const auto& t : touches_) {
-          if (t.first != wall && t.second != wall) continue;
-          const std::uint32_t other = t.first == wall ? t.second : t.first;
-          if (reached[other] || bead(other).inset <= bead(wall).inset || !bead(other).closed) continue;
-          reached[other] = 1;
+        for (const std::uint32_t other : neighbours.of(wall)) {
+          if (reached_from[other] == w || bead(other).inset <= bead(wall).inset || !bead(other).closed) continue;
+          reached_from[other] = w;
           if (starts_[other].size() < most_starts)
             starts_[other].push_back(beside(bead(other), settings_.staggered_inner_seams ? starts_[w][0] : start));
           spread.push_back({other, starts_[other].back()});
@@ -94,6 +113,11 @@ class WallOrder {
     return turn(w, *best, false);
   }
 
+  /// Nothing in the box is nearer, µm².
+  static std::int64_t distance2_to(const Box& box, Point p) {
+    return distance2(p, {std::clamp(p.x, box.min.x, box.max.x), std::clamp(p.y, box.min.y, box.max.y)});
+  }
+
   /// The nearest wall whose predecessors are done, again and again.
   Sequence greedy() const {
     const auto n = static_cast<std::uint32_t>(block_.walls.size());
@@ -102,12 +126,16 @@ class WallOrder {
     for (const auto& t : touches_) ++waiting[t.second];
     for (std::uint32_t w = 0; w < n; ++w)
       if (waiting[w] == 0) ready.push_back(w);
+    std::vector<Box> boxes(n);
+    for (std::uint32_t w = 0; w < n; ++w)
+      for (const auto& junction : bead(w).path) boxes[w].add(junction.at);
     std::optional<Point> at = from_;
     while (!ready.empty()) {
       std::size_t best = 0;
       Turn best_turn;
       std::int64_t best2 = std::numeric_limits<std::int64_t>::max();
       for (std::size_t k = 0; k < ready.size(); ++k) {
+        if (at && distance2_to(boxes[ready[k]], *at) > best2) continue;
         const Turn t = nearest(ready[k], at);
         const std::int64_t d2 = at ? distance2(*at, begin_of(bead(ready[k]), t)) : 0;
         if (d2 < best2 || (d2 == best2 && ready[k] < ready[best])) best = k, best2 = d2, best_turn = t;
