@@ -134,12 +134,20 @@ class WallOrder {
       std::size_t best = 0;
       Turn best_turn;
       std::int64_t best2 = std::numeric_limits<std::int64_t>::max();
-      for (std::size_t k = 0; k < ready.size(); ++k) {
-        if (at && distance2_to(boxes[ready[k]], *at) > best2) continue;
+      const auto look = [&](std::size_t k) {
         const Turn t = nearest(ready[k], at);
         const std::int64_t d2 = at ? distance2(*at, begin_of(bead(ready[k]), t)) : 0;
         if (d2 < best2 || (d2 == best2 && ready[k] < ready[best])) best = k, best2 = d2, best_turn = t;
+      };
+      if (at) {  // the nearest box first: then few of the others need a look
+        std::int64_t nearest2 = best2;
+        std::size_t first = 0;
+        for (std::size_t k = 0; k < ready.size(); ++k)
+          if (const auto d2 = distance2_to(boxes[ready[k]], *at); d2 < nearest2) nearest2 = d2, first = k;
+        look(first);
       }
+      for (std::size_t k = 0; k < ready.size(); ++k)
+        if (!at || distance2_to(boxes[ready[k]], *at) <= best2) look(k);
       const std::uint32_t done = ready[best];
       ready.erase(ready.begin() + static_cast<std::ptrdiff_t>(best));
       sequence.push_back(done);
