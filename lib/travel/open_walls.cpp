@@ -20,6 +20,11 @@ class Fitting {
   }
 
   void run() {
+    // Every run is tried in every gap: with thousands of each, as between the holes of a sieve, that would take
+    // minutes.
+    std::size_t open_walls = 0;
+    for (std::size_t i = 0; i < turns_.size(); ++i) open_walls += open(i) ? 1U : 0U;
+    if (open_walls * turns_.size() > most_pairs) return;
     for (int pass = 0; pass < most_passes; ++pass) {
       bool better = false;
       for (std::size_t i = 0; i < turns_.size(); ++i)
@@ -34,6 +39,7 @@ class Fitting {
   }
 
  private:
+  static constexpr std::size_t most_pairs = 20'000'000;  ///< about a second
   static constexpr int most_passes = 4;
   static constexpr std::size_t longest_run = 4;
   static constexpr double least_gain_um = 1.0;
