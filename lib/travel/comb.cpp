@@ -1,5 +1,7 @@
 #include "travel/comb.h"
 
+#include "travel/box_columns.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -33,17 +35,17 @@ Comb::Comb(std::vector<Ring> rings) {
   std::erase_if(rings, [](const Ring& r) { return r.size() < 3; });
   std::vector<Box> boxes;
   for (const auto& r : rings) boxes.push_back(box_of(r));
+  const BoxColumns columns(std::move(boxes));
   std::vector<std::uint32_t> depth(rings.size(), 0), parent(rings.size(), outside);
   for (std::size_t i = 0; i < rings.size(); ++i)
-    for (std::size_t j = 0; j < rings.size(); ++j) {
-      if (i == j || !boxes[j].contains(boxes[i].min) || !boxes[j].contains(boxes[i].max)) continue;
-      if (side_of(rings[j], rings[i][0]) != Side::inside) continue;
+    columns.each_around(i, [&](std::uint32_t j) {
+      if (side_of(rings[j], rings[i][0]) != Side::inside) return;
       ++depth[i];
-      const auto size = [&](std::size_t k) { return boxes[k].size(); };
+      const auto size = [&](std::size_t k) { return columns[k].size(); };
       if (parent[i] == outside ||
           std::int64_t{size(j).x} * size(j).y < std::int64_t{size(parent[i]).x} * size(parent[i]).y)
-        parent[i] = static_cast<std::uint32_t>(j);
-    }
+        parent[i] = j;
+    });
   std::vector<std::uint32_t> part(rings.size(), 0);
   std::uint32_t parts = 0;
   for (std::size_t i = 0; i < rings.size(); ++i)

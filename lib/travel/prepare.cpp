@@ -1,6 +1,7 @@
 #include "geometry/boolean.h"
 #include "geometry/offset.h"
 #include "travel/blocks.h"
+#include "travel/box_columns.h"
 
 #include <algorithm>
 
@@ -92,12 +93,12 @@ Regions area_around(const TravelSettings& settings, const Regions& outline, cons
 std::vector<char> holes_among(const std::vector<Ring>& rings) {
   std::vector<Box> boxes;
   for (const auto& r : rings) boxes.push_back(box_of(r));
+  const BoxColumns columns(std::move(boxes));
   std::vector<char> hole(rings.size(), 0);
   for (std::size_t i = 0; i < rings.size(); ++i)
-    for (std::size_t k = 0; k < rings.size(); ++k)
-      if (i != k && boxes[k].contains(boxes[i].min) && boxes[k].contains(boxes[i].max) &&
-          side_of(rings[k], rings[i][0]) == Side::inside)
-        hole[i] = hole[i] == 0;
+    columns.each_around(i, [&](std::uint32_t k) {
+      if (side_of(rings[k], rings[i][0]) == Side::inside) hole[i] = hole[i] == 0;
+    });
   return hole;
 }
 
