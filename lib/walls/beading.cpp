@@ -7,6 +7,8 @@
 namespace weft::walls {
 namespace {
 
+constexpr double lattice_um = 1;  // a rib's sides are rounded to the lattice, half a micron each
+
 double nominal(const Widths& w, int pair) {
   return pair == 0 ? w.outer : w.inner;
 }
@@ -28,7 +30,7 @@ Widths widths_of(const WallSettings& s, Um nozzle, Um height, std::size_t layer)
   w.least_odd = std::min<double>(band_of(s.min_odd_wall_line_width.value_or(s.min_wall_line_width)), 2 * w.least_even);
   w.most = most;
   w.open = std::min(0.8 * w.inner, 2 * (most - w.inner) + w.inner / 2);
-  w.least_feature = s.min_feature_size;
+  w.least_feature = std::max(0.0, s.min_feature_size - lattice_um);
   w.walls = s.wall_line_count + (s.alternate_extra_wall && layer % 2 == 1 ? 1 : 0);
   w.shared = std::max(1, s.wall_distribution_count);
   return w;

@@ -11,7 +11,7 @@ using Vertex = Line::Vertex;
 
 constexpr double straight_um = 1.0;      // a vertex this close to its neighbours' chord is left out
 constexpr double even_um = 2.0;          // … where the width is this close to theirs
-constexpr double even_at_outline = 0.2;  // of the width: an end at the outline that tapers more keeps its steps
+constexpr double even_at_outline = 1.0;  // of the width: an end at the outline that tapers more keeps its steps
 constexpr double even_inside = 0.5;      // … and one inside
 constexpr double width_step_um = 10.0;   // a segment is printed at one width: no more difference over it than this
 
