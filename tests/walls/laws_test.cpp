@@ -107,24 +107,29 @@ TEST_CASE("walls: on 1,000 random polygons beads and inside together have the ar
   CHECK(mean / count < 0.0025);
 }
 
-TEST_CASE("walls: footprints stay within 0.01 mm of the part, but for tips and bends of single beads", "[walls][law]") {
+TEST_CASE("walls: closed walls stay within 0.015 mm of the part, single beads within 0.01 mm but in one of eight",
+          "[walls][law]") {
+  // Not the law one would wish for: a part hardly wider than a bead gets one bead, of its volume, and where it is not
+  // alike on both sides of that bead a corner of the band lies outside. Measured over 1,000 of these: 114, at most
+  // 182 µm. To be within 0.01 mm always, a part would need beads of a few hundredths of a millimetre in its corners.
   std::mt19937 random(20'240'601);
   int count = 0, astray = 0;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 1000; ++i) {
     const Regions regions = geometry::regions_from_rings(std::vector<Ring>{random_ring(random)});
     const auto walls = walls_of(regions);
-    double most = 0;
-    for (const Bead& bead : walls.beads) most = std::max(most, footprint_outside(regions, bead));
+    bool outside_open = false;
+    for (const Bead& bead : walls.beads) {
+      const double most = footprint_outside(regions, bead);
+      CAPTURE(i, most);
+      if (bead.closed) CHECK(most <= 15);
+      outside_open = outside_open || (!bead.closed && most > 10);
+      CHECK(most <= 200);
+    }
     ++count;
-    astray += most > 10 ? 1 : 0;
-    for (const Bead& bead : walls.beads)
-      if (bead.closed) {
-        CAPTURE(i);
-        CHECK(footprint_outside(regions, bead) <= 150);
-      }
+    astray += outside_open ? 1 : 0;
   }
-  INFO(astray << " of " << count);
-  CHECK(astray <= count / 6);  // hardly larger than a bead, they taper and bend at once: to become fewer
+  CAPTURE(astray, count);
+  CHECK(astray <= count / 8);
 }
 
 TEST_CASE("walls: no bead of a random polygon is wider than max_wall_line_width", "[walls][law]") {
@@ -137,11 +142,11 @@ TEST_CASE("walls: no bead of a random polygon is wider than max_wall_line_width"
 }
 
 TEST_CASE("walls: the mirror image of a part gets the mirror image of its beads", "[walls][law]") {
-  // Parts where no two choices are equally good. In a few of the random ones they are: there a node of the axis is a
-  // matter of rounding.
+  // Measured over 1,000 of these: 6 differ by more than 5 µm, where ramps between counts of beads meet at a junction
+  // and the one found first goes before, or a tip ends a micron sooner.
   std::mt19937 random(20'240'601);
   int count = 0, off = 0;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 1000; ++i) {
     const Regions regions = geometry::regions_from_rings(std::vector<Ring>{random_ring(random)});
     const auto here = walls_of(regions);
     auto there = walls_of(mirrored(regions));
@@ -152,7 +157,7 @@ TEST_CASE("walls: the mirror image of a part gets the mirror image of its beads"
     off += most > 5 ? 1 : 0;
   }
   INFO(off << " of " << count);
-  CHECK(off <= count / 12);
+  CHECK(off <= count / 100);
 }
 
 TEST_CASE("walls: a rib of 0.4 mm is printed alike in every layer", "[walls][law]") {

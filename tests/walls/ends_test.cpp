@@ -1,0 +1,137 @@
+#include "geometry/boolean.h"
+#include "walls/shapes.h"
+#include "walls/walls.h"
+
+#include <algorithm>
+
+#include <catch2/catch.hpp>
+
+using namespace weft;
+using namespace weft::test;
+
+namespace {
+
+WallLayer filled(const Regions& regions) {
+  WallSettings settings;
+  settings.wall_line_count = 100;
+  settings.wall_line_width_0 = settings.wall_line_width_x = 0.45_mm;
+  const SlicedLayer layer = layer_of(regions);
+  return walls::build(settings, {.layer = layer, .index = 1});
+}
+
+bool covers(const Bead& bead, Point p) {
+  for (std::size_t k = 0; k + (bead.closed ? 0 : 1) < bead.path.size(); ++k) {
+    const Junction &a = bead.path[k], &b = bead.path[(k + 1) % bead.path.size()];
+    const double dx = b.at.x - a.at.x, dy = b.at.y - a.at.y, length = std::hypot(dx, dy),
+                 half = (a.width + b.width) / 4.0;
+    const double px = p.x - a.at.x, py = p.y - a.at.y;
+    const bool joint = (k > 0 || bead.closed) && std::hypot(px, py) <= half;  // it swells round at a turn
+    if (length < 1 ? joint
+                   : joint || (px * dx + py * dy >= 0 && px * dx + py * dy <= length * length &&
+                               std::abs(px * dy - py * dx) <= half * length))
+      return true;
+  }
+  return false;
+}
+
+bool inside(const Region& region, Point p) {
+  return side_of(region.outer, p) == Side::inside &&
+         std::none_of(region.holes.begin(), region.holes.end(),
+                      [&](const Ring& hole) { return side_of(hole, p) != Side::outside; });
+}
+
+/// Share of a region that no bead covers, on a grid that is not the shape's own.
+double bare_share(const Region& region, const WallLayer& walls) {
+  const Box box = box_of(region.outer);
+  int all = 0, bare = 0;
+  for (Um x = box.min.x + 13; x < box.max.x; x += 41)
+    for (Um y = box.min.y + 7; y < box.max.y; y += 43) {
+      if (!inside(region, {x, y})) continue;
+      ++all;
+      bare += std::none_of(walls.beads.begin(), walls.beads.end(), [&](const Bead& b) { return covers(b, {x, y}); });
+    }
+  return static_cast<double>(bare) / std::max(1, all);
+}
+
+Region star(int arms, double inner_share) {
+  Ring ring;
+  for (int i = 0; i < 2 * arms; ++i) {
+    const double r = i % 2 == 0 ? 10'000 : 10'000 * inner_share, a = std::numbers::pi * i / arms + 0.1;
+    ring.push_back({rounded(r * std::cos(a)), rounded(r * std::sin(a))});
+  }
+  return {ring, {}};
+}
+
+}  // namespace
+
+TEST_CASE("walls: a bead on the axis reaches the wall that crosses in front of it", "[walls]") {
+  // In every arm of a star a bead runs towards the walls of the middle. Ending 0.1 mm before them, over its width, it
+  // left 1.2 % bare.
+  for (const int arms : {4, 7, 12}) {
+    CAPTURE(arms);
+    const Region region = star(arms, 0.25);
+    CHECK(bare_share(region, filled({region})) < 0.009);
+  }
+}
+
+TEST_CASE("walls: a bead goes straight on to an end that is not quite square", "[walls]") {
+  for (const Um slant : {0, 60, 150}) {
+    // A bar of 1.3 mm: two walls and one bead between them, whose ends do not turn aside.
+    const Ring ring{{0, 0}, {12'000 + slant, 0}, {12'000 - slant, 1300}, {0, 1300}};
+    const auto walls = filled({{ring, {}}});
+    const auto open = std::find_if(walls.beads.begin(), walls.beads.end(), [](const Bead& b) { return !b.closed; });
+    CAPTURE(slant);
+    REQUIRE(open != walls.beads.end());
+    for (std::size_t k = 1; k < open->path.size(); ++k) {
+      const Point d = open->path[k].at - open->path[k - 1].at;
+      CHECK(std::abs(d.y) <= 0.3 * std::abs(d.x));
+    }
+  }
+}
+
+TEST_CASE("walls: in a steep taper the outer wall keeps its width and what it leaves gets a bead", "[walls]") {
+  // 30° at the tip: two walls grow towards each other until a third bead fits between them.
+  const Ring ring{{0, 0}, {15'000, -4'020}, {15'000, 4'020}};
+  const auto walls = filled({{ring, {}}});
+  const Um nominal = rounded(0.45_mm - 0.2_mm * (1 - std::numbers::pi / 4));
+  int looked = 0;
+  for (const Bead& bead : walls.beads)
+    if (bead.inset == 0 && bead.closed)
+      for (const Junction& j : bead.path) {
+        CHECK(j.width <= 1.35 * nominal);
+        ++looked;
+      }
+  CHECK(looked > 3);
+}
+
+TEST_CASE("walls: a part hardly longer than wide gets one straight bead of its volume", "[walls]") {
+  for (const int corners : {4, 5, 6, 9, 40}) {
+    const Region region{circle({3'000, -2'000}, 0.25_mm, corners), {}};
+    const auto walls = filled({region});
+    CAPTURE(corners);
+    REQUIRE(walls.beads.size() == 1);
+    const auto& path = walls.beads[0].path;
+    const Point way = path.back().at - path.front().at;
+    for (const Junction& j : path) {
+      const Point p = j.at - path.front().at;
+      const double off =
+          (static_cast<double>(way.x) * p.y - static_cast<double>(way.y) * p.x) / std::hypot(way.x, way.y);
+      CHECK(std::abs(off) <= 1.5);  // the lattice
+    }
+    CHECK(bead_area_mm2(walls) == Approx(area_mm2(region)).epsilon(0.02));
+  }
+}
+
+TEST_CASE("walls: a rib just as thick as min_feature_size is printed wherever the lattice puts its sides", "[walls]") {
+  for (int degrees = 0; degrees < 90; degrees += 7) {
+    const double a = degrees * std::numbers::pi / 180, c = std::cos(a), s = std::sin(a);
+    Ring ring;
+    for (const Point p : rectangle(0, 0, 8_mm, 50))
+      ring.push_back({rounded(p.x * c - p.y * s), rounded(p.x * s + p.y * c)});
+    WallSettings settings;
+    settings.min_feature_size = 50;
+    const SlicedLayer layer = layer_of({{ring, {}}});
+    CAPTURE(degrees);
+    CHECK_FALSE(walls::build(settings, {.layer = layer, .index = 1}).beads.empty());
+  }
+}
