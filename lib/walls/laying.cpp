@@ -10,6 +10,7 @@ Laying Planner::run() {
   find_core();
   cut_at_thresholds();
   filter();
+  open_needless_mouths();
   ramps();
   for (std::uint32_t e = 0; e < core_.size(); ++e) set_core_bounds(e);
   run_into_corners();

@@ -63,6 +63,8 @@ class Planner {
   double widest(Count count, double thickness);
   /// Regions of one count along the core, joined where they touch.
   void filter();
+  /// A mouth between parts of the same number of beads is none: the beads go through.
+  void open_needless_mouths();
   /// How wide a bead may grow for a short way, rather than be joined by another.
   double wide_bead() const { return std::min(w_.most, 1.7 * std::min(w_.inner, w_.outer)); }
 
@@ -94,6 +96,7 @@ class Planner {
   const LayingOptions& o_;
   std::vector<std::uint32_t> any_, peaks_, tops_;  // a half that leaves each node; nodes with corners all around
   std::vector<std::uint8_t> core_, steep_, mouth_, reached_;
+  std::vector<std::vector<std::uint32_t>> runs_;  // halves of each mouth, climbing
   std::vector<Count> count_;
   std::vector<Blend> blend_;
   std::vector<double> scratch_;

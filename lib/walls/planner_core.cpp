@@ -83,6 +83,7 @@ void Planner::cut_mouths(std::vector<int>& degree) {
       --degree[s_.to(h)];
     }
     tops_.push_back(high);
+    runs_.push_back(run);
   }
   for (const std::uint32_t n : tops_) {
     bool peak = degree[n] == 0;

@@ -148,4 +148,23 @@ void Planner::filter() {
   }
 }
 
+void Planner::open_needless_mouths() {
+  for (const auto& run : runs_) {
+    Count below, above;
+    int ways_below = 0, ways_above = 0;
+    for_each_leaving(run.front(), [&](std::uint32_t h) {
+      if (core_[h / 2]) below = count_[h / 2], ++ways_below;
+    });
+    for_each_leaving(Skeleton::twin(run.back()), [&](std::uint32_t h) {
+      if (core_[h / 2]) above = count_[h / 2], ++ways_above;
+    });
+    if (ways_below != 1 || ways_above == 0 || below != above) continue;
+    for (const std::uint32_t h : run) {
+      core_[h / 2] = 1;
+      mouth_[h / 2] = 0;
+      count_[h / 2] = below;
+    }
+  }
+}
+
 }  // namespace weft::walls
