@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 /// Private to walls: what one does with places.
 namespace weft::walls {
@@ -27,6 +28,16 @@ inline double cross(Place a, Place b) {
 /// Twice the area of the triangle o, a, b; positive if it turns left.
 inline double cross(Place o, Place a, Place b) {
   return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+}
+
+/// Where the line from p in the direction `way` (a unit) meets the segment from a to b: the distance from p, negative
+/// behind it.
+inline std::optional<double> meets(Place p, Place way, Place a, Place b) {
+  const Place u{a.x - p.x, a.y - p.y}, v{b.x - p.x, b.y - p.y};
+  const double du = cross(way, u), dv = cross(way, v);
+  if ((du < 0) == (dv < 0)) return {};
+  const double t = du / (du - dv);
+  return way.x * (u.x + t * (v.x - u.x)) + way.y * (u.y + t * (v.y - u.y));
 }
 
 }  // namespace weft::walls

@@ -125,16 +125,12 @@ Strip::Chord Strip::across(Place p, Place way, double s, double free) const {
   double left = 1e18, right = -1e18;
   auto look = [&](std::ptrdiff_t from, std::ptrdiff_t to) {
     for (std::size_t i = first_[static_cast<std::size_t>(from)]; i < first_[static_cast<std::size_t>(to) + 1]; ++i) {
-      const Side& side = sides_[i];
-      const Place a{side.a.x - p.x, side.a.y - p.y}, b{side.b.x - p.x, side.b.y - p.y};
-      const double da = cross(n, a), db = cross(n, b);
-      if ((da < 0) == (db < 0)) continue;
-      const double u = da / (da - db);
-      const double t = n.x * (a.x + u * (b.x - a.x)) + n.y * (a.y + u * (b.y - a.y));
-      if (t >= 0)
-        left = std::min(left, t);
+      const auto t = meets(p, n, sides_[i].a, sides_[i].b);
+      if (!t) continue;
+      if (*t >= 0)
+        left = std::min(left, *t);
       else
-        right = std::max(right, t);
+        right = std::max(right, *t);
     }
   };
   look(tag_at(s - window), tag_at(s + window));
@@ -153,12 +149,8 @@ double Strip::ahead(Place p, Place way, bool first) const {
   double reach = 1e18;
   const auto last = static_cast<std::uint32_t>(axis_.size() - 1), some = std::min(last, end_tags);
   for (std::size_t i = first_[first ? 0 : last - some]; i < first_[first ? some + 1 : last + 1]; ++i) {
-    const Side& side = sides_[i];
-    const Place a{side.a.x - p.x, side.a.y - p.y}, b{side.b.x - p.x, side.b.y - p.y};
-    const double da = cross(way, a), db = cross(way, b);
-    if ((da < 0) == (db < 0)) continue;
-    const double u = da / (da - db), t = way.x * (a.x + u * (b.x - a.x)) + way.y * (a.y + u * (b.y - a.y));
-    if (t > 0) reach = std::min(reach, t);
+    const auto t = meets(p, way, sides_[i].a, sides_[i].b);
+    if (t && *t > 0) reach = std::min(reach, *t);
   }
   return reach < 1e17 ? reach : 0;
 }

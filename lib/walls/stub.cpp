@@ -70,12 +70,7 @@ class Cut {
   void each_crossing(double x, Place v, F f) const {
     const Place p{o_.x + x * u_.x, o_.y + x * u_.y};
     for (std::size_t i = 0; i < ring_.size(); ++i) {
-      const Place c = ring_[i], d = ring_[i + 1 < ring_.size() ? i + 1 : 0];
-      const Place a{c.x - p.x, c.y - p.y}, b{d.x - p.x, d.y - p.y};
-      const double da = cross(v, a), db = cross(v, b);
-      if ((da < 0) == (db < 0)) continue;
-      const double s = da / (da - db);
-      f(v.x * (a.x + s * (b.x - a.x)) + v.y * (a.y + s * (b.y - a.y)));
+      if (const auto t = meets(p, v, ring_[i], ring_[i + 1 < ring_.size() ? i + 1 : 0])) f(*t);
     }
   }
 
