@@ -13,7 +13,7 @@ constexpr int looks = 16;               // chords by which directions are compar
 constexpr double alike = 1e-3;          // shares that differ by less are equal: then the longer way is taken
 constexpr double breadth_malus = 0.25;  // of the share, for a bead as broad as long
 constexpr double step_um = 40;
-constexpr double before_end_um = 4;
+constexpr double before_end_um = 4;  // there the width of an end is measured: an edge need not be quite square
 
 struct Shape {
   double area = 0;
@@ -109,16 +109,16 @@ std::vector<Vertex> stub_bead(const std::vector<Place>& ring) {
       best = way, best_share = share, best_length = length;
   }
   const Cut cut(ring, shape.centre, best);
-  const double from = cut.from + before_end_um, to = cut.to - before_end_um;
-  if (to - from < before_end_um) return {};
-  const int pieces = std::clamp(static_cast<int>(std::ceil((to - from) / step_um)), 1, 200);
+  const double length = cut.to - cut.from;
+  if (length < 4 * before_end_um) return {};
+  const int pieces = std::clamp(static_cast<int>(std::ceil(length / step_um)), 1, 200);
   std::vector<Vertex> path;
   double volume = 0;
   for (int i = 0; i <= pieces; ++i) {
-    const double x = from + (to - from) * i / pieces;
-    const auto room = cut.beside(x);
+    const double x = cut.from + length * i / pieces;
+    const auto room = cut.beside(std::clamp(x, cut.from + before_end_um, cut.to - before_end_um));
     path.push_back({{shape.centre.x + x * best.x, shape.centre.y + x * best.y}, std::max(1.0, room.left + room.right)});
-    if (i > 0) volume += (to - from) / pieces * (path[path.size() - 2].width + path.back().width) / 2;
+    if (i > 0) volume += length / pieces * (path[path.size() - 2].width + path.back().width) / 2;
   }
   for (Vertex& v : path) v.width *= shape.area / volume;
   return path;
