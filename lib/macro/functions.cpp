@@ -124,7 +124,12 @@ void refuse_slow(double steps) {
   if (steps > most_steps) throw std::invalid_argument("the regular expression would take too long on so long a text");
 }
 
+[[noreturn]] void refuse(const std::string& pattern) {
+  throw std::invalid_argument(fmt::format("/{}/ is not a regular expression that is understood", pattern));
+}
+
 std::regex compiled(const std::string& pattern) {
+  constexpr std::size_t most_digits = 9;  // the library reads a back-reference without looking for overflow
   if (pattern.size() > most_pattern)
     throw std::invalid_argument(fmt::format("a regular expression of more than {} characters", most_pattern));
   std::string spelled;
@@ -132,6 +137,8 @@ std::regex compiled(const std::string& pattern) {
   for (std::size_t i = 0; i < pattern.size(); ++i) {
     const char c = pattern[i];
     if (c == '\\' && i + 1 < pattern.size()) {
+      const std::size_t end = std::min(pattern.find_first_not_of("0123456789", i + 1), pattern.size());
+      if (end - i - 1 > most_digits) refuse(pattern);
       spelled += c;
       spelled += pattern[++i];
       continue;
@@ -150,7 +157,7 @@ std::regex compiled(const std::string& pattern) {
   try {
     return std::regex(spelled, flags);
   } catch (const std::regex_error&) {
-    throw std::invalid_argument(fmt::format("/{}/ is not a regular expression that is understood", pattern));
+    refuse(pattern);
   }
 }
 

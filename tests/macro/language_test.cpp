@@ -234,3 +234,7 @@ TEST_CASE("macro: values in the words of an ini have types") {
   CHECK(variable_of("inf").values == std::vector<Scalar>{std::string("inf")});
   CHECK(variable_of("").values == std::vector<Scalar>{std::string()});
 }
+
+TEST_CASE("macro: a back-reference of many digits is refused, not read beyond what a number holds") {
+  CHECK(message("{\"a\" =~ /x\\55555555555555555555555/}").find("is not a regular expression") != std::string::npos);
+}
