@@ -150,6 +150,15 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
   auto objects = place_models(job, report, cache);
   std::vector<gcode::Thumbnail> thumbnails;
   tbb::task_group beside;  // pictures are drawn while the model is sliced
+  const struct Wait {  // left to itself, a group that is abandoned breaks its work off in the middle of what it makes
+    tbb::task_group& group;
+    ~Wait() {
+      try {
+        group.wait();
+      } catch (...) {  // what ends the job is told already
+      }
+    }
+  } wait{beside};
   beside.run([&] { thumbnails = thumbnails_of(job.settings, objects); });
   begin("slicing", 0.05);
   std::vector<PrintedLayers> layers;
