@@ -20,10 +20,11 @@ struct FillInput {
 };
 
 /// Lays beads in the areas: sparse ones in the pattern, skin and solid ones as lines that fill the area's width
-/// exactly, in an order that never leaves a line between two printed ones (monotonic), bridges as free strands. Post:
-/// volume of solid beads = area × height, of sparse ones the same times the density; beads stay within the areas
-///        grown by the overlap. Bead::part is that of the area. A solid region's beads share a `sequence`.
-/// Cost:  about 1 µs a line.
+/// exactly, in an order that never leaves a line between two printed ones (monotonic), bridges as free strands.
+/// Post: volume of solid beads = area × height, of sparse ones the same times the density; beads stay within the areas,
+///       but for ends of lines and what joins them along the edge, which reach over it by the overlap. Bead::part is
+///       that of the area. A solid region's beads share a `sequence`.
+/// Cost: 7 to 13 µs a bead (tests/benchmark/RESULTS.md).
 FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const FillInput& input);
 
 }  // namespace weft::infill
