@@ -1,5 +1,6 @@
 #include "infill/solid.h"
 
+#include "infill/fit_sides.h"
 #include "infill/scan.h"
 
 #include <algorithm>
@@ -18,10 +19,12 @@ constexpr double short_lines = 1.5;       // bands; shorter lines cannot turn
 constexpr double widest_strip = 2.4;      // bands across; wider strips are filled line by line
 constexpr double widest_strand = 1.6;     // bands, of a bead along a strip
 constexpr double narrowest_strand = 0.6;  // bands, of one of two
-constexpr double longest_turn = 4;        // bands; edges shallower than asin(1/4) are not turned along
+constexpr double narrowest_side = 0.25;   // bands, of a line that an edge runs along
+constexpr double longest_turn = 2.7;      // bands; shallower edges are run along (fit_sides.h), not turned along
 constexpr double most_lean = 4;           // bands that a narrow strip may lean from line to line and still be one strip
 constexpr double deepest_bump = 0.25;     // bands that the edge may stand into a turn
-constexpr double shortest_bead = 1;       // in widths: less is a dab, and a stop of the nozzle for a thousandth of the volume
+constexpr double shortest_bead =
+    1;  // in widths: less is a dab, and a stop of the nozzle for a thousandth of the volume
 
 /// Lines of a region in chains: intervals that lie over each other with no fork between them.
 struct Chains {
@@ -82,13 +85,13 @@ class Filler {
       : style_(style), beads_(beads), frame_(style.angle_rad, style.origin), outline_(region, frame_) {}
 
   void run() {
-    // Lines reach over the edge with their ends only: beside a wall they lie as beside each other.
     const double reach = outline_.greatest_y() - outline_.least_y();
     if (!(reach > 0)) return;
     const double count = std::max(1.0, std::round(reach / style_.band));
     lines_ = {outline_.least_y() + reach / count / 2, reach / count, static_cast<int>(count)};
     width_ = style_.fixed_strand ? style_.band : std::max(1, rounded(lines_.spacing));
     all_ = outline_.cut(lines_);
+    if (!style_.fixed_strand) sides_.emplace(outline_, lines_, all_);
     left_.reserve(all_.size()), right_.reserve(all_.size());
     for (const Interval& i : all_)
       left_.push_back(i.from - over(i.from_edge)), right_.push_back(i.to + over(i.to_edge));
@@ -110,12 +113,18 @@ class Filler {
   }
 
  private:
+  struct Place {
+    Turned at;
+    Um width = 0;
+  };
+
   double length(std::uint32_t i) const { return all_[i].to - all_[i].from; }
   double y(std::uint32_t i) const { return lines_.y(all_[i].line); }
 
   /// How far a line is prolonged along itself to reach `overlap` beyond its edge.
   double over(std::uint32_t edge) const {
     const Turned a = outline_.points()[edge], b = outline_.points()[outline_.next(edge)];
+    if (sides_ && SideFit::along(a, b)) return 0;  // it lies beside the edge there, and its neighbour fits itself to it
     const double sine = std::abs(b.y - a.y) / std::hypot(b.x - a.x, b.y - a.y);
     return style_.overlap_um / std::max(sine, 0.4);  // not far along edges that are nearly parallel to it
   }
@@ -179,25 +188,53 @@ class Filler {
   void emit_lines(std::span<const std::uint32_t> lines) {
     const std::uint32_t first = lines.front();
     bool rightwards = !started_ || std::abs(left_[first] - at_.x) <= std::abs(right_[first] - at_.x);
-    std::vector<Turned> path;
+    std::vector<Place> path;
     double start = rightwards ? left_[first] : right_[first];
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const std::uint32_t here = lines[i];
       double end = rightwards ? right_[here] : left_[here];
-      path.push_back({start, y(here)});
       double next_start = 0;
       const double turn = i + 1 < lines.size() && style_.connect ? turn_length(here, lines[i + 1], rightwards) : 0;
       const double pull = rightwards ? -turn / 2 : turn / 2;
       if (i + 1 < lines.size()) next_start = (rightwards ? right_ : left_)[lines[i + 1]];
       const bool joined = turn > 0 && (end + pull - start) * (rightwards ? 1 : -1) > 0 && length(lines[i + 1]) > turn;
-      path.push_back({joined ? end + pull : end, y(here)});
+      append_line(path, here, start, joined ? end + pull : end);
       if (!joined) {
-        add(path, style_.role, {});
+        add(path, style_.role);
         path.clear();
       }
       start = joined ? next_start + pull : next_start;
       rightwards = !rightwards;
     }
+  }
+
+  /// A line from x to x, as wide at each place as its sides reach.
+  void append_line(std::vector<Place>& path, std::uint32_t i, double from, double to) const {
+    if (!sides_) {
+      for (const double x : {from, to}) path.push_back({{x, y(i)}, width_});
+      return;
+    }
+    const std::vector<Sides> corners = sides_->of(i);
+    const auto at = [&](double x) {
+      auto after = std::find_if(corners.begin(), corners.end(), [x](const Sides& each) { return each.x >= x; });
+      if (after == corners.end()) --after;
+      const Sides& b = *after;
+      const Sides& a = after == corners.begin() ? b : after[-1];
+      const double t = b.x > a.x ? std::clamp((x - a.x) / (b.x - a.x), 0.0, 1.0) : 0;
+      const double below = std::lerp(a.below, b.below, t), above = std::lerp(a.above, b.above, t);
+      const double width = std::clamp(below + above, narrowest_side * lines_.spacing, widest_strand * lines_.spacing);
+      return Place{{x, y(i) + (above - below) / 2}, rounded(width)};
+    };
+    const auto inside = [&](const Sides& each) { return each.x > std::min(from, to) && each.x < std::max(from, to); };
+    path.push_back(at(from));
+    if (from < to) {
+      for (auto c = corners.begin(); c != corners.end(); ++c)
+        if (inside(*c)) path.push_back(at(c->x));
+    } else {
+      for (auto c = corners.rbegin(); c != corners.rend(); ++c)
+        if (inside(*c)) path.push_back(at(c->x));
+    }
+    path.push_back(at(to));
   }
 
   /// Follows the edge from the right (or left) end of a line up to the same end of one on the next line: how far, in x,
@@ -239,37 +276,36 @@ class Filler {
       const double share = (k + 0.5) / strands;
       const auto at = [&](std::uint32_t i) { return Turned{all_[i].from + share * length(i), y(i)}; };
       std::vector<Turned> path;
-      std::vector<Um> widths;
       // the strip reaches half a line beyond its first and its last line
       const Turned first = at(strip[0]), second = at(strip[1]), last = at(strip.back()),
                    before = at(strip[strip.size() - 2]);
       path.push_back({first.x - (second.x - first.x) / 2, first.y - lines_.spacing / 2});
       for (const std::uint32_t i : strip) path.push_back(at(i));
       path.push_back({last.x + (last.x - before.x) / 2, last.y + lines_.spacing / 2});
+      std::vector<Place> places;
       for (std::size_t i = 0; i < path.size(); ++i)
-        widths.push_back(
-            std::max(1, rounded(across(strip, std::clamp<std::size_t>(i, 1, strip.size()) - 1) / strands)));
+        places.push_back({path[i], rounded(across(strip, std::clamp<std::size_t>(i, 1, strip.size()) - 1) / strands)});
       const bool turned = started_ && std::hypot(path.back().x - at_.x, path.back().y - at_.y) <
                                           std::hypot(path.front().x - at_.x, path.front().y - at_.y);
-      if (turned) std::reverse(path.begin(), path.end()), std::reverse(widths.begin(), widths.end());
-      add(path, role, widths);
+      if (turned) std::reverse(places.begin(), places.end());
+      add(places, role);
     }
   }
 
-  void add(const std::vector<Turned>& path, Role role, const std::vector<Um>& widths) {
+  void add(const std::vector<Place>& path, Role role) {
     double total = 0;
     for (std::size_t i = 1; i < path.size(); ++i)
-      total += std::hypot(path[i].x - path[i - 1].x, path[i].y - path[i - 1].y);
+      total += std::hypot(path[i].at.x - path[i - 1].at.x, path[i].at.y - path[i - 1].at.y);
     if (total < shortest_bead * width_) return;
     Bead bead;
     bead.role = role, bead.part = style_.part, bead.sequence = style_.sequence;
     bead.path.reserve(path.size());
-    for (std::size_t i = 0; i < path.size(); ++i) {
-      const Junction j{frame_.back(path[i]), widths.empty() ? width_ : widths[i], static_cast<float>(style_.flow)};
+    for (const Place& place : path) {
+      const Junction j{frame_.back(place.at), std::max(1, place.width), static_cast<float>(style_.flow)};
       if (bead.path.empty() || bead.path.back().at != j.at) bead.path.push_back(j);
     }
     if (bead.path.size() < 2) return;
-    at_ = path.back(), started_ = true;
+    at_ = path.back().at, started_ = true;
     beads_.push_back(std::move(bead));
   }
 
@@ -279,6 +315,7 @@ class Filler {
   Outline outline_;
   LineSet lines_;
   Um width_ = 0;
+  std::optional<SideFit> sides_;  // of lines that may be narrower and wider
   std::vector<Interval> all_;
   std::vector<double> left_, right_;  // ends of each interval, reaching over the edge
   Turned at_;

@@ -62,6 +62,33 @@ TEST_CASE("solid: lines along a side fill the width exactly, whatever it is", "[
   }
 }
 
+TEST_CASE("solid: lines beside an edge cover what is between them and it, whatever the grid of the lines is",
+          "[infill][law]") {
+  const auto offset = GENERATE(range(0, 440, 55));
+  // a hole whose sides lie anywhere between two lines, and an outline that a line runs along at a slant
+  const Region frame = with_hole(rectangle(0, 0, 12000, 9000), 3000, 3000 + offset, 9000, 6000 - offset / 2);
+  const Region wedge{{{0, 0}, {12000, 900 + offset}, {12000, 6000 + offset}, {0, 7000 - offset}}, {}};
+  for (const Region& region : {frame, wedge}) {
+    const Beads beads = filled(region, {.band = 430, .angle_rad = 0, .connect = false});
+    int bare = 0, twice = 0, beyond = 0, all = 0, outside = 0;
+    for (double x = 130; x < 11900; x += 97)
+      for (double y = 20; y < 7000; y += 23) {
+        const bool corner = std::abs(x - 3000) < 150 || std::abs(x - 9000) < 150;  // lines step aside there
+        if (corner) continue;
+        const int n = cover(beads, x, y);
+        const bool in = holds({region}, {rounded(x), rounded(y)});
+        in ? ++all : ++outside;
+        if (in) bare += n == 0, twice += n > 1;
+        if (!in) beyond += n > 0;
+      }
+    CAPTURE(offset, all, outside);
+    // where a line steps aside it lies over a corner of its neighbour
+    CHECK(bare <= all / 100);
+    CHECK(twice <= all / 100);
+    CHECK(beyond <= all / 200);
+  }
+}
+
 TEST_CASE("solid: every line is printed after its neighbour below", "[infill][law]") {
   const Region frame =
       with_hole(with_hole(rectangle(0, 0, 20000, 15000), 4000, 5000, 9000, 9000), 12000, 2000, 16000, 13000);

@@ -1,0 +1,150 @@
+#include "infill/fit_sides.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft::infill {
+namespace {
+
+constexpr double most_slope = 0.4;      // of an edge that lines run along: 22°, where a turn along it becomes too long
+constexpr double shortest = 1;          // spacings; beside shorter edges the nozzle had no time to change its strand
+constexpr double jog = 0.25;            // spacings along a line, in which it moves aside
+constexpr double least_change_um = 15;  // of a side; less is not seen on a print
+constexpr double touching_um = 1;       // the lattice
+
+/// Without the corners between which the sides stay where they are without them.
+std::vector<Sides> thinned(const std::vector<Sides>& all) {
+  const auto off = [&](std::size_t a, std::size_t b, std::size_t i) {
+    const double t = all[b].x > all[a].x ? (all[i].x - all[a].x) / (all[b].x - all[a].x) : 1;
+    return std::max(std::abs(std::lerp(all[a].below, all[b].below, t) - all[i].below),
+                    std::abs(std::lerp(all[a].above, all[b].above, t) - all[i].above));
+  };
+  std::vector<Sides> kept{all.front()};
+  for (std::size_t last = 0, next = 1; next < all.size(); ++next) {
+    bool needed = next + 1 == all.size();
+    for (std::size_t i = last + 1; i <= next && !needed; ++i) needed = off(last, next + 1, i) > least_change_um;
+    if (needed) kept.push_back(all[next]), last = next;
+  }
+  return kept;
+}
+
+template <class Corner>
+double reach_at(const Corner& a, const Corner& b, double x) {
+  return b.x > a.x ? a.reach + (b.reach - a.reach) * (x - a.x) / (b.x - a.x) : b.reach;
+}
+
+}  // namespace
+
+bool SideFit::along(Turned a, Turned b) {
+  return std::abs(b.y - a.y) <= most_slope * std::abs(b.x - a.x);
+}
+
+SideFit::SideFit(const Outline& outline, const LineSet& lines, std::span<const Interval> intervals)
+    : lines_(lines), intervals_(intervals) {
+  const double s = lines.spacing;
+  std::vector<std::uint32_t> first(static_cast<std::size_t>(lines.count) + 1, 0);
+  for (const Interval& i : intervals) ++first[static_cast<std::size_t>(i.line) + 1];
+  for (std::size_t k = 1; k < first.size(); ++k) first[k] += first[k - 1];
+
+  const auto n = static_cast<std::uint32_t>(outline.points().size());
+  for (std::uint32_t e = 0; e < n; ++e) {
+    Turned a = outline.points()[e], b = outline.points()[outline.next(e)];
+    if (!along(a, b) || a.x == b.x) continue;
+    const bool ceiling = b.x < a.x;  // the inside is to the left
+    if (ceiling) std::swap(a, b);
+    const double slope = (b.y - a.y) / (b.x - a.x);
+    const double low = std::min(a.y, b.y) - (ceiling ? s : 0), high = std::max(a.y, b.y) + (ceiling ? 0 : s);
+    const int from_line = static_cast<int>(std::max(0.0, std::floor((low - lines.first) / s)));
+    const int to_line = static_cast<int>(std::min(lines.count - 1.0, std::ceil((high - lines.first) / s)));
+    for (int k = from_line; k <= to_line; ++k) {
+      const auto gap = [&](double x) {
+        const double y = a.y + slope * (x - a.x) - lines.y(k);
+        return ceiling ? y : -y;
+      };
+      // where 0 ≤ gap ≤ s
+      double from = a.x, to = b.x;
+      const double gap_slope = ceiling ? slope : -slope;
+      if (std::abs(gap_slope) > 1e-12) {
+        double x0 = a.x + (0 - gap(a.x)) / gap_slope, x1 = a.x + (s - gap(a.x)) / gap_slope;
+        if (x0 > x1) std::swap(x0, x1);
+        from = std::max(from, x0), to = std::min(to, x1);
+      } else if (gap(a.x) < 0 || gap(a.x) > s) {
+        continue;
+      }
+      const auto k0 = static_cast<std::size_t>(k);
+      const auto begin = intervals.begin() + first[k0], end = intervals.begin() + first[k0 + 1];
+      auto i = std::lower_bound(begin, end, from, [](const Interval& each, double x) { return each.to <= x; });
+      for (; i != end && i->from < to; ++i) {
+        const double l = std::max(from, i->from), r = std::min(to, i->to);
+        if (l < r)
+          (ceiling ? above_ : below_)
+              .push_back({static_cast<std::uint32_t>(i - intervals.begin()), l, r, std::clamp(gap(l), 0.0, s),
+                          std::clamp(gap(r), 0.0, s)});
+      }
+    }
+  }
+  const auto before = [](const Beside& p, const Beside& q) {
+    return p.interval != q.interval ? p.interval < q.interval
+           : p.from != q.from       ? p.from < q.from
+                                    : p.at_from < q.at_from;
+  };
+  std::sort(above_.begin(), above_.end(), before);
+  std::sort(below_.begin(), below_.end(), before);
+}
+
+std::vector<SideFit::Corner> SideFit::side(const Besides& all, std::uint32_t interval) const {
+  const double s = lines_.spacing, half = s / 2;
+  const double from = intervals_[interval].from, to = intervals_[interval].to;
+  auto it = std::lower_bound(all.begin(), all.end(), interval,
+                             [](const Beside& each, std::uint32_t i) { return each.interval < i; });
+  std::vector<Corner> corners, stretch;
+  double open = from;  // where the last stretch ended
+  const auto leave_plain = [&](double until) {
+    if (until - open > jog * s) corners.insert(corners.end(), {{open, half}, {until, half}});
+  };
+  while (it != all.end() && it->interval == interval) {
+    // edges that follow each other without a hole between them are one stretch
+    stretch.clear();
+    for (double reached = it->from; it != all.end() && it->interval == interval && it->from <= reached + touching_um;
+         ++it) {
+      if (it->to <= reached) continue;  // hidden behind the last one
+      const Corner a{it->from, it->at_from}, b{it->to, it->at_to};
+      const double x = std::max(reached, a.x);
+      stretch.insert(stretch.end(), {{x, reach_at(a, b, x)}, b});
+      reached = b.x;
+    }
+    if (stretch.back().x - stretch.front().x < shortest * s) continue;
+    leave_plain(stretch.front().x);
+    corners.insert(corners.end(), stretch.begin(), stretch.end());
+    open = stretch.back().x;
+  }
+  leave_plain(to);
+  if (corners.empty()) return {{from, half}, {to, half}};
+  // what jumps takes a way along the line
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    Corner &a = corners[i - 1], &b = corners[i];
+    if (b.x - a.x > touching_um || std::abs(b.reach - a.reach) < least_change_um) continue;
+    const double before = i > 1 ? a.x - corners[i - 2].x : 0,
+                 after = i + 1 < corners.size() ? corners[i + 1].x - b.x : 0;
+    a.x -= std::min(jog * s, before) / 2, b.x += std::min(jog * s, after) / 2;
+  }
+  return corners;
+}
+
+std::vector<Sides> SideFit::of(std::uint32_t interval) const {
+  const std::vector<Corner> below = side(below_, interval), above = side(above_, interval);
+  const auto between = [](const std::vector<Corner>& c, std::size_t i, double x) {
+    return i == 0 ? c.front().reach : i < c.size() ? reach_at(c[i - 1], c[i], x) : c.back().reach;
+  };
+  std::vector<Sides> all;
+  for (std::size_t b = 0, a = 0; b < below.size() || a < above.size();) {
+    if (a == above.size() || (b < below.size() && below[b].x <= above[a].x)) {
+      all.push_back({below[b].x, below[b].reach, between(above, a, below[b].x)}), ++b;
+    } else {
+      all.push_back({above[a].x, between(below, b, above[a].x), above[a].reach}), ++a;
+    }
+  }
+  return thinned(all);
+}
+
+}  // namespace weft::infill

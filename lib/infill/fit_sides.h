@@ -1,0 +1,53 @@
+#pragma once
+#include "infill/scan.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace weft::infill {
+
+/// How far a line reaches sideways at a place along it.
+struct Sides {
+  double x = 0;
+  double below = 0, above = 0;  ///< from the line; fractional microns
+};
+
+/// Where edges run along the lines of a fill, closer than the next line would lie, a line ends at the edge: it covers
+/// what is its own half of the spacing, less or more. So a fill neither lies in a wall along it nor leaves a gap there,
+/// although its lines stand on one grid. Edges across the lines are none of this: there lines end or turn.
+class SideFit {
+ public:
+  /// Pre: the intervals are the outline's on these lines, as `Outline::cut` gives them; outer rings run
+  ///      counter-clockwise, holes clockwise.
+  /// Cost: O(n log n) in the edges and intervals.
+  SideFit(const Outline& outline, const LineSet& lines, std::span<const Interval> intervals);
+
+  /// Whether lines run along the edge, rather than end at it.
+  static bool along(Turned a, Turned b);
+
+  /// Corners of what an interval covers, from its left end to its right one, straight between them; two corners or
+  /// more.
+  std::vector<Sides> of(std::uint32_t interval) const;
+
+ private:
+  /// A stretch of an interval with an edge beside it.
+  struct Beside {
+    std::uint32_t interval = 0;
+    double from = 0, to = 0;        // x
+    double at_from = 0, at_to = 0;  // distances to the edge
+  };
+  using Besides = std::vector<Beside>;
+
+  /// A side's reach at places along an interval, straight between them.
+  struct Corner {
+    double x = 0, reach = 0;
+  };
+  std::vector<Corner> side(const Besides& all, std::uint32_t interval) const;
+
+  LineSet lines_;
+  std::span<const Interval> intervals_;
+  Besides above_, below_;  // by interval, then from left to right
+};
+
+}  // namespace weft::infill
