@@ -4,6 +4,7 @@
 //   build/fuzz/tests/fuzz_macro -max_total_time=900 -max_len=4096 corpus/ tests/fuzz/seeds/macro
 #include "core/error.h"
 #include "macro/macro.h"
+#include "macro/variables.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -23,17 +24,11 @@ void require(bool holds) {
 
 const Variables& figures() {
   static const Variables all = [] {
-    Variables v;
+    Variables v = test::variables();
     v["temperature"] = variable_of("215,220");
-    v["first_layer_temperature"] = variable_of("230");
-    v["retract"] = variable_of("0.8,nil,1.2");
     v["fill_density"] = variable_of("20%");
-    v["override"] = variable_of("nil");
-    v["notes"] = variable(std::string("a\nPRINTER_MODEL_MK3\nb"));
-    v["layer_num"] = variable(std::int64_t{3});
     v["layer_z"] = variable(0.65);
     v["soluble"] = variable(true);
-    v["travel_z"] = {.values = {}, .text = {}, .missing = "is auto"};
     return v;
   }();
   return all;

@@ -1,5 +1,6 @@
 #include "core/error.h"
 #include "macro/macro.h"
+#include "macro/variables.h"
 #include "settings_error.h"
 
 #include <random>
@@ -9,27 +10,16 @@
 using namespace weft;
 using namespace weft::macro;
 using Catch::Matchers::Contains;
+using weft::test::variables;
 
 namespace {
-
-Variables some() {
-  Variables out;
-  out["temperature"] = variable_of("215");
-  out["first_layer_temperature"] = variable_of("230");
-  out["retract"] = variable_of("0.8,nil,1.2");
-  out["override"] = variable_of("nil");
-  out["notes"] = variable(std::string("a\nMK3\nb"));
-  out["layer_num"] = variable(std::int64_t{3});
-  out["travel_z"] = {.values = {}, .text = {}, .missing = "is auto"};
-  return out;
-}
 
 std::string expanded(std::string_view text) {
   Scope scope;
   Variables globals;
   const Template read(text, "start_gcode");
-  read.check(some(), globals);
-  return read.expand(some(), scope);
+  read.check(variables(), globals);
+  return read.expand(variables(), scope);
 }
 
 std::string message(std::string_view text) {
@@ -53,13 +43,13 @@ TEST_CASE("macro: global variables are shared by the texts that come later") {
   Scope scope;
   Variables globals;
   const Template first("{global count = 0}", "start_gcode"), each("{count = count + 1}{count}", "layer_gcode");
-  first.check(some(), globals);
-  each.check(some(), globals);
-  CHECK(first.expand(some(), scope) == "");
-  CHECK(each.expand(some(), scope) == "1");
-  CHECK(each.expand(some(), scope) == "2");
+  first.check(variables(), globals);
+  each.check(variables(), globals);
+  CHECK(first.expand(variables(), scope) == "");
+  CHECK(each.expand(variables(), scope) == "1");
+  CHECK(each.expand(variables(), scope) == "2");
   Variables none;
-  CHECK_THROWS_WITH(each.check(some(), none), Contains("layer_gcode:1:10: unknown placeholder 'count'"));
+  CHECK_THROWS_WITH(each.check(variables(), none), Contains("layer_gcode:1:10: unknown placeholder 'count'"));
 }
 
 TEST_CASE("macro: conditions stand around text, or within braces") {
@@ -212,14 +202,14 @@ TEST_CASE("macro: no bytes whatever crash the reader") {
 }
 
 TEST_CASE("macro: a condition alone") {
-  CHECK(holds("", some(), "compatible_printers_condition"));
-  CHECK(holds("  ", some(), "compatible_printers_condition"));
-  CHECK(holds("notes=~/.*MK3.*/ and temperature[0]<240", some(), "x"));
-  CHECK(!holds("notes!~/.*MK3.*/ or layer_num!=3", some(), "x"));
-  CHECK_THROWS_WITH(holds("notess=~/a/", some(), "compatible_printers_condition"),
+  CHECK(holds("", variables(), "compatible_printers_condition"));
+  CHECK(holds("  ", variables(), "compatible_printers_condition"));
+  CHECK(holds("notes=~/.*MK3.*/ and temperature[0]<240", variables(), "x"));
+  CHECK(!holds("notes!~/.*MK3.*/ or layer_num!=3", variables(), "x"));
+  CHECK_THROWS_WITH(holds("notess=~/a/", variables(), "compatible_printers_condition"),
                     Contains("compatible_printers_condition:1:1: unknown placeholder 'notess'"));
-  CHECK_THROWS_WITH(holds("true true", some(), "x"), Contains("x:1:6") && Contains("left over"));
-  CHECK_THROWS_WITH(holds("1", some(), "x"), Contains("neither true nor false"));
+  CHECK_THROWS_WITH(holds("true true", variables(), "x"), Contains("x:1:6") && Contains("left over"));
+  CHECK_THROWS_WITH(holds("1", variables(), "x"), Contains("neither true nor false"));
 }
 
 TEST_CASE("macro: values in the words of an ini have types") {
@@ -236,5 +226,7 @@ TEST_CASE("macro: values in the words of an ini have types") {
 }
 
 TEST_CASE("macro: a back-reference of many digits is refused, not read beyond what a number holds") {
+  // It can fail under the undefined-behaviour sanitizer only (preset asan): elsewhere the library, having overflowed,
+  // refuses it as well. The fuzz seed `back-reference` is such a pattern in a condition.
   CHECK(message("{\"a\" =~ /x\\55555555555555555555555/}").find("is not a regular expression") != std::string::npos);
 }
