@@ -43,7 +43,7 @@ struct MedialAxis {
 /// Pre:    orientation as Region says; anything else may be wrong with it: collinear, double and touching points, rings
 ///         that cross by rounding. Such an outline is first made simple on a grid 64 times finer than the lattice.
 /// Post:   clearances are exact to 0.1 µm; the graph's order is combinatorial, never a matter of rounded coordinates.
-/// Cost:   O(n log n), about 10 µs a vertex.
+/// Cost:   O(n log n), 3 to 4 µs a vertex (tests/benchmark/RESULTS.md).
 /// Source: Karavelas 2004, "A robust and efficient implementation for the segment Voronoi diagram" (CGAL).
 MedialAxis medial_axis(const Region& region);
 

@@ -29,6 +29,16 @@
 /// that bound leaves open is asked of CGAL: the graph is the same.
 namespace weft::geometry::detail {
 
+/// A vertex or a face of CGAL's that carries data of ours.
+template <class Base, class Data>
+struct Carrier : Base, Data {
+  using Base::Base;
+  template <class Tds>
+  struct Rebind_TDS {
+    using Other = Carrier<typename Base::template Rebind_TDS<Tds>::Other, Data>;
+  };
+};
+
 /// What one vertex of the graph stands for: a point of the outline, or an edge between two of them.
 struct GraphSite {
   double ax = 0, ay = 0, bx = 0, by = 0;  ///< µm; b is a for a point
@@ -37,25 +47,14 @@ struct GraphSite {
   bool ends_in(std::uint32_t point) const { return a == point || b == point; }
 };
 
-template <class Base>
-struct GraphVertex : Base {
-  using Base::Base;
-  template <class Tds>
-  struct Rebind_TDS {
-    using Other = GraphVertex<typename Base::template Rebind_TDS<Tds>::Other>;
-  };
+/// A vertex: the site it is, and its number.
+struct VertexData {
   std::uint32_t number = 0;
   GraphSite graph_site;
 };
 
-/// A face with its circle.
-template <class Base>
-struct GraphFace : Base {
-  using Base::Base;
-  template <class Tds>
-  struct Rebind_TDS {
-    using Other = GraphFace<typename Base::template Rebind_TDS<Tds>::Other>;
-  };
+/// A face: its circle, and its number.
+struct FaceData {
   std::uint32_t number = 0;
   enum class Circle : std::uint8_t { unknown, bounded, doubtful, point } circle = Circle::unknown;
   double x = 0, y = 0;
@@ -103,15 +102,15 @@ struct GraphTraits : GraphFilteredTraits {
 using GraphStorage = CGAL::Segment_Delaunay_graph_storage_traits_2<GraphTraits>;
 using GraphBase = CGAL::Segment_Delaunay_graph_2<
     GraphTraits, GraphStorage,
-    CGAL::Triangulation_data_structure_2<GraphVertex<CGAL::Segment_Delaunay_graph_vertex_base_2<GraphStorage>>,
-                                         GraphFace<CGAL::Segment_Delaunay_graph_face_base_2<GraphTraits>>>>;
+    CGAL::Triangulation_data_structure_2<Carrier<CGAL::Segment_Delaunay_graph_vertex_base_2<GraphStorage>, VertexData>,
+                                         Carrier<CGAL::Segment_Delaunay_graph_face_base_2<GraphTraits>, FaceData>>>;
 
 class SegmentGraph : public GraphBase {
  public:
   using Point = GraphTraits::Point_2;
   using Face = Face_handle;
   using Vertex = Vertex_handle;
-  using Circle = std::remove_cvref_t<decltype(std::declval<Face>()->circle)>;
+  using Circle = FaceData::Circle;
 
   /// Inserts the points and the segments between them. Pre: points are distinct; segments meet in common ends only and
   /// are distinct.

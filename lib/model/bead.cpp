@@ -10,6 +10,12 @@ void for_each_segment(const Bead& bead, F f) {
 }
 }  // namespace
 
+Box box_of(const Bead& bead) {
+  Box box;
+  for (const Junction& j : bead.path) box.add(j.at);
+  return box;
+}
+
 double length_mm(const Bead& bead) {
   double um = 0;
   for_each_segment(bead, [&](const Junction& a, const Junction& b) { um += distance(a.at, b.at); });

@@ -80,6 +80,9 @@ inline double mean_area_mm2(const Junction& a, const Junction& b, double height_
   return (2 * wa * fa + wa * fb + wb * fa + 2 * wb * fb) / 6000.0 * height_mm;
 }
 
+/// Around the centreline.
+Box box_of(const Bead& bead);
+
 /// Length of the centreline, mm; a closed bead's closing segment counts.
 double length_mm(const Bead& bead);
 

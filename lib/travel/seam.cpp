@@ -205,9 +205,7 @@ Start choose_seam(const TravelSettings& settings, const Bead& bead, std::span<co
   // The line of the seams below, if this wall continues one.
   Start plain = rearmost(bead);
   double nearest = same_line_um;
-  Box around;
-  for (const auto& j : bead.path) around.add(j.at);
-  around = around.grown(static_cast<Um>(same_line_um) + 1);
+  const Box around = box_of(bead).grown(static_cast<Um>(same_line_um) + 1);
   for (const Point q : below.seams) {
     if (!around.contains(q)) continue;
     const Start s = nearest_start(bead, q, snap_um);

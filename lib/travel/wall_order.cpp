@@ -127,8 +127,7 @@ class WallOrder {
     for (std::uint32_t w = 0; w < n; ++w)
       if (waiting[w] == 0) ready.push_back(w);
     std::vector<Box> boxes(n);
-    for (std::uint32_t w = 0; w < n; ++w)
-      for (const auto& junction : bead(w).path) boxes[w].add(junction.at);
+    for (std::uint32_t w = 0; w < n; ++w) boxes[w] = box_of(bead(w));
     std::optional<Point> at = from_;
     while (!ready.empty()) {
       std::size_t best = 0;

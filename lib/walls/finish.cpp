@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace weft::walls {
 namespace {
 
 using Vertex = Line::Vertex;
 
-constexpr double straight_um = 1.0;      // a vertex this close to its neighbours' chord is left out
-constexpr double even_um = 2.0;          // … where the width is this close to theirs
-constexpr double even_at_outline = 1.0;  // of the width: an end at the outline that tapers more keeps its steps
-constexpr double even_inside = 0.5;      // … and one inside
-constexpr double width_step_um = 10.0;   // a segment is printed at one width: no more difference over it than this
+constexpr double straight_um = 1.0;     // a vertex this close to its neighbours' chord is left out
+constexpr double even_um = 2.0;         // … where the width is this close to theirs
+constexpr double even_inside = 0.5;     // of the width: an end inside that tapers more keeps its steps
+constexpr double any_taper = 1.0;       // … no end tapers more
+constexpr double width_step_um = 10.0;  // a segment is printed at one width: no more difference over it than this
 
 /// True when b lies on the way from a to c.
 bool on_the_way(const Vertex& a, const Vertex& b, const Vertex& c) {
@@ -46,14 +45,16 @@ void thin_out(std::vector<Vertex>& path) {
 }
 
 /// The first segment of an open bead reaches as far as any later bend may swell back: half the width there.
+/// An end that tapers by more than `most_uneven` of its width stays as it is.
 void steady_start(std::vector<Vertex>& path, double most_uneven) {
   std::size_t last = 0;
-  double along = 0, volume = 0, volume_there = 0;
+  double along = 0, there = 0;  // to where the loop is; to `last`
+  double area = 0, area_there = 0;
   for (std::size_t i = 1; i + 1 < path.size() && along < 2000; ++i) {
     const double d = distance(path[i - 1].at, path[i].at);
     along += d;
-    volume += d * (path[i - 1].width + path[i].width) / 2;
-    if (along < 0.98 * path[i].width / 2) last = i, volume_there = volume;
+    area += d * (path[i - 1].width + path[i].width) / 2;
+    if (along < 0.98 * path[i].width / 2) last = i, there = along, area_there = area;
   }
   if (last == 0) return;
   const auto [thin, thick] = std::minmax_element(path.begin(), path.begin() + static_cast<long>(last) + 2,
@@ -61,19 +62,12 @@ void steady_start(std::vector<Vertex>& path, double most_uneven) {
   if (thick->width - thin->width > most_uneven * thick->width) return;
   const Vertex from = path[last], next = path[last + 1];
   const double length = distance(from.at, next.at), reach = std::max(from.width, next.width) / 2;
-  const double there = std::accumulate(path.begin() + 1, path.begin() + static_cast<long>(last) + 1, 0.0,
-                                       [before = path[0].at](double sum, const Vertex& v) mutable {
-                                         sum += distance(before, v.at);
-                                         before = v.at;
-                                         return sum;
-                                       });
   const double t = std::clamp((reach - there) / std::max(1.0, length), 0.0, 1.0);
-  const Vertex second{{from.at.x + t * (next.at.x - from.at.x), from.at.y + t * (next.at.y - from.at.y)},
-                      from.width + t * (next.width - from.width)};
+  const Vertex second = lerp(from, next, t);
   const double whole = distance(path[0].at, second.at);
   if (whole < 1) return;
-  volume_there += t * length * (from.width + second.width) / 2;
-  path[0].width = std::max(1.0, 2 * volume_there / whole - second.width);
+  area_there += t * length * (from.width + second.width) / 2;
+  path[0].width = std::max(1.0, 2 * area_there / whole - second.width);
   path.erase(path.begin() + 1, path.begin() + static_cast<long>(last));
   path[1] = second;
 }
@@ -87,33 +81,23 @@ void limit_steps(std::vector<Vertex>& path) {
       const double d = distance(a.at, b.at);
       const int pieces =
           std::clamp(static_cast<int>(std::min(std::abs(b.width - a.width) / width_step_um, d / 20)), 1, 1000);
-      for (int k = 1; k < pieces; ++k) {
-        const double t = static_cast<double>(k) / pieces;
-        out.push_back(
-            {{a.at.x + t * (b.at.x - a.at.x), a.at.y + t * (b.at.y - a.at.y)}, a.width + t * (b.width - a.width)});
-      }
+      for (int k = 1; k < pieces; ++k) out.push_back(lerp(a, b, static_cast<double>(k) / pieces));
     }
     out.push_back(path[i]);
   }
   path = std::move(out);
 }
 
-double volume_of(const std::vector<Vertex>& path, double most) {
-  double sum = 0;
-  for (std::size_t i = 1; i < path.size(); ++i)
-    sum +=
-        distance(path[i - 1].at, path[i].at) * (std::min(most, path[i - 1].width) + std::min(most, path[i].width)) / 2;
-  return sum;
-}
-
 /// What a bead may not be wide it is elsewhere, within limits.
 void keep_within(std::vector<Vertex>& path, double most) {
   constexpr double most_more = 1.1;
   if (std::none_of(path.begin(), path.end(), [&](const Vertex& v) { return v.width > most; })) return;
-  const double wanted = volume_of(path, 1e18);
+  const double wanted = area_of(path);
   for (int round = 0; round < 3; ++round) {  // again, for some that grow reach the limit themselves
-    const double more = std::min(most_more, wanted / std::max(1.0, volume_of(path, most)));
-    for (Vertex& v : path) v.width = std::min(most, v.width) * (v.width < most ? more : 1);
+    for (Vertex& v : path) v.width = std::min(most, v.width);
+    const double more = std::min(most_more, wanted / std::max(1.0, area_of(path)));
+    for (Vertex& v : path)
+      if (v.width < most) v.width *= more;
   }
 }
 
@@ -122,8 +106,7 @@ std::vector<std::vector<Vertex>> thick_stretches(const std::vector<Vertex>& path
   std::vector<std::vector<Vertex>> out;
   bool open = false;
   auto between = [&](const Vertex& a, const Vertex& b) {
-    const double t = (least - a.width) / (b.width - a.width);
-    return Vertex{{a.at.x + t * (b.at.x - a.at.x), a.at.y + t * (b.at.y - a.at.y)}, least};
+    return Vertex{lerp(a.at, b.at, (least - a.width) / (b.width - a.width)), least};
   };
   for (std::size_t i = 0; i < path.size(); ++i) {
     const bool thick = path[i].width >= least;
@@ -192,10 +175,10 @@ void finish(Line line, const FinishOptions& o, Beads& out, double& dropped_mm) {
     keep_within(stretch, o.most_width);
     thin_out(stretch);
     limit_steps(stretch);
-    steady_start(stretch, 1);
+    steady_start(stretch, any_taper);
     if (!last_meets) {  // travel may begin there
       std::reverse(stretch.begin(), stretch.end());
-      steady_start(stretch, line.inset == 0 ? even_at_outline : even_inside);
+      steady_start(stretch, line.inset == 0 ? any_taper : even_inside);
       std::reverse(stretch.begin(), stretch.end());
     }
     emit(stretch, false, line.inset, o, out);

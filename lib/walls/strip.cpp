@@ -315,16 +315,14 @@ std::vector<Vertex> Strip::bead() {
     path.insert(path.end(), last_end.begin(), last_end.end());
   }
   if (path.size() < 2) return {};
-  double volume = 0;
-  for (std::size_t i = 1; i < path.size(); ++i)
-    volume += distance(path[i - 1].at, path[i].at) * (path[i - 1].width + path[i].width) / 2;
-  if (closed) volume += distance(path.back().at, path.front().at) * (path.back().width + path.front().width) / 2;
-  if (volume < 1) return {};
+  double laid = area_of(path);
+  if (closed) laid += area_between(path.back(), path.front());
+  if (laid < 1) return {};
   double own = area();  // and what walls that turn back at its ends leave of theirs
   own += 2 * (free_.front() * lean_first + free_.back() * lean_last);
   if (turn_first) own -= free_at(skip_first) * skip_first;  // in an arc
   if (turn_last) own -= free_at(whole - skip_last) * skip_last;
-  const double scale = std::clamp(own / volume, 0.85, 1.15);
+  const double scale = std::clamp(own / laid, 0.85, 1.15);
   for (Vertex& v : path) v.width *= scale;
   return path;
 }

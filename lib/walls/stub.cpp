@@ -113,14 +113,13 @@ std::vector<Vertex> stub_bead(const std::vector<Place>& ring) {
   if (length < 4 * before_end_um) return {};
   const int pieces = std::clamp(static_cast<int>(std::ceil(length / step_um)), 1, 200);
   std::vector<Vertex> path;
-  double volume = 0;
   for (int i = 0; i <= pieces; ++i) {
     const double x = cut.from + length * i / pieces;
     const auto room = cut.beside(std::clamp(x, cut.from + before_end_um, cut.to - before_end_um));
     path.push_back({{shape.centre.x + x * best.x, shape.centre.y + x * best.y}, std::max(1.0, room.left + room.right)});
-    if (i > 0) volume += length / pieces * (path[path.size() - 2].width + path.back().width) / 2;
   }
-  for (Vertex& v : path) v.width *= shape.area / volume;
+  const double scale = shape.area / area_of(path);
+  for (Vertex& v : path) v.width *= scale;
   return path;
 }
 

@@ -102,13 +102,18 @@ double length_of(const std::vector<Vertex>& path) {
   return sum;
 }
 
+double area_of(const std::vector<Vertex>& path) {
+  double sum = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) sum += area_between(path[i - 1], path[i]);
+  return sum;
+}
+
 void cut_end(std::vector<Vertex>& path, double by) {
   while (path.size() > 1) {
     Vertex &last = path.back(), &before = path[path.size() - 2];
     const double d = distance(last.at, before.at);
     if (d > by) {
-      const double t = by / d;
-      last = {lerp(last.at, before.at, t), last.width + t * (before.width - last.width)};
+      last = lerp(last, before, by / d);
       return;
     }
     by -= d;
@@ -125,8 +130,7 @@ void append(std::vector<Vertex>& path, Vertex start, const Vertex& end) {
   } else {  // the step stays where it is, or it would be spread over the length of the pieces
     const Vertex at = path.back(), before = path[path.size() - 2];
     const auto near = [&](const Vertex& from, const Vertex& other) {
-      const double t = std::min(0.25, step_um / std::max(1.0, distance(from.at, other.at)));
-      return Vertex{lerp(from.at, other.at, t), from.width + t * (other.width - from.width)};
+      return lerp(from, other, std::min(0.25, step_um / std::max(1.0, distance(from.at, other.at))));
     };
     path.back() = near(at, before);
     path.push_back({at.at, (at.width + start.width) / 2});

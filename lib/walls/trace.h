@@ -20,7 +20,17 @@ struct Line {
 /// Adds a piece to a line in the making; its width need not be that of the line's end.
 void append(std::vector<Line::Vertex>& path, Line::Vertex start, const Line::Vertex& end);
 
+inline Line::Vertex lerp(const Line::Vertex& a, const Line::Vertex& b, double t) {
+  return {lerp(a.at, b.at, t), a.width + t * (b.width - a.width)};
+}
+
 double length_of(const std::vector<Line::Vertex>& path);
+/// What a bead covers on its way from one vertex to another, µm².
+inline double area_between(const Line::Vertex& a, const Line::Vertex& b) {
+  return distance(a.at, b.at) * (a.width + b.width) / 2;
+}
+/// … and on all of an open path.
+double area_of(const std::vector<Line::Vertex>& path);
 /// Takes `by` from the end of a path; a point is left at least.
 void cut_end(std::vector<Line::Vertex>& path, double by);
 

@@ -218,11 +218,7 @@ class Tracer {
   /// The line at distance `inner` over one half, up to where the axis comes nearer to the outline than that.
   void add_piece(std::uint32_t g, double inner, std::vector<Place>& ring) const {
     const double a = s_.start(g).clearance, b = s_.end(g).clearance;
-    const auto crossing = [&] {
-      const double t = (inner - a) / (b - a);
-      const Place p = s_.start(g).at, q = s_.end(g).at;
-      return Place{p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)};
-    };
+    const auto crossing = [&] { return lerp(s_.start(g).at, s_.end(g).at, (inner - a) / (b - a)); };
     if (a < inner && b < inner) return;
     ring.push_back(a < inner ? crossing() : s_.on_start_rib(g, inner));
     ring.push_back(b < inner ? crossing() : s_.on_end_rib(g, inner));

@@ -17,10 +17,9 @@ struct WallInput {
 
 /// Lays beads along the outlines of one layer, widening or narrowing them so that no gap is left.
 /// Post:   the bands cover `layer.regions` (moved by the xy offsets) less `inside`; beads of a part follow each other
-/// in
-///         the order they are printed; Bead::part is the index of the region they lie in.
+///         in the order they are printed; Bead::part is the index of the region they lie in.
 /// Throws: nothing on odd geometry: what could not be printed is a notice.
-/// Cost:   O(n log n) in the vertices, 12 to 25 µs a vertex.
+/// Cost:   O(n log n) in the vertices, 6 to 10 µs a vertex (tests/benchmark/RESULTS.md).
 /// Source: Kuipers et al. 2020, "A framework for adaptive width control of dense contour-parallel toolpaths in fused
 ///         deposition modeling"; widths are bands (model/flow.h).
 WallLayer build(const WallSettings& settings, const WallInput& input);
