@@ -1,9 +1,9 @@
 #include "batch_run.h"
 
+#include "core/figures.h"
 #include "core/version.h"
 
 #include <atomic>
-#include <cmath>
 #include <csignal>
 
 #include <fmt/format.h>
@@ -23,21 +23,10 @@ extern "C" void note_batch_interrupt(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
-std::string duration(double seconds) {
-  const auto s = static_cast<long long>(seconds + 0.5);
-  return s < 60     ? fmt::format("{} s", s)
-         : s < 3600 ? fmt::format("{}m {:02}s", s / 60, s % 60)
-                    : fmt::format("{}h {:02}m", s / 3600, s / 60 % 60);
-}
-
-double rounded3(double v) {
-  return std::round(v * 1000) / 1000;
-}
-
 void show(Console& console, const jobs::Progress& p) {
   const auto done = p.made + p.unchanged + p.failed;
   const auto failed = p.failed == 0 ? std::string() : fmt::format(", {} failed", p.failed);
-  const auto left = p.left_s ? fmt::format(", {} left", duration(*p.left_s)) : std::string();
+  const auto left = p.left_s ? fmt::format(", {} left", short_duration(*p.left_s)) : std::string();
   Json facts{{"stage", "batch"},
              {"share", rounded3(p.share)},
              {"jobs", p.jobs},
@@ -180,7 +169,7 @@ int conclude(Console& console, const Finished& finished, const StageCache& cache
   const auto text = fmt::format(
       "{} jobs: {} made, {} unchanged, {} failed{}; {} layers in {}, {:.0f} layers/s, {:.2f} jobs/s, peak {:.0f} MB",
       p.jobs, p.made, p.unchanged, p.failed, collected.missing ? fmt::format(", {} not run", collected.missing) : "",
-      p.layers, duration(p.seconds), p.layers_per_s, p.seconds > 0 ? static_cast<double>(p.made) / p.seconds : 0.0,
+      p.layers, short_duration(p.seconds), p.layers_per_s, p.seconds > 0 ? static_cast<double>(p.made) / p.seconds : 0.0,
       peak_memory_mb());
   console.info(text);
   console.detail("cache: " + told(cache));

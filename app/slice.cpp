@@ -8,6 +8,7 @@
 
 #include "batch_run.h"
 #include "command.h"
+#include "core/figures.h"
 #include "core/hash.h"
 #include "limits.h"
 #include "pipeline/pipeline.h"
@@ -117,14 +118,9 @@ void warn(Console& console, const Notices& notices, std::size_t most) {
     if (count > most) console.warning({code, fmt::format("{} more of the kind {}; -v shows them, --report lists them", count - most, code)});
 }
 
-std::string duration(double seconds) {
-  const auto s = static_cast<long long>(seconds + 0.5);
-  return s < 3600 ? fmt::format("{}m {}s", s / 60, s % 60) : fmt::format("{}h {}m", s / 3600, s / 60 % 60);
-}
-
 std::string summary(const Report& r) {
   return fmt::format("{} layers, {:.2f} mm high, {} to print, {:.2f} m of filament ({:.1f} g); audit: {}, {} moves checked", r.layers, r.height_mm,
-                     duration(r.print_time_s), r.filament_mm / 1000, r.filament_g, r.audit.verdict, r.audit.checked_moves);
+                     short_duration(r.print_time_s), r.filament_mm / 1000, r.filament_g, r.audit.verdict, r.audit.checked_moves);
 }
 
 }  // namespace

@@ -2,18 +2,15 @@
 
 #include <sys/resource.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/figures.h"
 #include "core/version.h"
 
 namespace weft {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// Rounded for reading: a thousandth is beyond what any of these figures means.
-double rounded3(double v) { return std::round(v * 1000.0) / 1000.0; }
 
 std::string_view name_of(Report::Status status) {
   switch (status) {
