@@ -1,5 +1,7 @@
 #include "travel/seam.h"
 
+#include "travel/box_tree.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -205,9 +207,15 @@ Start choose_seam(const TravelSettings& settings, const Bead& bead, std::span<co
   // The line of the seams below, if this wall continues one.
   Start plain = rearmost(bead);
   double nearest = same_line_um;
-  const Box around = box_of(bead).grown(static_cast<Um>(same_line_um) + 1);
+  const Box box = box_of(bead);
+  const Box around = box.grown(static_cast<Um>(same_line_um) + 1);
+  // The seam that is nearest to the box is likely the one, and tells which others need a look at the whole wall.
+  const Point* likely = nullptr;
+  for (const Point& q : below.seams)
+    if (around.contains(q) && (!likely || distance2_to(box, q) < distance2_to(box, *likely))) likely = &q;
+  const double bound_um = likely ? distance(nearest_start(bead, *likely, snap_um).at, *likely) : 0.0;
   for (const Point q : below.seams) {
-    if (!around.contains(q)) continue;
+    if (!around.contains(q) || std::sqrt(distance2_to(box, q)) > bound_um) continue;
     const Start s = nearest_start(bead, q, snap_um);
     const double d = distance(s.at, q);
     if (d < nearest) nearest = d, plain = s;

@@ -1,5 +1,7 @@
 #include "travel/wall_order.h"
 
+#include "travel/box_tree.h"
+
 #include <algorithm>
 #include <limits>
 #include <span>
@@ -113,48 +115,37 @@ class WallOrder {
     return turn(w, *best, false);
   }
 
-  /// Nothing in the box is nearer, µm².
-  static std::int64_t distance2_to(const Box& box, Point p) {
-    return distance2(p, {std::clamp(p.x, box.min.x, box.max.x), std::clamp(p.y, box.min.y, box.max.y)});
-  }
-
   /// The nearest wall whose predecessors are done, again and again.
   Sequence greedy() const {
     const auto n = static_cast<std::uint32_t>(block_.walls.size());
-    Sequence sequence, ready;
+    Sequence sequence;
     std::vector<std::uint32_t> waiting(n, 0);
     for (const auto& t : touches_) ++waiting[t.second];
-    for (std::uint32_t w = 0; w < n; ++w)
-      if (waiting[w] == 0) ready.push_back(w);
     std::vector<Box> boxes(n);
     for (std::uint32_t w = 0; w < n; ++w) boxes[w] = box_of(bead(w));
+    BoxTree ready(boxes);
+    for (std::uint32_t w = 0; w < n; ++w)
+      if (waiting[w] == 0) ready.set(w, boxes[w]);
     std::optional<Point> at = from_;
-    while (!ready.empty()) {
-      std::size_t best = 0;
-      Turn best_turn;
-      std::int64_t best2 = std::numeric_limits<std::int64_t>::max();
-      const auto look = [&](std::size_t k) {
-        const Turn t = nearest(ready[k], at);
-        const std::int64_t d2 = at ? distance2(*at, begin_of(bead(ready[k]), t)) : 0;
-        if (d2 < best2 || (d2 == best2 && ready[k] < ready[best])) best = k, best2 = d2, best_turn = t;
-      };
-      if (at) {  // the nearest box first: then few of the others need a look
-        std::int64_t nearest2 = best2;
-        std::size_t first = 0;
-        for (std::size_t k = 0; k < ready.size(); ++k)
-          if (const auto d2 = distance2_to(boxes[ready[k]], *at); d2 < nearest2) nearest2 = d2, first = k;
-        look(first);
-      }
-      for (std::size_t k = 0; k < ready.size(); ++k)
-        if (!at || distance2_to(boxes[ready[k]], *at) <= best2) look(k);
-      const std::uint32_t done = ready[best];
-      ready.erase(ready.begin() + static_cast<std::ptrdiff_t>(best));
+    while (sequence.size() < n) {
+      std::uint32_t done = n;
+      Turn done_turn;
+      std::int64_t nearest2 = std::numeric_limits<std::int64_t>::max();
+      ready.search(
+          static_cast<double>(nearest2), [&](const Box& box, double) { return at ? distance2_to(box, *at) : 0.0; },
+          [&](std::uint32_t w) {
+            const Turn t = nearest(w, at);
+            const std::int64_t d2 = at ? distance2(*at, begin_of(bead(w), t)) : 0;
+            if (d2 < nearest2 || (d2 == nearest2 && w < done)) done = w, nearest2 = d2, done_turn = t;
+            return static_cast<double>(nearest2);
+          });
+      ready.set(done, {});
       sequence.push_back(done);
-      at = end_of(bead(done), best_turn);
+      at = end_of(bead(done), done_turn);
       const auto first = std::lower_bound(touches_.begin(), touches_.end(), done,
                                           [](const Touch& t, std::uint32_t w) { return t.first < w; });
       for (auto t = first; t != touches_.end() && t->first == done; ++t)
-        if (--waiting[t->second] == 0) ready.push_back(t->second);
+        if (--waiting[t->second] == 0) ready.set(t->second, boxes[t->second]);
     }
     return sequence;
   }
