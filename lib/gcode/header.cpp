@@ -1,5 +1,6 @@
 #include "gcode/header.h"
 
+#include "core/base64.h"
 #include "core/version.h"
 #include "settings/catalogue.h"
 #include "settings/gcode_variables.h"
@@ -13,23 +14,6 @@
 
 namespace weft::gcode {
 namespace {
-
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const auto byte = [&](std::size_t k) {
-      return i + k < bytes.size() ? std::uint32_t{static_cast<unsigned char>(bytes[i + k])} : 0U;
-    };
-    const std::uint32_t v = byte(0) << 16U | byte(1) << 8U | byte(2);
-    out += digits[v >> 18U];
-    out += digits[v >> 12U & 63U];
-    out += i + 1 < bytes.size() ? digits[v >> 6U & 63U] : '=';
-    out += i + 2 < bytes.size() ? digits[v & 63U] : '=';
-  }
-  return out;
-}
 
 std::string thumbnail_block(const Thumbnail& thumbnail) {
   constexpr std::size_t columns = 78;

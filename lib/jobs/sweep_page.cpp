@@ -1,3 +1,4 @@
+#include "core/base64.h"
 #include "jobs/sweep.h"
 
 #include <string_view>
@@ -100,19 +101,6 @@ for(const k of ["x","y","c"]){$(k).replaceChildren(...columns.map(c=>new Option(
 draw();document.body.dataset.ready=trials.length;
 </script></body></html>
 )page";
-
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t v = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      v = v << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k) out += i + k <= bytes.size() ? digits[v >> (18 - 6 * k) & 63] : '=';
-  }
-  return out;
-}
 
 }  // namespace
 

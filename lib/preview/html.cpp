@@ -1,3 +1,4 @@
+#include "core/base64.h"
 #include "preview/colours.h"
 #include "preview/page.h"
 
@@ -16,27 +17,16 @@ constexpr Um grain = 5;  // of the page's coordinates and widths, µm
 class Packed {
  public:
   void number(std::uint64_t v) {
-    for (; v >= 128; v >>= 7) bytes_.push_back(static_cast<std::uint8_t>(v | 128));
-    bytes_.push_back(static_cast<std::uint8_t>(v));
+    for (; v >= 128; v >>= 7) bytes_.push_back(static_cast<char>(v | 128));
+    bytes_.push_back(static_cast<char>(v));
   }
   void step(std::int64_t v) { number(static_cast<std::uint64_t>(v < 0 ? -2 * v - 1 : 2 * v)); }
   void number(double v) { number(static_cast<std::uint64_t>(std::llround(std::max(v, 0.0)))); }
 
-  std::string base64() const {
-    static constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out;
-    out.reserve((bytes_.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes_.size(); i += 3) {
-      const std::size_t left = std::min<std::size_t>(3, bytes_.size() - i);
-      std::uint32_t group = 0;
-      for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < left ? bytes_[i + k] : 0U);
-      for (std::size_t k = 0; k < 4; ++k) out += k <= left ? letters[group >> (18 - 6 * k) & 63U] : '=';
-    }
-    return out;
-  }
+  std::string text() const { return base64(bytes_); }
 
  private:
-  std::vector<std::uint8_t> bytes_;
+  std::string bytes_;
 };
 
 Point grained(Point p) {
@@ -163,7 +153,7 @@ std::string html(const Toolpaths& paths, const View& view, const std::optional<O
       quoted(view.title), features, ramps, overlay_json(overlay), name_of(view.colour), view.travels,
       std::min(view.layer.value_or(last), last), paths.layers.size(), grain / 1000.0, css(compensated_colour),
       css(travel_colour), css(offending_colour), css(no_go_colour), css(bed_colour), css(reach_colour));
-  out += packed.base64();
+  out += packed.text();
   out += "\"};\n";
   out += page_script;
   return out;
