@@ -6,10 +6,10 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build pkg-config
   libcgal-dev libeigen3-dev libpolyclipping-dev                 # geometry
-  libfmt-dev libtbb-dev libboost-program-options-dev nlohmann-json3-dev libssl-dev
+  libfmt-dev libtbb-dev libboost-program-options-dev nlohmann-json3-dev nettle-dev
   gettext                                                       # labels of settings in other languages
-  libzip-dev libexpat1-dev libpng-dev                           # 3MF, pictures
-  catch2                                                        # tests
+  libminizip-dev libexpat1-dev libpng-dev                       # 3MF, pictures
+  catch2 libzip-dev                                             # tests
 )
 
 command -v dpkg-query > /dev/null || exit 0

@@ -2,8 +2,11 @@
 
 #include "core/error.h"
 
+#include <algorithm>
+#include <cstring>
+
 #include <fmt/format.h>
-#include <zip.h>
+#include <minizip/unzip.h>
 
 namespace weft::mesh {
 namespace {
@@ -11,62 +14,101 @@ namespace {
 // XML of a mesh packs by a factor of 5 to 20. What grows further, beyond a size that does no harm, is a bomb.
 constexpr std::uint64_t harmless_bytes = 64u << 20, most_bytes = std::uint64_t{8} << 30, most_growth = 150;
 
-struct Closing {
-  void operator()(zip_file_t* file) const { zip_fclose(file); }
-};
+constexpr int any_case = 2;  // of unzLocateFile
 
-Error damaged(const std::string& where, const char* why) {
+Error damaged(const std::string& where, std::string_view why) {
   return {Error::Kind::model, fmt::format("damaged archive: {}", why), where, "copy or export it again"};
+}
+
+std::string_view reason_of(int status) {
+  switch (status) {
+    case UNZ_CRCERROR:
+      return "its check sum is wrong";
+    case UNZ_BADZIPFILE:
+      return "packed in a way that is not read, or cut short";
+    default:
+      return "what is packed cannot be unpacked";
+  }
 }
 
 }  // namespace
 
+/// The bytes as minizip reads them: as it would a file.
 struct Archive::Zip {
-  zip_t* handle = nullptr;
+  std::string_view bytes;
+  std::uint64_t at = 0;
+  unzFile handle = nullptr;
+
+  explicit Zip(std::string_view all) : bytes(all) {
+    zlib_filefunc64_def file{};
+    file.opaque = this;
+    file.zopen64_file = [](void* self, const void*, int) { return self; };
+    file.zread_file = [](void* self, void*, void* to, uLong wanted) {
+      return static_cast<Zip*>(self)->read(to, wanted);
+    };
+    file.ztell64_file = [](void* self, void*) -> ZPOS64_T { return static_cast<Zip*>(self)->at; };
+    file.zseek64_file = [](void* self, void*, ZPOS64_T by, int from) {
+      return static_cast<Zip*>(self)->seek(by, from);
+    };
+    file.zclose_file = [](void*, void*) { return 0; };
+    file.zerror_file = [](void*, void*) { return 0; };
+    handle = unzOpen2_64(nullptr, &file);
+  }
+  Zip(const Zip&) = delete;
+  Zip& operator=(const Zip&) = delete;
   ~Zip() {
-    if (handle) zip_discard(handle);
+    if (handle) unzClose(handle);  // and the part that is being read
+  }
+
+ private:
+  uLong read(void* to, uLong wanted) {
+    const auto got = std::min<std::uint64_t>(wanted, bytes.size() - at);
+    std::memcpy(to, bytes.data() + at, got);
+    at += got;
+    return got;
+  }
+  long seek(std::uint64_t by, int from) {
+    const std::uint64_t base = from == ZLIB_FILEFUNC_SEEK_SET ? 0 : from == ZLIB_FILEFUNC_SEEK_CUR ? at : bytes.size();
+    if (by > bytes.size() - base) return -1;
+    at = base + by;
+    return 0;
   }
 };
 
-Archive::Archive(std::string_view bytes, const std::string& path) : zip_(std::make_unique<Zip>()), path_(path) {
-  zip_error_t error;
-  zip_error_init(&error);
-  zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);
-  if (source) zip_->handle = zip_open_from_source(source, ZIP_RDONLY, &error);
-  if (!zip_->handle) {
-    const std::string why = zip_error_strerror(&error);
-    if (source) zip_source_free(source);
-    zip_error_fini(&error);
-    throw damaged(path, why.c_str());
-  }
-  zip_error_fini(&error);
+Archive::Archive(std::string_view bytes, const std::string& path) : zip_(std::make_unique<Zip>(bytes)), path_(path) {
+  if (!zip_->handle) throw damaged(path, "it has no directory where one should be");
 }
 
 Archive::~Archive() = default;
 
 bool Archive::has(const std::string& part) const {
-  return zip_name_locate(zip_->handle, part.c_str(), ZIP_FL_NOCASE) >= 0;
+  return unzLocateFile(zip_->handle, part.c_str(), any_case) == UNZ_OK;
 }
 
 void Archive::read(const std::string& part, const std::function<void(std::string_view piece)>& take) {
   const std::string where = path_ + "/" + part;
-  const zip_int64_t index = zip_name_locate(zip_->handle, part.c_str(), ZIP_FL_NOCASE);
-  if (index < 0) throw Error(Error::Kind::model, "not in the archive", where, "export the model again");
-  zip_stat_t status;
-  zip_stat_init(&status);
-  const std::unique_ptr<zip_file_t, Closing> file(zip_fopen_index(zip_->handle, static_cast<zip_uint64_t>(index), 0));
-  if (!file || zip_stat_index(zip_->handle, static_cast<zip_uint64_t>(index), 0, &status) != 0)
-    throw damaged(where, zip_strerror(zip_->handle));
-  packed_ += (status.valid & ZIP_STAT_COMP_SIZE) ? status.comp_size : 0;
+  if (!has(part)) throw Error(Error::Kind::model, "not in the archive", where, "export the model again");
+  unz_file_info64 facts{};
+  int status = unzGetCurrentFileInfo64(zip_->handle, &facts, nullptr, 0, nullptr, 0, nullptr, 0);
+  if (status == UNZ_OK && (facts.flag & 1) != 0) throw damaged(where, "it is encrypted");
+  constexpr uLong stored = 0;
+  if (status == UNZ_OK && facts.compression_method != stored && facts.compression_method != Z_DEFLATED)
+    status = UNZ_BADZIPFILE;  // minizip would give what is packed by bzip2 as it lies there
+  if (status == UNZ_OK) status = unzOpenCurrentFile(zip_->handle);
+  if (status != UNZ_OK) throw damaged(where, reason_of(status));
+  packed_ += facts.compressed_size;
+  std::uint64_t size = 0;
   char buffer[1 << 16];
-  while (const zip_int64_t got = zip_fread(file.get(), buffer, sizeof buffer)) {
-    if (got < 0) throw damaged(where, zip_file_strerror(file.get()));
-    unpacked_ += static_cast<std::uint64_t>(got);
+  while (const int got = unzReadCurrentFile(zip_->handle, buffer, sizeof buffer)) {
+    if (got < 0) throw damaged(where, reason_of(got));
+    size += static_cast<std::uint64_t>(got), unpacked_ += static_cast<std::uint64_t>(got);
     if (unpacked_ > most_bytes || (unpacked_ > harmless_bytes && unpacked_ / most_growth > packed_))
       throw Error(Error::Kind::model, fmt::format("unpacks to more than {} MB from {} bytes", unpacked_ >> 20, packed_),
                   where, "no model does: do not trust the file");
     take({buffer, static_cast<std::size_t>(got)});
   }
+  if (status = unzCloseCurrentFile(zip_->handle); status != UNZ_OK) throw damaged(where, reason_of(status));
+  if (size != facts.uncompressed_size) throw damaged(where, reason_of(UNZ_BADZIPFILE));
 }
 
 }  // namespace weft::mesh

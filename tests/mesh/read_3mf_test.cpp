@@ -143,6 +143,26 @@ TEST_CASE("mesh: a damaged 3MF is refused with its part and line", "[mesh][3mf]"
   CHECK_THAT(refusal(zipped({{"letter.txt", "hello"}})), Contains("no 3MF: it names no model part"));
 }
 
+TEST_CASE("mesh: a part whose packed bytes are damaged, encrypted or packed otherwise is refused", "[mesh][3mf]") {
+  // Of the first part: where its local header and its entry of the directory begin. Source: APPNOTE.TXT, 4.3.7, 4.3.12.
+  const std::string whole = three_mf(model(one, item));
+  const std::size_t local = 0, entry = whole.find("PK\1\2");
+  REQUIRE(whole.substr(local, 4) == "PK\3\4");
+  REQUIRE(entry != whole.npos);
+  const auto with = [&](std::initializer_list<std::size_t> places, char value) {
+    std::string bytes = whole;
+    for (const std::size_t at : places) bytes[at] = value;
+    return refusal(bytes);
+  };
+  const std::size_t flags_local = local + 6, flags_entry = entry + 8, method_local = local + 8, method_entry = entry + 10;
+  const std::size_t crc_local = local + 14, crc_entry = entry + 16;
+  CHECK_THAT(with({flags_local, flags_entry}, 1), Contains("_rels/.rels: damaged archive: it is encrypted"));
+  CHECK_THAT(with({method_local, method_entry}, 12), Contains("damaged archive: packed in a way that is not read"));
+  CHECK_THAT(with({crc_local, crc_entry}, static_cast<char>(whole[crc_entry] ^ 1)), Contains("damaged archive: its check sum is wrong"));
+  const std::size_t packed = whole.find("_rels/.rels") + 11;
+  for (const std::size_t at : {packed, packed + 40, packed + 100}) CHECK_THAT(with({at}, static_cast<char>(whole[at] ^ 0x55)), Contains("part/"));
+}
+
 TEST_CASE("mesh: a 3MF cannot multiply itself beyond measure", "[mesh][3mf]") {
   SECTION("by entities") {
     std::string text = model(one, item);
