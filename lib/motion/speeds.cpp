@@ -70,7 +70,7 @@ void limit_slope(std::vector<Segment>& segments, double slope, double least_mm_s
 
 /// Joins neighbours of nearly the same speed at the lowest of them; one speed for the whole bead where that will do.
 void store(const std::vector<Segment>& segments, Extrude& bead) {
-  bead.segment_speed_mm_s.resize(segments.size());
+  std::vector<float> speeds(segments.size());
   bool one = true;
   for (std::size_t i = 0; i < segments.size();) {
     double least = segments[i].speed_mm_s, most = least;
@@ -80,13 +80,13 @@ void store(const std::vector<Segment>& segments, Extrude& bead) {
       if (std::max(most, v) > same_speed * std::min(least, v)) break;
       least = std::min(least, v), most = std::max(most, v);
     }
-    std::fill(bead.segment_speed_mm_s.begin() + static_cast<std::ptrdiff_t>(i),
-              bead.segment_speed_mm_s.begin() + static_cast<std::ptrdiff_t>(end), static_cast<float>(least));
+    std::fill(speeds.begin() + static_cast<std::ptrdiff_t>(i), speeds.begin() + static_cast<std::ptrdiff_t>(end),
+              static_cast<float>(least));
     one = one && end - i == segments.size();
     bead.speed_mm_s = i == 0 ? least : std::min(bead.speed_mm_s, least);
     i = end;
   }
-  if (one) bead.segment_speed_mm_s.clear();
+  if (!one) bead.segment_speed_mm_s = std::move(speeds);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include <iterator>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 namespace weft::pipeline {
 namespace {
@@ -83,7 +84,7 @@ std::vector<infill::LayerAreas> find_areas(const Settings& settings, const Cuts&
 
 /// Shells and infill.
 Fills fill_object(const Settings& settings, const Settings& first, const Cuts& cuts, const Walls& walls, const Watch& watch) {
-  const auto areas = find_areas(settings, cuts, walls);
+  auto areas = find_areas(settings, cuts, walls);
   Box box;  // patterns hang on its centre, so they move with the object
   for (const auto& cut : cuts) box.add(box_of(cut.layer.regions));
   return parallel_map(cuts.size(), [&](std::size_t i) {
@@ -95,11 +96,11 @@ Fills fill_object(const Settings& settings, const Settings& first, const Cuts& c
                                                     .wall_line_width = s.walls.wall_line_width_x.value_or(0),
                                                     .origin = box.empty() ? Point{} : box.centre()});
     FilledLayer out{{}, {}, {}, std::move(filled.beads), std::move(filled.notices)};
-    for (const auto& part : areas[i]) {
-      out.top.insert(out.top.end(), part.top.begin(), part.top.end());
-      out.sparse.insert(out.sparse.end(), part.sparse.begin(), part.sparse.end());
+    for (auto& part : std::exchange(areas[i], {})) {
       out.skin.insert(out.skin.end(), part.top.begin(), part.top.end());
-      out.skin.insert(out.skin.end(), part.solid.begin(), part.solid.end());
+      std::move(part.solid.begin(), part.solid.end(), std::back_inserter(out.skin));
+      std::move(part.top.begin(), part.top.end(), std::back_inserter(out.top));
+      std::move(part.sparse.begin(), part.sparse.end(), std::back_inserter(out.sparse));
     }
     return out;
   });

@@ -145,8 +145,8 @@ std::vector<Corner> corners_of(const Bead& bead, SeamCorner kind, bool material_
   }
   std::stable_sort(corners.begin(), corners.end(),
                    [](const Corner& a, const Corner& b) { return a.strength > b.strength; });
-  if (corners.size() > most) corners.resize(most);
-  return corners;
+  // A copy of the few that are kept: layers wait with them, and the vector has room for every corner there was.
+  return {corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(std::min(corners.size(), most))};
 }
 
 Start nearest_start(const Bead& bead, Point p, Um snap) {
