@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -45,7 +46,7 @@ Statistics plan_motion(const Settings& settings, PrintPlan& plan, const Watch& w
   return statistics;
 }
 
-/// Gives back to the system what earlier stages have used and freed in pieces: the text takes its place.
+/// Gives back to the system what earlier stages have used and freed in pieces, before the next takes as much again.
 void give_back_memory() {
 #ifdef __GLIBC__
   malloc_trim(0);
@@ -63,8 +64,8 @@ std::size_t room_for(const PrintPlan& plan) {
   return bytes;
 }
 
-/// The text of the file: runs of layers, in each of them side by side. A layer's steps are let go of when they are
-/// written, so that plan and text are never both there as a whole.
+/// The text of the file. A layer's steps are let go of when they are written, so that plan and text are never both there
+/// as a whole.
 std::string write_gcode(const gcode::Job& job, PrintPlan& plan, Report& report) {
   const Stopwatch stopwatch(report.timings_ms.gcode);
   const gcode::Writer writer(job);
@@ -72,17 +73,15 @@ std::string write_gcode(const gcode::Job& job, PrintPlan& plan, Report& report) 
   text.reserve(room_for(plan));
   text += writer.head();
   const std::string tail = writer.tail();
-  const std::size_t count = plan.layers.size();
-  constexpr std::size_t run = 32;
-  for (std::size_t begin = 0; begin < count; begin += run) {
-    give_back_memory();
-    const auto blocks = parallel_map(std::min(run, count - begin), [&](std::size_t i) {
-      auto block = writer.layer(begin + i);
-      plan.layers[begin + i].steps = {};
-      return block;
-    });
-    for (const auto& block : blocks) text += block;
-  }
+  const auto write = [&](std::size_t i) {
+    auto block = writer.layer(i);
+    std::exchange(plan.layers[i].steps, {});  // not `steps = {}`: that keeps their room
+    return block;
+  };
+  parallel_in_order(plan.layers.size(), write, [&](std::size_t i, const std::string& block) {
+    if (i % 16 == 0) give_back_memory();
+    text += block;
+  });
   text += tail;
   return text;  // not `text += tail`: that is a reference, and copied
 }
@@ -170,8 +169,10 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
   beside.wait();
   for (auto& object : objects) object.mesh = {};
   refuse_emptiness(job, box, layers);
+  give_back_memory();
   begin("travel", 0.65);
   PrintPlan plan = plan_plate(job.settings, objects, std::move(layers), watch, report);
+  give_back_memory();
   begin("motion", 0.8);
   const Statistics statistics = plan_motion(job.settings, plan, watch, report);
   note_statistics(statistics, report);
