@@ -129,7 +129,10 @@ void refuse_slow(double steps) {
 }
 
 std::regex compiled(const std::string& pattern) {
-  constexpr std::size_t most_digits = 9;  // the library reads a back-reference without looking for overflow
+  constexpr std::size_t most_digits = 9;  // the library reads back-references and counts without looking for overflow
+  const auto digits_at = [&](std::size_t i) {
+    return std::min(pattern.find_first_not_of("0123456789", i), pattern.size()) - i;
+  };
   if (pattern.size() > most_pattern)
     throw std::invalid_argument(fmt::format("a regular expression of more than {} characters", most_pattern));
   std::string spelled;
@@ -137,11 +140,15 @@ std::regex compiled(const std::string& pattern) {
   for (std::size_t i = 0; i < pattern.size(); ++i) {
     const char c = pattern[i];
     if (c == '\\' && i + 1 < pattern.size()) {
-      const std::size_t end = std::min(pattern.find_first_not_of("0123456789", i + 1), pattern.size());
-      if (end - i - 1 > most_digits) refuse(pattern);
+      if (digits_at(i + 1) > most_digits) refuse(pattern);
       spelled += c;
       spelled += pattern[++i];
       continue;
+    }
+    if (c == '{' && !in_class) {
+      const std::size_t least = digits_at(i + 1), comma = i + 1 + least;
+      const std::size_t most = comma < pattern.size() && pattern[comma] == ',' ? digits_at(comma + 1) : 0;
+      if (std::max(least, most) > most_digits) refuse(pattern);
     }
     if (c == '[') in_class = true;
     if (c == ']') in_class = false;

@@ -230,3 +230,12 @@ TEST_CASE("macro: a back-reference of many digits is refused, not read beyond wh
   // refuses it as well. The fuzz seed `back-reference` is such a pattern in a condition.
   CHECK(message("{\"a\" =~ /x\\55555555555555555555555/}").find("is not a regular expression") != std::string::npos);
 }
+
+TEST_CASE("macro: a count of many digits in a regular expression is refused, not read beyond what a number holds") {
+  const std::string refused = "is not a regular expression";
+  // On an empty text nothing else refuses it.
+  for (const std::string count : {"18446744073709551614", "18446744073709551617", "0,18446744073709551617"})
+    CHECK(message("{\"\" =~ /a{" + count + "}/}").find(refused) != std::string::npos);
+  CHECK(expanded("{\"a{1\" =~ /a\\{1/}") == "true");
+  CHECK(expanded("{\"aa\" =~ /a{1,2}/}") == "true");
+}
