@@ -176,7 +176,7 @@ void finish(Line line, const FinishOptions& o, Beads& out, double& dropped_mm) {
     thin_out(stretch);
     limit_steps(stretch);
     steady_start(stretch, any_taper);
-    if (!last_meets) {  // travel may begin there
+    if (line.inset > 0 || !last_meets) {  // travel may begin there
       std::reverse(stretch.begin(), stretch.end());
       steady_start(stretch, line.inset == 0 ? any_taper : even_inside);
       std::reverse(stretch.begin(), stretch.end());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 
 namespace weft::walls {
@@ -53,16 +54,16 @@ class Walls {
     return longest;
   }
 
-  /// How far it is from the end of a path straight on to a wall of the inset, over the width of the bead on average; 0
-  /// if there is none.
-  double gap_before(const std::vector<Vertex>& path, int inset) {
+  /// How far it is from the end of a path straight on to a wall (of the inset), over the width of the bead on average;
+  /// 0 if there is none.
+  double gap_before(const std::vector<Vertex>& path, std::optional<int> inset = {}) {
     const Vertex& end = path.back();
     std::size_t back = path.size() - 1;
     while (back > 0 && distance(path[back].at, end.at) < end.width / 2) --back;
     const Place way = unit(path[back].at, end.at), n{-way.y, way.x};
     const double most = most_gap * end.width;
     look_near(end.at, most + beside * end.width + widest_ / 2);
-    std::erase_if(near_, [&](std::uint32_t s) { return lines_[origins_[s].line].inset != inset; });
+    if (inset) std::erase_if(near_, [&](std::uint32_t s) { return lines_[origins_[s].line].inset != *inset; });
     if (near_.empty()) return 0;
     const auto gap = [&](double aside) {
       const Place from{end.at.x + aside * n.x, end.at.y + aside * n.y};
@@ -150,7 +151,9 @@ void fit_ends(std::vector<Line>& middles, const std::vector<Line>& pairs) {
       if (by > 0) {
         cut_end(line.path, by);
       } else if (end == 0 ? line.last_meets : line.first_meets) {
-        const double gap = walls.gap_before(line.path, line.inset);
+        // the wall that turns back there, rather than one beside it
+        double gap = walls.gap_before(line.path, line.inset);
+        if (gap <= 0) gap = walls.gap_before(line.path);
         if (gap > touch_um) lead_on(line.path, gap);
       }
       std::reverse(line.path.begin(), line.path.end());

@@ -18,6 +18,10 @@ constexpr double most_lean = 0.25;      // … and leans no more than so much to
 constexpr double closing = 2.5;         // sides that close in faster than this are the end
 constexpr double width_of_end = 0.5;    // … no further than so many widths before it
 constexpr double square_share = 0.4;    // … if all of it is at least so near to its mean distance
+constexpr double least_square = 0.9;    // sine between an end's edge and the way to it: it is met squarely
+constexpr double least_squared = 2.5;   // times the free width: a shorter axis has no way of its own yet
+constexpr double squared_off = 0.4;     // of the width: so long is the last piece that does
+constexpr double sidestep = 0.6;        // … and so long the one before, which leads from the axis to it
 constexpr double end_beside = 0.4;      // of the width: beside its middle a blunt end is looked at, too
 constexpr double stubby_share = 1.2;    // of its width: a strip whose axis is shorter is filled straight across
 constexpr double outside_um = 8;        // so far a corner of a band may reach over the part's outline
@@ -26,6 +30,26 @@ constexpr double reach_share = 1.9;     // a chord goes no further than so many 
 
 double quad_area(Place a, Place b, Place c, Place d) {
   return 0.5 * std::abs(cross({c.x - a.x, c.y - a.y}, {d.x - b.x, d.y - b.y}));
+}
+
+/// The last piece of a path goes the given way, in the middle of the room it has and as wide as that, on average.
+void square_off(std::vector<Vertex>& path, Place origin, Place way) {
+  const auto along = [&](const Vertex& v) { return (v.at.x - origin.x) * way.x + (v.at.y - origin.y) * way.y; };
+  const auto aside = [&](const Vertex& v) { return (v.at.y - origin.y) * way.x - (v.at.x - origin.x) * way.y; };
+  const double end = along(path.back()), piece = squared_off * path.back().width;
+  double length = 0, shift = 0, width = 0;
+  while (path.size() > 1 && end - along(path.back()) < piece) {
+    const Vertex &a = path[path.size() - 2], &b = path.back();
+    const double l = along(b) - along(a);
+    length += l, shift += l * (aside(a) + aside(b)) / 2, width += l * (a.width + b.width) / 2;
+    path.pop_back();
+  }
+  if (length <= 0) return;
+  shift /= length, width /= length;
+  const double begin = end - 0.9 * length;
+  while (path.size() > 1 && begin - along(path.back()) < sidestep * width) path.pop_back();
+  for (const double x : {begin, end})
+    path.push_back({{origin.x + x * way.x - shift * way.y, origin.y + x * way.y + shift * way.x}, width});
 }
 
 }  // namespace
@@ -144,26 +168,33 @@ Strip::Chord Strip::across(Place p, Place way, double s, double free) const {
   return {{p.x + left * n.x, p.y + left * n.y}, {p.x + right * n.x, p.y + right * n.y}, found};
 }
 
-/// How far it is from a place near an end of the axis straight on to what bounds the strip; 0 if nothing does.
-double Strip::ahead(Place p, Place way, bool first) const {
-  double reach = 1e18;
+Strip::Ahead Strip::ahead(Place p, Place way, bool first) const {
+  Ahead out{1e18, {}};
   const auto last = static_cast<std::uint32_t>(axis_.size() - 1), some = std::min(last, end_tags);
   for (std::size_t i = first_[first ? 0 : last - some]; i < first_[first ? some + 1 : last + 1]; ++i) {
     const auto t = meets(p, way, sides_[i].a, sides_[i].b);
-    if (t && *t > 0) reach = std::min(reach, *t);
+    if (t && *t > 0 && *t < out.reach) out = {*t, unit(sides_[i].a, sides_[i].b)};
   }
-  return reach < 1e17 ? reach : 0;
+  return out.reach < 1e17 ? out : Ahead{};
 }
 
 /// The axis itself bends into the sharper corner of an end that is not quite square, and the bead would turn aside: it
-/// goes straight on instead. Returns where on the axis that begins; `out` gets its vertices from there to the end.
+/// goes straight on instead, square to the end's edge if it can. Returns where on the axis that begins; `out` gets its
+/// vertices from there to the end.
 double Strip::end_straight(bool first, std::vector<Vertex>& out) const {
   const double whole = along_.back(), s_end = first ? 0 : whole, free = std::max(free_at(s_end), 20.0);
   const double before = std::min(straight_share * free, 0.4 * whole), back = std::min(whole, before + 2 * free);
   std::size_t edge = 0;
   const auto inward = [&](double u) { return at(first ? u : whole - u, edge); };
   const double s = first ? before : whole - before;
-  const Place start = inward(before), way = unit(inward(back), start), n{-way.y, way.x};
+  const Place start = inward(before), axis_way = unit(inward(back), start),
+              edge_way = ahead(start, axis_way, first).edge;
+  const double turn = cross(axis_way, edge_way);
+  const bool square = whole > least_squared * free && std::abs(turn) >= least_square;
+  const Place way = !square    ? axis_way
+                    : turn > 0 ? Place{edge_way.y, -edge_way.x}
+                               : Place{-edge_way.y, edge_way.x},
+              n{-way.y, way.x};
   double shift = 0, x = 0;
   const auto on_line = [&](double along, double aside) {
     return Place{start.x + along * way.x + aside * n.x, start.y + along * way.y + aside * n.y};
@@ -181,7 +212,7 @@ double Strip::end_straight(bool first, std::vector<Vertex>& out) const {
     return true;
   };
   lay(off_share * free_at(s));
-  const double reach = ahead(out.back().at, way, first) - before_end_um;
+  const double reach = ahead(out.back().at, way, first).reach - before_end_um;
   const int pieces = std::clamp(static_cast<int>(std::ceil(reach / tip_step_um)), 0, 100);
   bool blunt = true;  // until proven tapered
   for (int i = 1; i <= pieces; ++i) {
@@ -192,7 +223,7 @@ double Strip::end_straight(bool first, std::vector<Vertex>& out) const {
     // The end's own edge, nearly square: it is met in the middle.
     double least = 1e18, sum = 0;
     for (const double aside : {-end_beside * width, 0.0, end_beside * width}) {
-      const double d = std::min(ahead(on_line(laid, straight + aside), way, first), width);
+      const double d = std::min(ahead(on_line(laid, straight + aside), way, first).reach, width);
       least = std::min(least, d), sum += d / 3;
     }
     blunt = i == pieces || least > square_share * sum;
@@ -200,8 +231,9 @@ double Strip::end_straight(bool first, std::vector<Vertex>& out) const {
     const double on = (outline ? std::min(sum, least + outside_um) : sum) - before_end_um;
     out.pop_back();
     if (on > 0) out.push_back({on_line(laid + on, straight), width});
-    return s;
+    break;
   }
+  if (square && !outline) square_off(out, start, way);
   return s;
 }
 

@@ -40,6 +40,12 @@ class Strip {
     Place left, right;
     bool found = false;
   };
+  /// What bounds the strip straight on from a place near an end of the axis: how far it is, and which way it runs; 0 if
+  /// nothing does.
+  struct Ahead {
+    double reach = 0;
+    Place edge{};
+  };
   std::uint32_t tag() const { return axis_.empty() ? 0 : static_cast<std::uint32_t>(axis_.size() - 1); }
   bool stubby() const;
   std::vector<Place> ring() const;
@@ -50,7 +56,7 @@ class Strip {
   Place direction(double s, double over) const;
   double free_at(double s) const;
   Chord across(Place p, Place way, double s, double free) const;
-  double ahead(Place p, Place way, bool first) const;
+  Ahead ahead(Place p, Place way, bool first) const;
   double end_straight(bool first, std::vector<Line::Vertex>& out) const;
   void sample(double from, double to, std::vector<double>& out) const;
   void add(std::vector<Line::Vertex>& path, const Chord& chord, Place on_axis, Place way, double free);

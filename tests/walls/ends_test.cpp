@@ -3,6 +3,7 @@
 #include "walls/walls.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <catch2/catch.hpp>
 
@@ -95,6 +96,34 @@ TEST_CASE("walls: a bead goes straight on to an end that is not quite square", "
       CHECK(std::abs(d.y) <= 0.3 * std::abs(d.x));
     }
   }
+}
+
+TEST_CASE("walls: the middle bead of a bar reaches its end although the walls turn off before it", "[walls]") {
+  // Five beads across, and an end that is a little thicker: without a wall of its own to meet, the bead left 7 % bare.
+  for (const Um thicker : {150, 230, 300, 400}) {
+    CAPTURE(thicker);
+    const Region region{
+        {{0, 0}, {12'100, 0}, {12'000, 2'040 + thicker}, {11'600, 2'040 + thicker}, {11'500, 2'040}, {0, 2'040}}, {}};
+    CHECK(bare_share(region, filled({region}), {{10'000, 700}, {11'800, 1'340}}, 11) < 0.01);
+  }
+}
+
+TEST_CASE("walls: a bead meets the end of a part squarely although the axis bends into one of its corners", "[walls]") {
+  // A bar of five beads whose end is thicker on one side.
+  for (const Um thicker : {250, 300})
+    for (const Um length : {1'200, 1'500, 1'800}) {
+      CAPTURE(thicker, length);
+      const Um step = 12'000 - length;
+      const auto walls = filled(
+          {{{{0, 0}, {12'000, 0}, {12'000, 2'000 + thicker}, {step, 2'000 + thicker}, {step, 2'000}, {0, 2'000}}, {}}});
+      const auto bead = std::find_if(walls.beads.begin(), walls.beads.end(), [](const Bead& b) { return !b.closed; });
+      REQUIRE(bead != walls.beads.end());
+      auto path = bead->path;
+      if (path.front().at.x > path.back().at.x) std::reverse(path.begin(), path.end());
+      const Point on = path.back().at - path[path.size() - 2].at;
+      CHECK(path.back().at.x > 11'000);
+      CHECK(std::abs(on.y) <= 0.06 * on.x);
+    }
 }
 
 TEST_CASE("walls: in a steep taper the outer wall keeps its width and what it leaves gets a bead", "[walls]") {
