@@ -1,8 +1,7 @@
 #include "pipeline/audit_files.h"
 
 #include "pipeline/parallel.h"
-
-#include <tbb/task_arena.h>
+#include "pipeline/tasks.h"
 
 namespace weft {
 
@@ -17,8 +16,9 @@ std::vector<AuditOutcome> audit_files(const std::vector<AuditJob>& jobs, unsigne
     }
     return outcome;
   };
-  tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
-  return arena.execute([&] { return pipeline::parallel_map(jobs.size(), one); });
+  std::vector<AuditOutcome> outcomes;
+  pipeline::with_threads(threads, [&] { outcomes = pipeline::parallel_map(jobs.size(), one); });
+  return outcomes;
 }
 
 }  // namespace weft

@@ -1,5 +1,7 @@
 #include "pipeline/crew.h"
 
+#include "pipeline/hand_over.h"
+
 #include <mutex>
 
 #include <tbb/global_control.h>
@@ -19,6 +21,7 @@ void run_crew(unsigned threads, const std::function<std::optional<std::size_t>()
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, places);
   tbb::task_arena arena(static_cast<int>(places));
   tbb::task_group group;
+  pipeline::HandOver hand_over;
   std::mutex mutex;
   unsigned running = 0;
 
@@ -38,12 +41,17 @@ void run_crew(unsigned threads, const std::function<std::optional<std::size_t>()
       const auto index = next();
       if (!index) return;
       ++running;
-      group.run([&piece, i = *index] { piece(i); });
+      hand_over.begin();
+      group.run([&, i = *index] {
+        const pipeline::HandOver::Task handed(hand_over);
+        piece(i);
+      });
     }
   };
   arena.execute([&] {
     begin_what_may();
     group.wait();
+    hand_over.end();
   });
 }
 

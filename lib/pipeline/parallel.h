@@ -1,13 +1,13 @@
 #pragma once
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_pipeline.h>
-#include <tbb/task_arena.h>
+#include "pipeline/tasks.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <exception>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace weft::pipeline {
@@ -19,7 +19,7 @@ auto parallel_map(std::size_t count, F f) {
   using Out = std::invoke_result_t<F&, std::size_t>;
   std::vector<std::optional<Out>> slots(count);
   std::vector<std::exception_ptr> failed(count);
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+  for_each_index(count, [&](std::size_t i) {
     try {
       slots[i].emplace(f(i));
     } catch (...) {
@@ -40,34 +40,25 @@ template <class F, class Take>
 void parallel_in_order(std::size_t count, F f, Take take) {
   using Out = std::invoke_result_t<F&, std::size_t>;
   struct Piece {
-    std::size_t index;
     std::optional<Out> out;
     std::exception_ptr failed;
   };
-  using Handle = std::shared_ptr<Piece>;
-  std::size_t next = 0;
-  const auto number = [&](tbb::flow_control& control) -> Handle {
-    if (next < count) return std::make_shared<Piece>(Piece{next++, {}, {}});
-    control.stop();
-    return {};
-  };
-  const auto make = [&](Handle piece) {
+  const std::size_t slots = std::min(count, most_in_flight());
+  std::vector<Piece> pieces(slots);
+  const auto make = [&](std::size_t i) {
+    Piece& piece = pieces[i % slots];
     try {
-      piece->out.emplace(f(piece->index));
+      piece.out.emplace(f(i));
     } catch (...) {
-      piece->failed = std::current_exception();
+      piece.failed = std::current_exception();
     }
-    return piece;
   };
-  const auto hand_over = [&](const Handle& piece) {
-    if (piece->failed) std::rethrow_exception(piece->failed);
-    take(piece->index, std::move(*piece->out));
-  };
-  using tbb::filter_mode;
-  tbb::parallel_pipeline(4 * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()),
-                         tbb::make_filter<void, Handle>(filter_mode::serial_in_order, number) &
-                             tbb::make_filter<Handle, Handle>(filter_mode::parallel, make) &
-                             tbb::make_filter<Handle, void>(filter_mode::serial_in_order, hand_over));
+  for_each_in_order(count, slots, make, [&](std::size_t i) {
+    Piece& piece = pieces[i % slots];
+    if (piece.failed) std::rethrow_exception(piece.failed);
+    take(i, std::move(*piece.out));
+    piece.out.reset();
+  });
 }
 
 }  // namespace weft::pipeline

@@ -9,11 +9,9 @@
 #include "pipeline/provenance.h"
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
+#include "pipeline/tasks.h"
 #include "preview/thumbnail.h"
 #include "settings/catalogue.h"
-
-#include <tbb/global_control.h>
-#include <tbb/task_group.h>
 
 #include <fmt/format.h>
 
@@ -148,17 +146,8 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
   gcode::check_custom_code(job.settings);  // a typo in the start G-code is told before an hour of slicing
   auto objects = place_models(job, report, cache);
   std::vector<gcode::Thumbnail> thumbnails;
-  tbb::task_group beside;  // pictures are drawn while the model is sliced
-  const struct Wait {  // left to itself, a group that is abandoned breaks its work off in the middle of what it makes
-    tbb::task_group& group;
-    ~Wait() {
-      try {
-        group.wait();
-      } catch (...) {  // what ends the job is told already
-      }
-    }
-  } wait{beside};
-  beside.run([&] { thumbnails = thumbnails_of(job.settings, objects); });
+  // Pictures are drawn while the model is sliced.
+  Beside beside([&] { thumbnails = thumbnails_of(job.settings, objects); });
   begin("slicing", 0.05);
   std::vector<PrintedLayers> layers;
   Box3 box;
@@ -192,8 +181,7 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
 }  // namespace
 
 std::optional<audit::Passed> run(const Job& job, const Watch& watch, Report& report, StageCache* cache) {
-  if (job.threads == 0) return run_stages(job, watch, report, cache);
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, job.threads);
+  const ThreadLimit limit(job.threads);
   return run_stages(job, watch, report, cache);
 }
 

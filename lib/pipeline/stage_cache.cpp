@@ -1,20 +1,19 @@
 #include "pipeline/stage_cache.h"
 
 #include "pipeline/disk_store.h"
+#include "pipeline/tasks.h"
 
 #include <algorithm>
 #include <map>
 #include <mutex>
 #include <optional>
 
-#include <tbb/collaborative_call_once.h>
-
 namespace weft {
 
 namespace {
 /// A result in memory, or the place where it will be.
 struct Cell {
-  tbb::collaborative_once_flag once;
+  pipeline::Once once;
   std::shared_ptr<const void> value;
   std::size_t bytes = 0;        // 0 until it is made; guarded by the cache's mutex
   std::uint64_t last_used = 0;  // the same
@@ -79,7 +78,7 @@ std::shared_ptr<const void> StageCache::get(std::string_view stage, const std::s
   auto& s = *state_;
   const auto cell = s.cell_of(std::string(stage) + " " + key);
   bool mine = false, from_disk = false;
-  tbb::collaborative_call_once(cell->once, [&] {
+  cell->once.run([&] {
     cell->value = s.fetch(stage, key, kind, make, from_disk);
     mine = true;
   });

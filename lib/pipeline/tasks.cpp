@@ -1,0 +1,122 @@
+#include "pipeline/tasks.h"
+
+#include "pipeline/hand_over.h"
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <tbb/collaborative_call_once.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+
+namespace weft::pipeline {
+
+void for_each_index(std::size_t count, const std::function<void(std::size_t)>& task) {
+  HandOver hand_over;
+  hand_over.begin();
+  const HandOver::Wait waited(hand_over);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    const HandOver::Task handed(hand_over);
+    task(i);
+  });
+}
+
+void for_each_in_order(std::size_t count, std::size_t places, const std::function<void(std::size_t)>& make,
+                       const std::function<void(std::size_t)>& take) {
+  HandOver hand_over;
+  std::vector<Baton> place(places);
+  Baton turn;
+  std::size_t next = 0;
+  const auto number = [&](tbb::flow_control& control) {
+    if (next == count) control.stop();
+    return next < count ? next++ : count;
+  };
+  const auto made = [&](std::size_t i) {
+    const HandOver::Task handed(hand_over);
+    place[i % places].take();
+    make(i);
+    place[i % places].pass();
+    return i;
+  };
+  const auto taken = [&](std::size_t i) {
+    const HandOver::Task handed(hand_over);
+    place[i % places].take(), turn.take();
+    take(i);
+    place[i % places].pass(), turn.pass();
+  };
+  using tbb::filter_mode;
+  const auto filters = tbb::make_filter<void, std::size_t>(filter_mode::serial_in_order, number) &
+                       tbb::make_filter<std::size_t, std::size_t>(filter_mode::parallel, made) &
+                       tbb::make_filter<std::size_t, void>(filter_mode::serial_in_order, taken);
+  hand_over.begin();
+  const HandOver::Wait waited(hand_over);
+  if (count > 0) tbb::parallel_pipeline(places, filters);
+}
+std::size_t most_in_flight() {
+  return 4 * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+}
+
+struct Beside::State {
+  std::function<void()> work;
+  tbb::task_group group;
+  HandOver hand_over;
+};
+Beside::Beside(std::function<void()> work) : state_(std::make_unique<State>()) {
+  State* state = state_.get();
+  state->work = std::move(work);
+  state->hand_over.begin();
+  state->group.run([state] {
+    const HandOver::Task handed(state->hand_over);
+    state->work();
+  });
+}
+Beside::~Beside() {
+  try {
+    wait();
+  } catch (...) {  // what ends the job is told already
+  }
+}
+void Beside::wait() {
+  const HandOver::Wait waited(state_->hand_over);
+  state_->group.wait();
+}
+
+struct Once::State {
+  tbb::collaborative_once_flag flag;
+  HandOver hand_over;
+};
+Once::Once() : state_(std::make_unique<State>()) {}
+Once::~Once() = default;
+void Once::run(const std::function<void()>& work) {
+  state_->hand_over.begin();
+  const HandOver::Wait waited(state_->hand_over);
+  tbb::collaborative_call_once(state_->flag, [&] {
+    const HandOver::Task handed(state_->hand_over);
+    work();
+  });
+}
+
+struct ThreadLimit::State {
+  std::optional<tbb::global_control> control;
+};
+ThreadLimit::ThreadLimit(unsigned threads) : state_(std::make_unique<State>()) {
+  if (threads != 0) state_->control.emplace(tbb::global_control::max_allowed_parallelism, threads);
+}
+ThreadLimit::~ThreadLimit() = default;
+
+void with_threads(unsigned threads, const std::function<void()>& work) {
+  tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
+  HandOver hand_over;
+  hand_over.begin();
+  const HandOver::Wait waited(hand_over);
+  arena.execute([&] {
+    const HandOver::Task handed(hand_over);
+    work();
+  });
+}
+
+}  // namespace weft::pipeline

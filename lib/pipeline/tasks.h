@@ -1,0 +1,70 @@
+#pragma once
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+/// Everything that weft asks of TBB, but for the crew of a batch.
+namespace weft::pipeline {
+
+/// task(i) for i in [0, count), side by side in any order; returns when all are done. Pre: task does not throw.
+void for_each_index(std::size_t count, const std::function<void(std::size_t)>& task);
+
+/// make(i) for i in [0, count) in any order and side by side, take(i) after it in index order, one at a time. make(i)
+/// may use the place i % places of what has so many: take(i − places) is done with it.
+/// @throws what `take` throws, then nothing more is taken. Pre: make does not throw; places > 0 unless count is 0
+void for_each_in_order(std::size_t count, std::size_t places, const std::function<void(std::size_t)>& make,
+                       const std::function<void(std::size_t)>& take);
+/// Places that keep all threads at work.
+std::size_t most_in_flight();
+
+/// Work that is done beside one's own.
+class Beside {
+ public:
+  /// Begins it.
+  explicit Beside(std::function<void()> work);
+  /// Waits: left to itself, what runs would break off in the middle of what it makes. What it throws is lost.
+  ~Beside();
+  Beside(const Beside&) = delete;
+  Beside& operator=(const Beside&) = delete;
+
+  /// @throws what the work has thrown
+  void wait();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Work that is done by the first of several who need its result; the others help with its tasks, then go on.
+class Once {
+ public:
+  Once();
+  ~Once();
+  Once(const Once&) = delete;
+  Once& operator=(const Once&) = delete;
+
+  /// Post: some call of `work` has ended without an error, and is seen. When one throws, who waits tries in its turn.
+  void run(const std::function<void()>& work);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// For as long as it lives, no more threads are at work than these; 0: all cores.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(unsigned threads);
+  ~ThreadLimit();
+  ThreadLimit(const ThreadLimit&) = delete;
+  ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Runs the work where its tasks have so many threads, also more than there are cores; 0: all cores.
+void with_threads(unsigned threads, const std::function<void()>& work);
+
+}  // namespace weft::pipeline
