@@ -118,6 +118,16 @@ Start cheapest(const TravelSettings& settings, const Bead& bead, std::span<const
   return best;
 }
 
+/// Boxes of the runs of edges that the wall is made of.
+std::vector<Box> boxes_along(const Bead& bead) {
+  constexpr std::size_t edges = 16;
+  const std::size_t n = bead.path.size();
+  std::vector<Box> boxes((n + edges - 1) / edges);
+  for (std::size_t i = 0; i < n; ++i)
+    boxes[i / edges].add(bead.path[i].at), boxes[i / edges].add(bead.path[(i + 1) % n].at);
+  return boxes;
+}
+
 Start rearmost(const Bead& bead) {
   std::size_t best = 0;
   for (std::size_t i = 1; i < bead.path.size(); ++i) {
@@ -207,15 +217,22 @@ Start choose_seam(const TravelSettings& settings, const Bead& bead, std::span<co
   // The line of the seams below, if this wall continues one.
   Start plain = rearmost(bead);
   double nearest = same_line_um;
-  const Box box = box_of(bead);
-  const Box around = box.grown(static_cast<Um>(same_line_um) + 1);
-  // The seam that is nearest to the box is likely the one, and tells which others need a look at the whole wall.
+  const auto boxes = boxes_along(bead);
+  const auto away2 = [&](Point q) {
+    double least2 = distance2_to(boxes[0], q);
+    for (const Box& box : boxes) least2 = std::min(least2, distance2_to(box, q));
+    return least2;
+  };
+  const Box around = box_of(bead).grown(static_cast<Um>(same_line_um) + 1);
+  // The seam that is nearest to the boxes is likely the one, and tells which others need a look at the whole wall.
   const Point* likely = nullptr;
+  double likely2 = 0;
   for (const Point& q : below.seams)
-    if (around.contains(q) && (!likely || distance2_to(box, q) < distance2_to(box, *likely))) likely = &q;
+    if (around.contains(q))
+      if (const double d2 = away2(q); !likely || d2 < likely2) likely = &q, likely2 = d2;
   const double bound_um = likely ? distance(nearest_start(bead, *likely, snap_um).at, *likely) : 0.0;
   for (const Point q : below.seams) {
-    if (!around.contains(q) || std::sqrt(distance2_to(box, q)) > bound_um) continue;
+    if (!around.contains(q) || std::sqrt(away2(q)) > bound_um) continue;
     const Start s = nearest_start(bead, q, snap_um);
     const double d = distance(s.at, q);
     if (d < nearest) nearest = d, plain = s;
