@@ -7,8 +7,8 @@ namespace weft::infill {
 namespace {
 
 constexpr double most_slope = 0.4;      // of an edge that lines run along: 22°, where a turn along it becomes too long
-constexpr double shortest = 1;          // spacings; beside shorter edges the nozzle had no time to change its strand
-constexpr double jog = 0.25;            // spacings along a line, in which it moves aside
+constexpr double shortest = 1;          // bands; beside shorter edges the nozzle had no time to change its strand
+constexpr double jog = 0.25;            // bands along a line, in which it moves aside
 constexpr double least_change_um = 15;  // of a side; less is not seen on a print
 constexpr double touching_um = 1;       // the lattice
 
@@ -39,9 +39,8 @@ bool SideFit::along(Turned a, Turned b) {
   return std::abs(b.y - a.y) <= most_slope * std::abs(b.x - a.x);
 }
 
-SideFit::SideFit(const Outline& outline, const LineSet& lines, std::span<const Interval> intervals)
-    : lines_(lines), intervals_(intervals) {
-  const double s = lines.spacing;
+SideFit::SideFit(const Outline& outline, const LineSet& lines, std::span<const Interval> intervals, double band)
+    : band_(band), intervals_(intervals) {
   std::vector<std::uint32_t> first(static_cast<std::size_t>(lines.count) + 1, 0);
   for (const Interval& i : intervals) ++first[static_cast<std::size_t>(i.line) + 1];
   for (std::size_t k = 1; k < first.size(); ++k) first[k] += first[k - 1];
@@ -53,22 +52,22 @@ SideFit::SideFit(const Outline& outline, const LineSet& lines, std::span<const I
     const bool ceiling = b.x < a.x;  // the inside is to the left
     if (ceiling) std::swap(a, b);
     const double slope = (b.y - a.y) / (b.x - a.x);
-    const double low = std::min(a.y, b.y) - (ceiling ? s : 0), high = std::max(a.y, b.y) + (ceiling ? 0 : s);
-    const int from_line = static_cast<int>(std::max(0.0, std::floor((low - lines.first) / s)));
-    const int to_line = static_cast<int>(std::min(lines.count - 1.0, std::ceil((high - lines.first) / s)));
+    const double low = std::min(a.y, b.y) - (ceiling ? band : 0), high = std::max(a.y, b.y) + (ceiling ? 0 : band);
+    const int from_line = static_cast<int>(std::max(0.0, std::floor((low - lines.first) / lines.spacing)));
+    const int to_line = static_cast<int>(std::min(lines.count - 1.0, std::ceil((high - lines.first) / lines.spacing)));
     for (int k = from_line; k <= to_line; ++k) {
       const auto gap = [&](double x) {
         const double y = a.y + slope * (x - a.x) - lines.y(k);
         return ceiling ? y : -y;
       };
-      // where 0 ≤ gap ≤ s
+      // where 0 ≤ gap ≤ band
       double from = a.x, to = b.x;
       const double gap_slope = ceiling ? slope : -slope;
       if (std::abs(gap_slope) > 1e-12) {
-        double x0 = a.x + (0 - gap(a.x)) / gap_slope, x1 = a.x + (s - gap(a.x)) / gap_slope;
+        double x0 = a.x + (0 - gap(a.x)) / gap_slope, x1 = a.x + (band - gap(a.x)) / gap_slope;
         if (x0 > x1) std::swap(x0, x1);
         from = std::max(from, x0), to = std::min(to, x1);
-      } else if (gap(a.x) < 0 || gap(a.x) > s) {
+      } else if (gap(a.x) < 0 || gap(a.x) > band) {
         continue;
       }
       const auto k0 = static_cast<std::size_t>(k);
@@ -78,8 +77,8 @@ SideFit::SideFit(const Outline& outline, const LineSet& lines, std::span<const I
         const double l = std::max(from, i->from), r = std::min(to, i->to);
         if (l < r)
           (ceiling ? above_ : below_)
-              .push_back({static_cast<std::uint32_t>(i - intervals.begin()), l, r, std::clamp(gap(l), 0.0, s),
-                          std::clamp(gap(r), 0.0, s)});
+              .push_back({static_cast<std::uint32_t>(i - intervals.begin()), l, r, std::clamp(gap(l), 0.0, band),
+                          std::clamp(gap(r), 0.0, band)});
       }
     }
   }
@@ -93,14 +92,14 @@ SideFit::SideFit(const Outline& outline, const LineSet& lines, std::span<const I
 }
 
 std::vector<SideFit::Corner> SideFit::side(const Besides& all, std::uint32_t interval) const {
-  const double s = lines_.spacing, half = s / 2;
+  const double half = band_ / 2;
   const double from = intervals_[interval].from, to = intervals_[interval].to;
   auto it = std::lower_bound(all.begin(), all.end(), interval,
                              [](const Beside& each, std::uint32_t i) { return each.interval < i; });
   std::vector<Corner> corners, stretch;
   double open = from;  // where the last stretch ended
   const auto leave_plain = [&](double until) {
-    if (until - open > jog * s) corners.insert(corners.end(), {{open, half}, {until, half}});
+    if (until - open > jog * band_) corners.insert(corners.end(), {{open, half}, {until, half}});
   };
   while (it != all.end() && it->interval == interval) {
     // edges that follow each other without a hole between them are one stretch
@@ -113,7 +112,7 @@ std::vector<SideFit::Corner> SideFit::side(const Besides& all, std::uint32_t int
       stretch.insert(stretch.end(), {{x, reach_at(a, b, x)}, b});
       reached = b.x;
     }
-    if (stretch.back().x - stretch.front().x < shortest * s) continue;
+    if (stretch.back().x - stretch.front().x < shortest * band_) continue;
     leave_plain(stretch.front().x);
     corners.insert(corners.end(), stretch.begin(), stretch.end());
     open = stretch.back().x;
@@ -126,7 +125,7 @@ std::vector<SideFit::Corner> SideFit::side(const Besides& all, std::uint32_t int
     if (b.x - a.x > touching_um || std::abs(b.reach - a.reach) < least_change_um) continue;
     const double before = i > 1 ? a.x - corners[i - 2].x : 0,
                  after = i + 1 < corners.size() ? corners[i + 1].x - b.x : 0;
-    a.x -= std::min(jog * s, before) / 2, b.x += std::min(jog * s, after) / 2;
+    a.x -= std::min(jog * band_, before) / 2, b.x += std::min(jog * band_, after) / 2;
   }
   return corners;
 }

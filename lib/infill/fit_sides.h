@@ -13,15 +13,16 @@ struct Sides {
   double below = 0, above = 0;  ///< from the line; fractional microns
 };
 
-/// Where edges run along the lines of a fill, closer than the next line would lie, a line ends at the edge: it covers
-/// what is its own half of the spacing, less or more. So a fill neither lies in a wall along it nor leaves a gap there,
-/// although its lines stand on one grid. Edges across the lines are none of this: there lines end or turn.
+/// Where edges run along the lines of a fill, closer than a neighbour would lie, a line ends at the edge: it covers
+/// what is between them, less or more than its own half. So a fill neither lies in a wall along it nor leaves a gap
+/// there, although its lines stand on one grid. Edges across the lines are none of this: there lines end or turn.
 class SideFit {
  public:
   /// Pre: the intervals are the outline's on these lines, as `Outline::cut` gives them; outer rings run
   ///      counter-clockwise, holes clockwise.
+  /// @param band of a line, in the outline's unit: edges farther from its middle do not concern it
   /// Cost: O(n log n) in the edges and intervals.
-  SideFit(const Outline& outline, const LineSet& lines, std::span<const Interval> intervals);
+  SideFit(const Outline& outline, const LineSet& lines, std::span<const Interval> intervals, double band);
 
   /// Whether lines run along the edge, rather than end at it.
   static bool along(Turned a, Turned b);
@@ -45,7 +46,7 @@ class SideFit {
   };
   std::vector<Corner> side(const Besides& all, std::uint32_t interval) const;
 
-  LineSet lines_;
+  double band_;
   std::span<const Interval> intervals_;
   Besides above_, below_;  // by interval, then from left to right
 };

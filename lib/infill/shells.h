@@ -47,10 +47,10 @@ using LayerAreas = std::vector<PartAreas>;  ///< parts ascending, each once
 ///
 /// A place is solid when, within the skin's layers above or below it, there is air or a wall: so slopes are closed
 /// under and over their walls as well ("vertical shell thickness"). Layers are compared on a grid of bits (mask.h) of
-/// 0.1 mm (more for objects over 150 mm); strips narrower than two thirds of a line are left out unless they are seen from
-/// outside, which are widened to a line instead. Boundaries between two kinds of fill follow the grid within one cell;
-/// those along walls are exact. Pre:  the layers are in order; `first + count` is within them. The result of a layer
-/// does not depend on `first` and
+/// 0.1 mm (more for objects over 150 mm); strips narrower than two thirds of a line are left out unless they are seen
+/// from outside, which are widened to a line instead. Boundaries between two kinds of fill follow the grid within one
+/// cell; those along walls are exact.
+/// Pre:  the layers are in order; `first + count` is within them. The result of a layer does not depend on `first` and
 ///       `count`: call it for runs of 8 to 32 layers (a run reads the skin's layers around it).
 /// Cost: 0.1 to 0.3 ms a layer for a part the size of a hand.
 std::vector<LayerAreas> find_areas(const ShellSettings& settings, const InfillSettings& infill,

@@ -21,6 +21,7 @@ constexpr double widest_strand = 1.6;     // bands, of a bead along a strip
 constexpr double narrowest_strand = 0.6;  // bands, of one of two
 constexpr double narrowest_side = 0.25;   // bands, of a line that an edge runs along
 constexpr double longest_turn = 2.7;      // bands; shallower edges are run along (fit_sides.h), not turned along
+constexpr double least_left = 0.3;        // bands of a line between its turns; else the turn is as wide as the place
 constexpr double most_lean = 4;           // bands that a narrow strip may lean from line to line and still be one strip
 constexpr double deepest_bump = 0.25;     // bands that the edge may stand into a turn
 constexpr double shortest_bead =
@@ -91,7 +92,7 @@ class Filler {
     lines_ = {outline_.least_y() + reach / count / 2, reach / count, static_cast<int>(count)};
     width_ = style_.fixed_strand ? style_.band : std::max(1, rounded(lines_.spacing));
     all_ = outline_.cut(lines_);
-    if (!style_.fixed_strand) sides_.emplace(outline_, lines_, all_);
+    if (!style_.fixed_strand) sides_.emplace(outline_, lines_, all_, lines_.spacing);
     left_.reserve(all_.size()), right_.reserve(all_.size());
     for (const Interval& i : all_)
       left_.push_back(i.from - over(i.from_edge)), right_.push_back(i.to + over(i.to_edge));
@@ -197,7 +198,9 @@ class Filler {
       const double turn = i + 1 < lines.size() && style_.connect ? turn_length(here, lines[i + 1], rightwards) : 0;
       const double pull = rightwards ? -turn / 2 : turn / 2;
       if (i + 1 < lines.size()) next_start = (rightwards ? right_ : left_)[lines[i + 1]];
-      const bool joined = turn > 0 && (end + pull - start) * (rightwards ? 1 : -1) > 0 && length(lines[i + 1]) > turn;
+      const double least = least_left * lines_.spacing;
+      const bool joined =
+          turn > 0 && (end + pull - start) * (rightwards ? 1 : -1) > least && length(lines[i + 1]) > turn + least;
       append_line(path, here, start, joined ? end + pull : end);
       if (!joined) {
         add(path, style_.role);

@@ -3,6 +3,7 @@
 #include "geometry/offset.h"
 #include "geometry/simplify.h"
 #include "geometry/spatial_index.h"
+#include "infill/fit_sides.h"
 #include "infill/gyroid.h"
 #include "infill/scan.h"
 
@@ -17,6 +18,7 @@ namespace {
 
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 constexpr double least_narrowing = 0.75;  // of the band, for the joints' sake
+constexpr double least_inset = 0.7;       // of what a joint keeps from the edge
 constexpr double shallowest = 0.3;        // sine of the angle between line and edge below which they are not joined
 
 /// A place in the layer, fractional microns.
@@ -83,10 +85,19 @@ class Web {
     const Outline turned(region, frame);
     const double first = std::ceil(turned.least_y() / spacing) * spacing;
     const LineSet lines{first, spacing, static_cast<int>(std::floor((turned.greatest_y() - first) / spacing)) + 1};
-    for (const Interval& i : turned.cut(lines)) {
+    const std::vector<Interval> intervals = turned.cut(lines);
+    const SideFit fit(turned, lines, intervals, style_.band);
+    for (std::uint32_t k = 0; k < intervals.size(); ++k) {
+      const Interval& i = intervals[k];
       const double y = lines.y(i.line);
-      const Turned a = turn(i.from, y, angle_rad), b = turn(i.to, y, angle_rad);
-      lines_.push_back({{{a.x, a.y}, {b.x, b.y}}, i.to - i.from});
+      std::vector<Place> places{turn(i.from, y, angle_rad)};
+      for (const Sides& each : fit.of(k)) {  // beside an edge along it a line gives way, so as not to lie in a wall
+        const double half = style_.band / 2.0, aside = std::min(each.above, half) - std::min(each.below, half);
+        if (aside != 0 && each.x > i.from && each.x < i.to) places.push_back(turn(each.x, y + aside, angle_rad));
+      }
+      places.push_back(turn(i.to, y, angle_rad));
+      const double way = infill::length_of(places);
+      lines_.push_back({std::move(places), way});
       for (const std::uint32_t edge : {i.from_edge, i.to_edge}) {
         const Turned p = turned.points()[edge], q = turned.points()[turned.next(edge)];
         ends_.push_back({edge, (y - p.y) / (q.y - p.y), std::abs(q.y - p.y) / std::hypot(q.x - p.x, q.y - p.y)});
@@ -139,7 +150,7 @@ class Web {
   }
 
  private:
-  static Turned turn(double x, double y, double angle_rad) {
+  static Place turn(double x, double y, double angle_rad) {
     const double c = std::cos(angle_rad), s = std::sin(angle_rad);
     return {x * c - y * s, x * s + y * c};
   }
@@ -252,7 +263,21 @@ class Web {
     }
     way += norm(pulled(b) - last);
     if (way > longest) return std::nullopt;
+    std::erase_if(arc, [&](const Place& p) { return inside_of(p, ends_[a].edge, last_edge) < least_inset * inset; });
     return arc;
+  }
+
+  /// How far inside of the edges from the first to the last a place is; beside a notch a corner's inner point is
+  /// outside.
+  double inside_of(Place p, std::uint32_t first, std::uint32_t last) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::uint32_t edge = first;; edge = outline_.next(edge)) {
+      const Place from = place(edge), way = place(outline_.next(edge)) - from, to = p - from, n = normals_[edge];
+      const double t = (to.x * way.x + to.y * way.y) / std::max(way.x * way.x + way.y * way.y, 1e-9);
+      const double off = norm(to - std::clamp(t, 0.0, 1.0) * way);
+      if (off < std::abs(nearest)) nearest = to.x * n.x + to.y * n.y < 0 ? -off : off;
+      if (edge == last) return nearest;
+    }
   }
 
   std::vector<std::vector<Place>> joined_paths() const {

@@ -56,6 +56,49 @@ TEST_CASE("sparse: lines stay inside, and reach the edge", "[infill][law]") {
   }
 }
 
+TEST_CASE("sparse: a line that grazes a round wall gives way to it", "[infill]") {
+  // spacing 2.1 mm: a hole touches lines that run by up to half a band outside of it
+  for (const Um radius : {4'000, 4'100, 4'190}) {
+    Region region = rectangle(-20'000, -20'000, 20'000, 20'000);
+    Ring hole;
+    for (int k = 0; k < 96; ++k) {
+      const double a = -2 * std::numbers::pi * k / 96;
+      hole.push_back({rounded(radius * std::cos(a)), rounded(radius * std::sin(a))});
+    }
+    region.holes.push_back(hole);
+    int grazing = 0;
+    for (const Bead& bead :
+         filled(region, {.pattern = InfillPattern::lines, .density = 0.2, .band = 420, .connect = false}))
+      for (std::size_t i = 1; i < bead.path.size(); ++i) {
+        const Point a = bead.path[i - 1].at, b = bead.path[i].at;
+        for (int t = 0; t <= 20; ++t) {
+          const double x = std::lerp(a.x, b.x, t / 20.0), y = std::lerp(a.y, b.y, t / 20.0);
+          if (std::abs(x) > 900 || std::abs(y) > radius + 600) continue;
+          ++grazing;
+          CAPTURE(radius, x, y);
+          CHECK(std::hypot(x, y) >= radius + 210 - 25);  // what is less is not worth a junction
+        }
+      }
+    CHECK(grazing > 0);
+  }
+}
+
+TEST_CASE("sparse: a joint does not leave the area through a notch", "[infill]") {
+  // Areas found on a grid have notches a few hundredths wide beside walls that are exact.
+  const Ring ring{{0, 0}, {30'000, 0}, {30'000, 12'000}, {44, 12'000}, {44, 12'200}, {0, 12'200}};
+  for (Um x = -6'000; x < 0; x += 100) {
+    Ring moved = ring;
+    for (Point& p : moved) p.x += x;
+    for (const Bead& bead :
+         filled({moved, {}}, {.pattern = InfillPattern::grid, .density = 0.3, .band = 420, .angle_rad = degrees(45)}))
+      for (const Junction& j : bead.path) {
+        CAPTURE(x, j.at.x, j.at.y);
+        CHECK(j.at.x >= x - 2);
+        CHECK(j.at.y <= 12'202);
+      }
+  }
+}
+
 TEST_CASE("sparse: joining lines saves travels", "[infill]") {
   const Region square = rectangle(0, 0, 40000, 40000);
   for (const InfillPattern pattern : {InfillPattern::lines, InfillPattern::grid, InfillPattern::triangles}) {
