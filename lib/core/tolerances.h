@@ -15,7 +15,7 @@ inline constexpr double sliver_area_um2 = 400;
 inline constexpr Um arc = 5_um;
 
 /// How far a bead's path may be moved to be printed with fewer moves. motion/resample.
-inline constexpr Um path = 5_um;
+inline constexpr Um path = 4_um;
 
 /// A segment along which a bead's band changes by more than this is cut, because firmware extrudes evenly along a segment.
 /// motion/resample.
