@@ -11,6 +11,7 @@ target_compile_options(weft_options INTERFACE
 # -O3 pays in the medial axis and the raster loops.
 string(REPLACE "-O2" "-O3" CMAKE_CXX_FLAGS_RELWITHDEBINFO "${CMAKE_CXX_FLAGS_RELWITHDEBINFO}")
 set(CMAKE_CXX_FLAGS_RELEASE "-O3")
+set(weft_small $<$<CONFIG:Release>:-Os>)  # for what runs once a job
 
 if(WEFT_SANITIZE)
   # With instrumentation GCC 12 sees uninitialised members in its own <regex> that are not.

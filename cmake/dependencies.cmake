@@ -10,4 +10,16 @@ pkg_check_modules(nettle REQUIRED IMPORTED_TARGET nettle)
 pkg_check_modules(minizip REQUIRED IMPORTED_TARGET minizip)
 pkg_check_modules(expat REQUIRED IMPORTED_TARGET expat)
 pkg_check_modules(libpng REQUIRED IMPORTED_TARGET libpng)
+set(Boost_USE_STATIC_LIBS ON)
 find_package(Boost REQUIRED COMPONENTS program_options)
+
+# A run needs a few functions of these; a shared library takes hundreds of kB in memory for its tables alone. Where the
+# system has no archive, the shared one does.
+find_library(zlib NAMES libz.a z REQUIRED)
+foreach(library nettle minizip expat png)
+  find_library(${library}_archive lib${library}.a)
+  if(${library}_archive)
+    string(REPLACE png libpng target ${library})
+    set_property(TARGET PkgConfig::${target} PROPERTY INTERFACE_LINK_LIBRARIES ${${library}_archive} ${zlib} m)
+  endif()
+endforeach()
