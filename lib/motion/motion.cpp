@@ -118,15 +118,19 @@ PlannedLayer plan_layer(const Rules& rules, LayerPlan layer, std::size_t index, 
   return out;
 }
 
+std::optional<Point3> start_after(const LayerPlan& layer, std::optional<Point3> start) {
+  constexpr Point3 nowhere{-max_coord - 1, -max_coord - 1, -max_coord - 1};
+  const auto end = end_of(layer, start.value_or(nowhere));
+  return end != nowhere ? end : start;
+}
+
 std::vector<std::optional<Point3>> starts_of(const PrintPlan& print) {
   std::vector<std::optional<Point3>> starts;
   starts.reserve(print.layers.size());
   std::optional<Point3> at;
   for (const auto& layer : print.layers) {
     starts.push_back(at);
-    constexpr Point3 nowhere{-max_coord - 1, -max_coord - 1, -max_coord - 1};
-    const auto end = end_of(layer, at.value_or(nowhere));
-    if (end != nowhere) at = end;
+    at = start_after(layer, at);
   }
   return starts;
 }

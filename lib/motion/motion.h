@@ -36,6 +36,9 @@ struct PlannedLayer {
 ///       time lets each begin and end at rest, which costs a fraction of a second a layer.
 PlannedLayer plan_layer(const Rules& rules, LayerPlan layer, std::size_t index, std::optional<Point3> start);
 
+/// Where the nozzle is when a layer is done that began at `start`; nothing as long as no layer has moved.
+std::optional<Point3> start_after(const LayerPlan& layer, std::optional<Point3> start);
+
 /// Where the nozzle is when each layer begins; nothing where no layer before has moved.
 std::vector<std::optional<Point3>> starts_of(const PrintPlan& print);
 

@@ -12,27 +12,47 @@ namespace {
 class Writer {
  public:
   void operator()(const std::uint64_t& v) {
+    constexpr std::size_t most = 10;
+    if (out_.size() - size_ < most) out_.resize(2 * out_.size() + 256);
+    char* at = out_.data() + size_;
     std::uint64_t rest = v;
-    for (; rest >= 0x80; rest >>= 7) out.push_back(static_cast<char>(rest | 0x80));
-    out.push_back(static_cast<char>(rest));
+    for (; rest >= 0x80; rest >>= 7) *at++ = static_cast<char>(rest | 0x80);
+    *at++ = static_cast<char>(rest);
+    size_ = static_cast<std::size_t>(at - out_.data());
   }
   void operator()(const std::int64_t& v) {
     (*this)((static_cast<std::uint64_t>(v) << 1) ^ static_cast<std::uint64_t>(v >> 63));
   }
   void operator()(const double& v) {
     const auto bits = std::bit_cast<std::uint64_t>(v);
-    for (int i = 0; i < 8; ++i) out.push_back(static_cast<char>(bits >> (8 * i)));
+    char bytes[8];
+    for (int i = 0; i < 8; ++i) bytes[i] = static_cast<char>(bits >> (8 * i));
+    add({bytes, 8});
   }
-  void operator()(const std::string& v) { (*this)(std::uint64_t{v.size()}), out += v; }
+  void operator()(const std::string& v) { (*this)(std::uint64_t{v.size()}), add(v); }
   void size(const std::uint64_t& n, std::size_t) { (*this)(n); }
+  /// What was written, without room to spare: it may wait long.
+  std::string bytes() const { return out_.substr(0, size_); }
 
-  std::string out;
+ private:
+  void add(std::string_view bytes) {
+    if (out_.size() - size_ < bytes.size()) out_.resize(2 * out_.size() + bytes.size());
+    bytes.copy(out_.data() + size_, bytes.size());
+    size_ += bytes.size();
+  }
+  std::string out_;
+  std::size_t size_ = 0;  // of it, what is written
 };
 
 class Reader {
  public:
   explicit Reader(std::string_view bytes) : rest_(bytes) {}
   void operator()(std::uint64_t& v) {
+    if (!rest_.empty() && static_cast<unsigned char>(rest_[0]) < 0x80) {  // most are small
+      v = static_cast<unsigned char>(rest_[0]);
+      rest_.remove_prefix(1);
+      return;
+    }
     v = 0;
     for (int shift = 0;; shift += 7) {
       if (shift > 63) damaged();
@@ -95,11 +115,11 @@ inline constexpr bool reads = std::is_same_v<A, Reader>;
 template <class A, class T>
 using Ref = std::conditional_t<reads<A>, T, const T>&;
 
-/// A vector whose items are written one by one; rings have a way of their own.
+/// A vector whose items are written one by one; rings and paths have a way of their own.
 template <class V>
 inline constexpr bool is_list = false;
 template <class T>
-inline constexpr bool is_list<std::vector<T>> = !std::is_same_v<T, Point>;
+inline constexpr bool is_list<std::vector<T>> = !std::is_same_v<T, Point> && !std::is_same_v<T, Junction>;
 
 template <class A, class T>
 requires std::is_integral_v<T> || std::is_enum_v<T>
@@ -151,19 +171,28 @@ template <class A>
 void fields(A& a, Ref<A, Notice> v) {
   fields(a, v.code), fields(a, v.message);
 }
+/// A number by the bits that differ from those of the usual one, which takes one byte.
+template <class A>
+void unlike(A& a, Ref<A, float> v, float usual) {
+  const auto base = std::bit_cast<std::uint32_t>(usual);
+  auto bits = std::uint64_t{std::bit_cast<std::uint32_t>(v) ^ base};
+  a(bits);
+  if constexpr (reads<A>) v = std::bit_cast<float>(static_cast<std::uint32_t>(bits) ^ base);
+}
+template <class A>
+void fields(A& a, Ref<A, std::vector<Junction>> path) {
+  auto count = std::uint64_t{path.size()};
+  a.size(count, sizeof(Junction));
+  if constexpr (reads<A>) path.resize(count);
+  std::int64_t x = 0, y = 0, width = 0;
+  for (auto& j : path) {
+    difference(a, j.at.x, x), difference(a, j.at.y, y), difference(a, j.width, width);
+    unlike(a, j.flow, 1.F);
+  }
+}
 template <class A>
 void fields(A& a, Ref<A, Bead> v) {
-  auto count = std::uint64_t{v.path.size()};
-  a.size(count, sizeof(Junction));
-  if constexpr (reads<A>) v.path.resize(count);
-  std::int64_t x = 0, y = 0, width = 0;
-  for (auto& j : v.path) {
-    difference(a, j.at.x, x), difference(a, j.at.y, y), difference(a, j.width, width);
-    constexpr auto one = std::bit_cast<std::uint32_t>(1.F);  // the usual flow takes one byte
-    auto flow = std::uint64_t{std::bit_cast<std::uint32_t>(j.flow) ^ one};
-    a(flow);
-    if constexpr (reads<A>) j.flow = std::bit_cast<float>(static_cast<std::uint32_t>(flow) ^ one);
-  }
+  fields(a, v.path);
   fields(a, v.role), fields(a, v.closed), fields(a, v.inset), fields(a, v.part), fields(a, v.sequence);
 }
 template <class A>
@@ -182,6 +211,63 @@ void fields(A& a, Ref<A, WallLayer> v) {
 template <class A>
 void fields(A& a, Ref<A, FilledLayer> v) {
   fields(a, v.top), fields(a, v.skin), fields(a, v.sparse), fields(a, v.beads), fields(a, v.notices);
+}
+template <class A>
+void fields(A& a, Ref<A, Point3> v) {
+  fields(a, v.x), fields(a, v.y), fields(a, v.z);
+}
+template <class A>
+void fields(A& a, Ref<A, float> v) {
+  unlike(a, v, 0.F);
+}
+template <class A>
+void fields(A& a, Ref<A, Extrude> v) {
+  fields(a, v.path), fields(a, v.role), fields(a, v.height), fields(a, v.speed_mm_s), fields(a, v.segment_speed_mm_s),
+      fields(a, v.acceleration_mm_s2), fields(a, v.below);
+}
+template <class A>
+void fields(A& a, Ref<A, Travel> v) {
+  fields(a, v.path), fields(a, v.speed_mm_s), fields(a, v.crosses_wall), fields(a, v.z_speed_mm_s),
+      fields(a, v.acceleration_mm_s2);
+}
+template <class A>
+void fields(A& a, Ref<A, Retract> v) {
+  fields(a, v.wipe), fields(a, v.wipe_speed_mm_s), fields(a, v.before_wipe);
+}
+template <class A>
+void fields(A&, Ref<A, Prime>) {}
+template <class A>
+void fields(A& a, Ref<A, SetFan> v) {
+  fields(a, v.share);
+}
+template <class A>
+void fields(A& a, Ref<A, ObjectStart> v) {
+  fields(a, v.object);
+}
+template <class A>
+void fields(A& a, Ref<A, ObjectEnd> v) {
+  fields(a, v.object);
+}
+/// Makes a step of the kind with that index.
+template <std::size_t kind = 0>
+void become(Step& step, std::uint64_t index) {
+  if constexpr (kind == std::variant_size_v<Step>)
+    throw std::runtime_error("a cached result is damaged");
+  else if (index == kind)
+    step.emplace<kind>();
+  else
+    become<kind + 1>(step, index);
+}
+template <class A>
+void fields(A& a, Ref<A, Step> v) {
+  auto kind = std::uint64_t{v.index()};
+  a(kind);
+  if constexpr (reads<A>) become(v, kind);
+  std::visit([&](auto& step) { fields(a, step); }, v);
+}
+template <class A>
+void fields(A& a, Ref<A, LayerPlan> v) {
+  fields(a, v.z), fields(a, v.height), fields(a, v.steps);
 }
 template <class A>
 void fields(A& a, Ref<A, Triangle> v) {
@@ -228,7 +314,7 @@ template <class T>
 std::string encoded(const T& v) {
   Writer writer;
   fields(writer, v);
-  return std::move(writer.out);
+  return writer.bytes();
 }
 template <class T>
 void decoded(std::string_view bytes, T& out) {
@@ -257,6 +343,9 @@ std::string encode(const std::vector<WallLayer>& v) {
 std::string encode(const std::vector<FilledLayer>& v) {
   return encoded(v);
 }
+std::string encode(const LayerPlan& v) {
+  return encoded(v);
+}
 void decode(std::string_view bytes, mesh::Loaded& out) {
   decoded(bytes, out);
 }
@@ -267,6 +356,9 @@ void decode(std::string_view bytes, std::vector<WallLayer>& out) {
   decoded(bytes, out);
 }
 void decode(std::string_view bytes, std::vector<FilledLayer>& out) {
+  decoded(bytes, out);
+}
+void decode(std::string_view bytes, LayerPlan& out) {
   decoded(bytes, out);
 }
 std::size_t memory_of(const mesh::Loaded& v) {

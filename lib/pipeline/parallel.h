@@ -2,6 +2,7 @@
 #include "pipeline/tasks.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <exception>
 #include <functional>
@@ -11,6 +12,17 @@
 #include <vector>
 
 namespace weft::pipeline {
+
+/// All results; where there are errors, that of the lowest index is rethrown.
+template <class Out>
+std::vector<Out> taken_out(std::vector<std::optional<Out>>& results, const std::vector<std::exception_ptr>& failed) {
+  for (const auto& error : failed)
+    if (error) std::rethrow_exception(error);
+  std::vector<Out> out;
+  out.reserve(results.size());
+  for (auto& result : results) out.push_back(std::move(*result));
+  return out;
+}
 
 /// f(i) for i in [0, count), computed in any order, returned in index order. If calls throw, the error of the lowest index
 /// is rethrown: the number of threads changes neither the output nor the message.
@@ -26,12 +38,7 @@ auto parallel_map(std::size_t count, F f) {
       failed[i] = std::current_exception();
     }
   });
-  for (const auto& error : failed)
-    if (error) std::rethrow_exception(error);
-  std::vector<Out> out;
-  out.reserve(count);
-  for (auto& slot : slots) out.push_back(std::move(*slot));
-  return out;
+  return taken_out(slots, failed);
 }
 
 /// take(i, f(i)) for i in [0, count): f in any order and side by side, take in index order and one at a time. Few results
@@ -59,6 +66,49 @@ void parallel_in_order(std::size_t count, F f, Take take) {
     take(i, std::move(*piece.out));
     piece.out.reset();
   });
+}
+
+/// g(i, link(i, f(i))) for i in [0, count), returned in index order: f and g in any order and side by side, link in index
+/// order and one at a time. Few pieces are on their way at once, so that what a step has used up need not be there as a
+/// whole. Errors as in parallel_map.
+template <class F, class Link, class G>
+auto parallel_linked(std::size_t count, F f, Link link, G g) {
+  using Made = std::invoke_result_t<F&, std::size_t>;
+  using Linked = std::invoke_result_t<Link&, std::size_t, Made>;
+  using Out = std::invoke_result_t<G&, std::size_t, Linked>;
+  struct Piece {
+    std::optional<Made> made;
+    std::optional<Linked> linked;
+  };
+  const std::size_t slots = std::min(count, most_in_flight());
+  std::vector<Piece> pieces(slots);
+  std::vector<std::optional<Out>> results(count);
+  std::vector<std::exception_ptr> failed(count);
+  std::atomic<bool> broken = false;  // a link is missing: nothing after it counts
+  const auto guarded = [&](std::size_t i, const auto& step) {
+    try {
+      step(pieces[i % slots]);
+    } catch (...) {
+      failed[i] = std::current_exception();
+    }
+  };
+  for_each_in_order(
+      count, slots,
+      [&](std::size_t i) {
+        if (!broken) guarded(i, [&](Piece& piece) { piece.made.emplace(f(i)); });
+      },
+      [&](std::size_t i) {
+        if (failed[i]) broken = true;
+        if (broken) return;
+        guarded(i, [&](Piece& piece) { piece.linked.emplace(link(i, std::move(*piece.made))); });
+        if (failed[i]) broken = true;
+      },
+      [&](std::size_t i) {
+        if (!pieces[i % slots].linked) return;
+        guarded(i, [&](Piece& piece) { results[i].emplace(g(i, std::move(*piece.linked))); });
+        pieces[i % slots].linked.reset();
+      });
+  return taken_out(results, failed);
 }
 
 }  // namespace weft::pipeline

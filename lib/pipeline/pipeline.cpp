@@ -3,7 +3,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "gcode/writer.h"
-#include "motion/motion.h"
+#include "pipeline/give_back.h"
 #include "pipeline/parallel.h"
 #include "pipeline/plate.h"
 #include "pipeline/provenance.h"
@@ -19,37 +19,9 @@
 #include <filesystem>
 #include <utility>
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-
 namespace weft {
 namespace {
 using namespace pipeline;
-
-/// Speeds, cooling and time, layer by layer.
-Statistics plan_motion(const Settings& settings, PrintPlan& plan, const Watch& watch, Report& report) {
-  const Stopwatch stopwatch(report.timings_ms.travel);
-  const auto rules = motion::rules_of(settings);
-  const auto starts = motion::starts_of(plan);
-  auto planned = parallel_map(plan.layers.size(), [&](std::size_t i) {
-    stop_if_cancelled(watch);
-    return motion::plan_layer(rules, std::move(plan.layers[i]), i, starts[i]);
-  });
-  Statistics statistics;
-  for (std::size_t i = 0; i < planned.size(); ++i) {
-    plan.layers[i] = std::move(planned[i].plan);
-    statistics.append(planned[i].statistics);
-  }
-  return statistics;
-}
-
-/// Gives back to the system what earlier stages have used and freed in pieces, before the next takes as much again.
-void give_back_memory() {
-#ifdef __GLIBC__
-  malloc_trim(0);
-#endif
-}
 
 /// The most bytes that the text of a plan may take, about: what is not used is address space, no memory.
 std::size_t room_for(const PrintPlan& plan) {
@@ -77,7 +49,7 @@ std::string write_gcode(const gcode::Job& job, PrintPlan& plan, Report& report) 
     return block;
   };
   parallel_in_order(plan.layers.size(), write, [&](std::size_t i, const std::string& block) {
-    if (i % 16 == 0) give_back_memory();
+    if (i % layers_between_giving_back == 0) give_back_memory();
     text += block;
   });
   text += tail;
@@ -160,10 +132,7 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
   refuse_emptiness(job, box, layers);
   give_back_memory();
   begin("travel", 0.65);
-  PrintPlan plan = plan_plate(job.settings, objects, std::move(layers), watch, report);
-  give_back_memory();
-  begin("motion", 0.8);
-  const Statistics statistics = plan_motion(job.settings, plan, watch, report);
+  auto [plan, statistics] = plan_plate(job.settings, objects, std::move(layers), watch, report);
   note_statistics(statistics, report);
   report.layers = plan.layers.size();
   report.height_mm = plan.layers.empty() ? 0.0 : to_mm(plan.layers.back().z);

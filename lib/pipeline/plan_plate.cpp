@@ -1,3 +1,5 @@
+#include "pipeline/codec.h"
+#include "pipeline/give_back.h"
 #include "pipeline/parallel.h"
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
@@ -10,6 +12,7 @@
 #include <algorithm>
 #include <iterator>
 #include <numbers>
+#include <utility>
 
 namespace weft::pipeline {
 namespace {
@@ -79,16 +82,59 @@ void add_adhesion(const Settings& settings, std::vector<travel::LayerInput>& lay
   std::move(built.notices.begin(), built.notices.end(), std::back_inserter(notices));
 }
 
+/// A layer that is done with, until all are.
+struct PackedLayer {
+  std::string steps;  ///< of a LayerPlan (codec.h)
+  Statistics statistics;
+};
+
+/// Ways, speeds and times. What a layer was made of is let go of as it goes.
+std::vector<PackedLayer> plan_moves(const Settings& settings, std::vector<travel::Prepared> prepared, std::vector<travel::Ordered> ordered,
+                                    const Watch& watch, Notices& notices) {
+  const std::size_t count = prepared.size();
+  std::vector<std::optional<Point>> from(count);
+  for (std::size_t i = 1; i < count; ++i) from[i] = ordered[i - 1].end ? ordered[i - 1].end : from[i - 1];
+  const auto rules = motion::rules_of(settings);
+  std::vector<travel::Routed> departures(count);  // without their plans, which go on
+  struct Begun {
+    LayerPlan plan;
+    std::optional<Point3> start;
+  };
+  std::optional<Point3> at;
+  auto packed = parallel_linked(
+      count,
+      [&](std::size_t i) {
+        stop_if_cancelled(watch);
+        auto layer = std::move(prepared[i]);
+        travel::prepare_ways(settings.travel, layer);
+        return travel::route(settings.travel, settings.retraction, layer, ordered[i], from[i]);
+      },
+      [&](std::size_t i, travel::Routed routed) {
+        if (i % layers_between_giving_back == 0) give_back_memory();
+        departures[i].departures = routed.departures;
+        Begun layer{std::move(routed.plan), at};
+        at = motion::start_after(layer.plan, at);
+        return layer;
+      },
+      [&](std::size_t i, Begun layer) {
+        const auto planned = motion::plan_layer(rules, std::move(layer.plan), i, layer.start);
+        return PackedLayer{encode(planned.plan), planned.statistics};
+      });
+  for (auto& notice : travel::notices_of(departures)) notices.push_back(std::move(notice));
+  return packed;
+}
+
 }  // namespace
 
-PrintPlan plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects, std::vector<PrintedLayers> layers, const Watch& watch,
-                     Report& report) {
+motion::Planned plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects, std::vector<PrintedLayers> layers, const Watch& watch,
+                           Report& report) {
   const Stopwatch stopwatch(report.timings_ms.travel);
   std::size_t count = 0;
   for (const auto& object : layers) count = std::max(count, object.size());
   auto inputs = parallel_map(count, [&](std::size_t i) { return plate_layer(objects, layers, i); });
 
-  PrintPlan plan;
+  motion::Planned out;
+  auto& plan = out.plan;
   plan.objects = labels_of(objects);
   add_adhesion(settings, inputs, plan.notices);
   const double filament_mm = to_mm(settings.material.filament_diameter);
@@ -103,21 +149,20 @@ PrintPlan plan_plate(const Settings& settings, const std::vector<PlacedObject>& 
     return travel::prepare_order(settings.travel, std::move(inputs[i]));
   });
   const auto linked = travel::link(settings.travel, prepared);
-  const auto ordered = parallel_map(count, [&](std::size_t i) {
+  auto ordered = parallel_map(count, [&](std::size_t i) {
     stop_if_cancelled(watch);
     return travel::order(settings.travel, prepared[i], linked[i]);
   });
-  std::vector<std::optional<Point>> from(count);
-  for (std::size_t i = 1; i < count; ++i) from[i] = ordered[i - 1].end ? ordered[i - 1].end : from[i - 1];
-  auto routed = parallel_map(count, [&](std::size_t i) {
-    stop_if_cancelled(watch);
-    auto layer = std::move(prepared[i]);  // done with: what it holds is as large as the plan
-    travel::prepare_ways(settings.travel, layer);
-    return travel::route(settings.travel, settings.retraction, layer, ordered[i], from[i]);
+  auto planned = plan_moves(settings, std::move(prepared), std::move(ordered), watch, plan.notices);
+  for (const auto& layer : planned) out.statistics.append(layer.statistics);
+  // Unpacked they lie side by side; the pieces of a plan that lie scattered where beads were keep their room from the system.
+  give_back_memory();
+  plan.layers = parallel_map(count, [&](std::size_t i) {
+    LayerPlan layer;
+    decode(std::exchange(planned[i].steps, {}), layer);
+    return layer;
   });
-  for (auto& notice : travel::notices_of(routed)) plan.notices.push_back(std::move(notice));
-  for (auto& layer : routed) plan.layers.push_back(std::move(layer.plan));
-  return plan;
+  return out;
 }
 
 }  // namespace weft::pipeline

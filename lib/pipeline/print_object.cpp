@@ -72,7 +72,7 @@ std::vector<infill::LayerAreas> find_areas(const Settings& settings, const Cuts&
   std::vector<infill::ShellLayer> seen(cuts.size());
   for (std::size_t i = 0; i < cuts.size(); ++i) seen[i] = {cuts[i].layer.z, cuts[i].layer.height, &cuts[i].layer.regions, &walls[i].inside};
   const infill::ShellObject object{seen, infill::box_of(seen), settings.machine.nozzle_diameter};
-  constexpr std::size_t run = 16;
+  constexpr std::size_t run = 8;
   auto runs = parallel_map((cuts.size() + run - 1) / run, [&](std::size_t r) {
     return infill::find_areas(settings.shells, settings.infill, object, r * run, std::min(run, cuts.size() - r * run));
   });

@@ -3,6 +3,7 @@
 #include "mesh/mesh.h"
 #include "model/layer.h"
 #include "model/plan.h"
+#include "motion/motion.h"
 #include "pipeline/pipeline.h"
 
 #include <string>
@@ -34,8 +35,8 @@ using PrintedLayers = std::vector<PrintedLayer>;
 /// @param cache may be null
 PrintedLayers print_object(const Settings& settings, const PlacedObject& object, const Watch& watch, Report& report, StageCache* cache);
 
-/// The whole plate as steps: copies put in their places, adhesion around them, order, seams and travels.
-PrintPlan plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects, std::vector<PrintedLayers> layers, const Watch& watch,
+/// The whole plate as steps: copies put in their places, adhesion around them, order, seams and travels, speeds and times.
+motion::Planned plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects, std::vector<PrintedLayers> layers, const Watch& watch,
                      Report& report);
 
 /// @throws Error{interrupted} when the watch says so

@@ -26,7 +26,8 @@ void for_each_index(std::size_t count, const std::function<void(std::size_t)>& t
 }
 
 void for_each_in_order(std::size_t count, std::size_t places, const std::function<void(std::size_t)>& make,
-                       const std::function<void(std::size_t)>& take) {
+                       const std::function<void(std::size_t)>& take,
+                       const std::function<void(std::size_t)>& finish) {
   HandOver hand_over;
   std::vector<Baton> place(places);
   Baton turn;
@@ -35,23 +36,29 @@ void for_each_in_order(std::size_t count, std::size_t places, const std::functio
     if (next == count) control.stop();
     return next < count ? next++ : count;
   };
-  const auto made = [&](std::size_t i) {
-    const HandOver::Task handed(hand_over);
-    place[i % places].take();
-    make(i);
-    place[i % places].pass();
-    return i;
+  const auto in_place = [&](const std::function<void(std::size_t)>& work) {
+    return [&hand_over, &place, &work, places](std::size_t i) {
+      const HandOver::Task handed(hand_over);
+      place[i % places].take();
+      work(i);
+      place[i % places].pass();
+      return i;
+    };
   };
   const auto taken = [&](std::size_t i) {
     const HandOver::Task handed(hand_over);
     place[i % places].take(), turn.take();
     take(i);
     place[i % places].pass(), turn.pass();
+    return i;
   };
+  const auto done = [](std::size_t) {};  // in order, so that the next to use the place comes after
   using tbb::filter_mode;
   const auto filters = tbb::make_filter<void, std::size_t>(filter_mode::serial_in_order, number) &
-                       tbb::make_filter<std::size_t, std::size_t>(filter_mode::parallel, made) &
-                       tbb::make_filter<std::size_t, void>(filter_mode::serial_in_order, taken);
+                       tbb::make_filter<std::size_t, std::size_t>(filter_mode::parallel, in_place(make)) &
+                       tbb::make_filter<std::size_t, std::size_t>(filter_mode::serial_in_order, taken) &
+                       tbb::make_filter<std::size_t, std::size_t>(filter_mode::parallel, in_place(finish)) &
+                       tbb::make_filter<std::size_t, void>(filter_mode::serial_in_order, done);
   hand_over.begin();
   const HandOver::Wait waited(hand_over);
   if (count > 0) tbb::parallel_pipeline(places, filters);

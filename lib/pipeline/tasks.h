@@ -9,11 +9,12 @@ namespace weft::pipeline {
 /// task(i) for i in [0, count), side by side in any order; returns when all are done. Pre: task does not throw.
 void for_each_index(std::size_t count, const std::function<void(std::size_t)>& task);
 
-/// make(i) for i in [0, count) in any order and side by side, take(i) after it in index order, one at a time. make(i)
-/// may use the place i % places of what has so many: take(i − places) is done with it.
-/// @throws what `take` throws, then nothing more is taken. Pre: make does not throw; places > 0 unless count is 0
+/// make(i) for i in [0, count) in any order and side by side, take(i) after it in index order, one at a time, then
+/// finish(i) side by side again. All three may use the place i % places of what has so many: i − places is done with it.
+/// @throws what `take` throws, then nothing more is taken. Pre: the others do not throw; places > 0 unless count is 0
 void for_each_in_order(std::size_t count, std::size_t places, const std::function<void(std::size_t)>& make,
-                       const std::function<void(std::size_t)>& take);
+                       const std::function<void(std::size_t)>& take,
+                       const std::function<void(std::size_t)>& finish = [](std::size_t) {});
 /// Places that keep all threads at work.
 std::size_t most_in_flight();
 

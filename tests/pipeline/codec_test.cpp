@@ -1,5 +1,6 @@
 #include "pipeline/codec.h"
 
+#include <cmath>
 #include <random>
 
 #include <catch2/catch.hpp>
@@ -87,6 +88,37 @@ TEST_CASE("codec: results of stages come back as they were") {
     CHECK(fills2[0].sparse == fills[0].sparse);
     CHECK(fills2[0].beads == fills[0].beads);
   }
+}
+
+TEST_CASE("codec: a planned layer comes back as it was") {
+  Extrude bead{{{{-5, 7}, 450, 0.3F}, {{9, max_coord}, 1, 1.F}}, Role::bridge, 200, 1.0 / 3, {12.5F, -0.F}, 1500.1, {0, -20}};
+  Travel travel{{{1, -2, 3}, {max_coord, 0, -7}}, 120.7, true, 0.1, 1e300};
+  Retract retract{{{3, 4}, {-3, 9}}, 35.5, 0.7};
+  const LayerPlan layer{1200, -3, {ObjectStart{7}, bead, travel, retract, Prime{}, SetFan{0.35}, Extrude{}, ObjectEnd{4294967295}}};
+  const auto out = there_and_back(layer);
+  CHECK(out.z == layer.z);
+  CHECK(out.height == layer.height);
+  REQUIRE(out.steps.size() == layer.steps.size());
+  for (std::size_t i = 0; i < out.steps.size(); ++i) REQUIRE(out.steps[i].index() == layer.steps[i].index());
+  CHECK(std::get<ObjectStart>(out.steps[0]).object == 7);
+  const auto& b = std::get<Extrude>(out.steps[1]);
+  CHECK(b.path == bead.path);
+  CHECK(b.role == bead.role);
+  CHECK(b.height == bead.height);
+  CHECK(b.speed_mm_s == bead.speed_mm_s);
+  CHECK(b.segment_speed_mm_s == bead.segment_speed_mm_s);
+  CHECK(std::signbit(b.segment_speed_mm_s[1]));
+  CHECK(b.acceleration_mm_s2 == bead.acceleration_mm_s2);
+  CHECK(b.below == bead.below);
+  const auto& t = std::get<Travel>(out.steps[2]);
+  CHECK(t.path == travel.path);
+  CHECK(t.speed_mm_s == travel.speed_mm_s);
+  CHECK(t.crosses_wall);
+  CHECK(t.z_speed_mm_s == travel.z_speed_mm_s);
+  CHECK(t.acceleration_mm_s2 == travel.acceleration_mm_s2);
+  CHECK(std::get<Retract>(out.steps[3]) == retract);
+  CHECK(std::get<SetFan>(out.steps[5]).share == 0.35);
+  CHECK(std::get<ObjectEnd>(out.steps[7]).object == 4294967295);
 }
 
 TEST_CASE("codec: a model comes back as it was") {
