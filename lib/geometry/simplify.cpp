@@ -8,6 +8,8 @@
 namespace weft::geometry {
 namespace {
 
+constexpr double most_area_share = 0.0075;  // chords cut off corners of a small ring: what it loses is to be less
+
 bool needless(Point before, Point at, Point after) {
   return orient(before, at, after) == 0;
 }
@@ -103,11 +105,14 @@ Ring simplified(const Ring& ring, Um bound) {
   const auto start = std::min_element(ring.begin(), ring.end());
   Polyline opened(start, ring.end());
   opened.insert(opened.end(), ring.begin(), start + 1);
-  Ring out = simplified_line(opened, bound);
-  out.pop_back();
-  const std::int64_t before = double_area(ring), after = double_area(out);
-  const bool collapsed = out.size() < 3 || after == 0 || (after > 0) != (before > 0);
-  return collapsed ? ring : out;
+  const double area = static_cast<double>(double_area(ring));
+  for (; bound > 0; bound /= 2) {
+    Ring out = simplified_line(opened, bound);
+    out.pop_back();
+    const double off = static_cast<double>(double_area(out)) - area;
+    if (out.size() >= 3 && std::abs(off) <= most_area_share * std::abs(area)) return out;
+  }
+  return ring;
 }
 
 Regions simplified(const Regions& regions, Um bound) {
