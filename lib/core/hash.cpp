@@ -7,12 +7,20 @@
 
 namespace weft {
 
-std::string sha256(std::string_view bytes) {
-  sha256_ctx context;
-  sha256_init(&context);
-  sha256_update(&context, bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()));
+struct Sha256::Context : sha256_ctx {};
+
+Sha256::Sha256() : context_(std::make_unique<Context>()) {
+  sha256_init(context_.get());
+}
+Sha256::~Sha256() = default;
+
+void Sha256::add(std::string_view bytes) {
+  sha256_update(context_.get(), bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()));
+}
+
+std::string Sha256::digest() {
   std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest;
-  sha256_digest(&context, digest.size(), digest.data());
+  sha256_digest(context_.get(), digest.size(), digest.data());  // which begins anew
   constexpr std::string_view hex = "0123456789abcdef";
   std::string out;
   out.reserve(2 * digest.size());
@@ -21,6 +29,12 @@ std::string sha256(std::string_view bytes) {
     out += hex[byte & 15];
   }
   return out;
+}
+
+std::string sha256(std::string_view bytes) {
+  Sha256 hash;
+  hash.add(bytes);
+  return hash.digest();
 }
 
 }  // namespace weft

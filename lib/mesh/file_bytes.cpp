@@ -6,21 +6,14 @@
 #include <cstdlib>
 #include <cstring>
 #include <new>
+#include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 namespace weft::mesh {
 namespace {
-
-struct Descriptor {
-  int number;
-  ~Descriptor() {
-    if (number >= 0) ::close(number);
-  }
-};
 
 Error unreadable(const std::string& path, int error) {
   if (error == EISDIR) return {Error::Kind::file, "is a directory, not a model", path, "name the files in it"};
@@ -30,29 +23,55 @@ Error unreadable(const std::string& path, int error) {
 
 }  // namespace
 
-FileBytes::FileBytes(const std::string& path) {
-  const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
-  struct stat before {}, after {};
-  if (file.number < 0 || ::fstat(file.number, &before) != 0) throw unreadable(path, errno);
-  if (S_ISDIR(before.st_mode)) throw unreadable(path, EISDIR);
-  const bool regular = S_ISREG(before.st_mode);
-  std::size_t room = regular ? static_cast<std::size_t>(before.st_size) + 1 : 1 << 16;  // one more, to see the end
-  bytes_.reset(static_cast<char*>(std::malloc(room)));
-  for (;;) {
-    if (!bytes_) throw std::bad_alloc();
-    const ssize_t got = ::read(file.number, bytes_.get() + size_, room - size_);
+InputFile::InputFile(std::string path)
+    : path_(std::move(path)), descriptor_(::open(path_.c_str(), O_RDONLY | O_CLOEXEC)) {
+  if (descriptor_ < 0) throw unreadable(path_, errno);
+  const int error = ::fstat(descriptor_, &before_) != 0 ? errno : S_ISDIR(before_.st_mode) ? EISDIR : 0;
+  if (error == 0) return;
+  ::close(descriptor_);
+  throw unreadable(path_, error);
+}
+
+InputFile::~InputFile() {
+  ::close(descriptor_);
+}
+
+std::size_t InputFile::front(char* to, std::size_t most) const {
+  const ssize_t got = ::pread(descriptor_, to, most, 0);
+  return got < 0 ? 0 : static_cast<std::size_t>(got);
+}
+
+std::size_t InputFile::read(char* to, std::size_t most) {
+  std::size_t size = 0;
+  while (size < most) {
+    const ssize_t got = ::read(descriptor_, to + size, most - size);
     if (got == 0) break;
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) throw unreadable(path, errno);
-    size_ += static_cast<std::size_t>(got);
-    if (size_ < room) continue;
-    room *= 2;
-    bytes_.reset(static_cast<char*>(std::realloc(bytes_.release(), room)));
+    if (got < 0) throw unreadable(path_, errno);
+    size += static_cast<std::size_t>(got);
   }
-  if (!regular || ::fstat(file.number, &after) != 0) return;
+  read_ += size;
+  return size;
+}
+
+void InputFile::check_unchanged() const {
+  struct stat after {};
+  if (!regular() || ::fstat(descriptor_, &after) != 0) return;
   const auto same = [](const timespec& s, const timespec& t) { return s.tv_sec == t.tv_sec && s.tv_nsec == t.tv_nsec; };
-  if (static_cast<std::size_t>(after.st_size) != size_ || !same(before.st_mtim, after.st_mtim))
-    throw Error{Error::Kind::file, "changed while it was read", path, "is another program still writing it?"};
+  if (static_cast<std::size_t>(after.st_size) != read_ || !same(before_.st_mtim, after.st_mtim))
+    throw Error{Error::Kind::file, "changed while it was read", path_, "is another program still writing it?"};
+}
+
+void FileBytes::take(InputFile& file) {
+  std::size_t room = file.regular() ? file.size() + 1 : 1 << 16;  // one more, to see the end
+  for (;;) {
+    bytes_.reset(static_cast<char*>(std::realloc(bytes_.release(), room)));
+    if (!bytes_) throw std::bad_alloc();
+    size_ += file.read(bytes_.get() + size_, room - size_);
+    if (size_ < room) break;
+    room *= 2;
+  }
+  file.check_unchanged();
 }
 
 }  // namespace weft::mesh

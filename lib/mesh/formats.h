@@ -1,6 +1,9 @@
 #pragma once
+#include "mesh/file_bytes.h"
 #include "mesh/read.h"
 
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -33,11 +36,18 @@ inline constexpr std::size_t max_triangles = 100'000'000;
 
 /// Whether the size is to the byte that of the number of triangles in the header. The word `solid` in the header and
 /// the values of the bytes say nothing; and as a count, four bytes of text would ask for gigabytes.
-bool is_binary_stl(std::string_view bytes);
+bool is_binary_stl(std::string_view front, std::uint64_t size);
+inline bool is_binary_stl(std::string_view bytes) {
+  return is_binary_stl(bytes, bytes.size());
+}
 /// What is wrong with the size of something that may be a binary STL; nothing when it is sound, or more likely
 /// something else: a damaged file is still within a factor of 1000 of the size that its count asks for.
 std::optional<std::string> damage_of_binary_stl(std::string_view bytes);
 Contents read_binary_stl(const Source& source);
+/// The same of a file that is not in memory as a whole: in blocks, each of which is given to `see` first.
+/// Throws: Error::Kind::file as well. Pre: is_binary_stl.
+Contents read_binary_stl(InputFile& file, const std::string& path, double scale,
+                         const std::function<void(std::string_view)>& see);
 
 /// Whether text begins with `solid`, in any case.
 bool is_ascii_stl(std::string_view text);

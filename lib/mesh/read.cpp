@@ -68,12 +68,11 @@ std::string fault_of(double mm) {
   return fmt::format("is {:g} mm, beyond ±16 m", mm);
 }
 
-Loaded read(std::string_view bytes, const std::string& path_as_typed, const ReadOptions& options) {
-  Loaded loaded{.path = path_as_typed};
-  const Source source{without_byte_order_mark(bytes), path_as_typed, options.scale};
-  const Reader reader = reader_for(source);
-  loaded.format = reader.format;
-  Contents contents = reader.read(source);
+namespace {
+
+/// Repairs the bodies of a file.
+Loaded loaded_from(Contents contents, Format format, const std::string& path_as_typed) {
+  Loaded loaded{.path = path_as_typed, .format = format};
   loaded.unit = std::move(contents.unit);
   loaded.notices = std::move(contents.notices);
   for (Body& body : contents.bodies) {
@@ -92,13 +91,30 @@ Loaded read(std::string_view bytes, const std::string& path_as_typed, const Read
                     : fmt::format("none of its {} triangles has a size of a micron or encloses anything",
                                   loaded.triangles_in_file),
                 path_as_typed, loaded.triangles_in_file == 0 ? "export the model again" : "check the unit and --scale");
+  return loaded;
+}
+
+}  // namespace
+
+Loaded read(std::string_view bytes, const std::string& path_as_typed, const ReadOptions& options) {
+  const Source source{without_byte_order_mark(bytes), path_as_typed, options.scale};
+  const Reader reader = reader_for(source);
+  auto loaded = loaded_from(reader.read(source), reader.format, path_as_typed);
   loaded.sha256 = sha256(bytes);
   return loaded;
 }
 
 Loaded read_file(const std::string& path_as_typed, const ReadOptions& options) {
-  const FileBytes file(path_as_typed);
-  return read(file.view(), path_as_typed, options);
+  InputFile file(path_as_typed);
+  char bytes[128];
+  const std::string_view front(bytes, file.regular() ? file.front(bytes, sizeof bytes) : 0);
+  if (!is_binary_stl(front, file.size()) || without_byte_order_mark(front) != front)
+    return read(FileBytes(file).view(), path_as_typed, options);
+  Sha256 hash;  // of the largest files, which are not needed as a whole
+  auto contents = read_binary_stl(file, path_as_typed, options.scale, [&](std::string_view block) { hash.add(block); });
+  auto loaded = loaded_from(std::move(contents), Format::stl_binary, path_as_typed);
+  loaded.sha256 = hash.digest();
+  return loaded;
 }
 
 }  // namespace weft::mesh

@@ -40,6 +40,7 @@ void note_model(const mesh::Loaded& model, Report& report) {
 
 /// A model, welded and repaired. Messages name it as it was typed, so that name is part of the key.
 mesh::Loaded read_model(const std::string& path, double scale, StageCache* cache) {
+  if (!cache) return mesh::read_file(path, {.scale = scale});
   const mesh::FileBytes file(path);
   return cached(cache, [&] { return StageKey("read", 1).with(path).with(sha256(file.view())).with(scale); },
                 [&] { return mesh::read(file.view(), path, {.scale = scale}); }).take();

@@ -1,7 +1,11 @@
 #include "corpus.h"
+#include "mesh/file_bytes.h"
 #include "mesh/fixtures.h"
+#include "mesh/formats.h"
 #include "mesh/weld.h"
 
+#include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <random>
@@ -15,6 +19,15 @@ using Catch::Contains;
 
 namespace {
 const Facets cube = box({0, 0, 0}, {20, 20, 20});
+
+Facets row_of_boxes(int count) {
+  Facets all;
+  for (int i = 0; i < count; ++i) {
+    const float x = 21.F * static_cast<float>(i);
+    for (const auto& facet : box({x, 0, 0}, {x + 20, 20, 20})) all.push_back(facet);
+  }
+  return all;
+}
 
 std::string with_upper_case(std::string text) {
   for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
@@ -125,6 +138,47 @@ TEST_CASE("mesh: what holds no triangle is refused", "[mesh]") {
   CHECK_THAT(refusal("\x89PNG\r\n\x1a\n" + std::string(400, '\x5a')), Contains("neither STL, OBJ nor 3MF"));
   CHECK_THAT(refusal("G28\nG1 X10 Y10 E1\n"), Contains("neither STL, OBJ nor 3MF"));
   CHECK_THAT(refusal(binary_stl({{{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}}}})), Contains("none of its 1 triangles"));
+}
+
+TEST_CASE("mesh: a binary STL is the same model read from a file, in blocks, as from memory", "[mesh]") {
+  const Facets many = row_of_boxes(500);  // more than a block
+  const auto path = (std::filesystem::temp_directory_path() / "weft-blocks.stl").string();
+  for (const auto& bytes : {binary_stl(many), binary_stl(cube), ascii_stl(cube)}) {
+    std::ofstream(path, std::ios::binary) << bytes;
+    const Loaded whole = read(bytes, path), blocks = read_file(path);
+    CHECK(blocks.sha256 == whole.sha256);
+    CHECK(blocks.format == whole.format);
+    CHECK(blocks.triangles_in_file == whole.triangles_in_file);
+    CHECK(blocks.objects[0].mesh == whole.objects[0].mesh);
+  }
+  std::filesystem::remove(path);
+}
+
+TEST_CASE("mesh: a file that is cut short, grows or is written to while it is read is refused as a file", "[mesh]") {
+  const Facets many = row_of_boxes(300);
+  const auto path = std::filesystem::temp_directory_path() / "weft-changing.stl";
+  const std::string bytes = binary_stl(many);
+  const auto overwrite = [&](const std::string& all) {
+    std::ofstream(path, std::ios::binary) << all;
+    std::filesystem::last_write_time(path, std::filesystem::file_time_type::clock::now() + std::chrono::seconds(5));
+  };
+  const auto nan = bytes.substr(0, 96) + std::string(bytes.size() - 96, '\xff');
+  for (const auto& changed : {bytes.substr(0, 20), bytes.substr(0, bytes.size() / 2), bytes + bytes, bytes, nan}) {
+    const auto told = [&](const auto& read) {
+      std::ofstream(path, std::ios::binary) << bytes;
+      InputFile file(path.string());
+      overwrite(changed);
+      try {
+        read(file);
+      } catch (const Error& error) {
+        return error.kind();
+      }
+      return Error::Kind::usage;
+    };
+    CHECK(told([&](InputFile& file) { read_binary_stl(file, path.string(), 1.0, [](std::string_view) {}); }) == Error::Kind::file);
+    CHECK(told([&](InputFile& file) { FileBytes{file}; }) == Error::Kind::file);
+  }
+  std::filesystem::remove(path);
 }
 
 TEST_CASE("mesh: a file that cannot be read is an error of the file, not of the model", "[mesh]") {
