@@ -106,7 +106,7 @@ Ring simplified(const Ring& ring, Um bound) {
   Polyline opened(start, ring.end());
   opened.insert(opened.end(), ring.begin(), start + 1);
   const double area = static_cast<double>(double_area(ring));
-  for (; bound > 0; bound /= 2) {
+  for (; bound > 0; bound = bound * 3 / 4) {
     Ring out = simplified_line(opened, bound);
     out.pop_back();
     const double off = static_cast<double>(double_area(out)) - area;
