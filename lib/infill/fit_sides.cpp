@@ -40,7 +40,7 @@ bool SideFit::along(Turned a, Turned b) {
 }
 
 SideFit::SideFit(const Outline& outline, const LineSet& lines, std::span<const Interval> intervals, double band)
-    : band_(band), intervals_(intervals) {
+    : band_(band), intervals_(intervals), beside_(intervals.size(), false) {
   std::vector<std::uint32_t> first(static_cast<std::size_t>(lines.count) + 1, 0);
   for (const Interval& i : intervals) ++first[static_cast<std::size_t>(i.line) + 1];
   for (std::size_t k = 1; k < first.size(); ++k) first[k] += first[k - 1];
@@ -75,10 +75,10 @@ SideFit::SideFit(const Outline& outline, const LineSet& lines, std::span<const I
       auto i = std::lower_bound(begin, end, from, [](const Interval& each, double x) { return each.to <= x; });
       for (; i != end && i->from < to; ++i) {
         const double l = std::max(from, i->from), r = std::min(to, i->to);
-        if (l < r)
-          (ceiling ? above_ : below_)
-              .push_back({static_cast<std::uint32_t>(i - intervals.begin()), l, r, std::clamp(gap(l), 0.0, band),
-                          std::clamp(gap(r), 0.0, band)});
+        if (l >= r) continue;
+        const auto at = static_cast<std::uint32_t>(i - intervals.begin());
+        beside_[at] = true;
+        (ceiling ? above_ : below_).push_back({at, l, r, std::clamp(gap(l), 0.0, band), std::clamp(gap(r), 0.0, band)});
       }
     }
   }

@@ -27,6 +27,9 @@ class SideFit {
   /// Whether lines run along the edge, rather than end at it.
   static bool along(Turned a, Turned b);
 
+  /// Whether no edge runs along an interval: it covers half a band on both sides of it.
+  bool is_plain(std::uint32_t interval) const { return !beside_[interval]; }
+
   /// Corners of what an interval covers, from its left end to its right one, straight between them; two corners or
   /// more.
   std::vector<Sides> of(std::uint32_t interval) const;
@@ -48,7 +51,8 @@ class SideFit {
 
   double band_;
   std::span<const Interval> intervals_;
-  Besides above_, below_;  // by interval, then from left to right
+  std::vector<bool> beside_;  // by interval
+  Besides above_, below_;     // by interval, then from left to right
 };
 
 }  // namespace weft::infill

@@ -213,7 +213,7 @@ class Filler {
 
   /// A line from x to x, as wide at each place as its sides reach.
   void append_line(std::vector<Place>& path, std::uint32_t i, double from, double to) const {
-    if (!sides_) {
+    if (!sides_ || sides_->is_plain(i)) {
       for (const double x : {from, to}) path.push_back({{x, y(i)}, width_});
       return;
     }

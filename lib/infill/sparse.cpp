@@ -91,10 +91,7 @@ class Web {
       const Interval& i = intervals[k];
       const double y = lines.y(i.line);
       std::vector<Place> places{turn(i.from, y, angle_rad)};
-      for (const Sides& each : fit.of(k)) {  // beside an edge along it a line gives way, so as not to lie in a wall
-        const double half = style_.band / 2.0, aside = std::min(each.above, half) - std::min(each.below, half);
-        if (aside != 0 && each.x > i.from && each.x < i.to) places.push_back(turn(each.x, y + aside, angle_rad));
-      }
+      if (!fit.is_plain(k)) give_way(fit.of(k), i, y, angle_rad, places);
       places.push_back(turn(i.to, y, angle_rad));
       const double way = infill::length_of(places);
       lines_.push_back({std::move(places), way});
@@ -150,6 +147,15 @@ class Web {
   }
 
  private:
+  /// Beside an edge along it a line bends aside, so as not to lie in a wall.
+  void give_way(const std::vector<Sides>& sides, const Interval& i, double y, double angle_rad,
+                std::vector<Place>& places) const {
+    const double half = style_.band / 2.0;
+    for (const Sides& each : sides) {
+      const double aside = std::min(each.above, half) - std::min(each.below, half);
+      if (aside != 0 && each.x > i.from && each.x < i.to) places.push_back(turn(each.x, y + aside, angle_rad));
+    }
+  }
   static Place turn(double x, double y, double angle_rad) {
     const double c = std::cos(angle_rad), s = std::sin(angle_rad);
     return {x * c - y * s, x * s + y * c};
