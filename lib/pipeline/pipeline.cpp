@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "gcode/writer.h"
+#include "pipeline/codec.h"
 #include "pipeline/give_back.h"
 #include "pipeline/parallel.h"
 #include "pipeline/plate.h"
@@ -34,18 +35,22 @@ std::size_t room_for(const PrintPlan& plan) {
   return bytes;
 }
 
-/// The text of the file. A layer's steps are let go of when they are written, so that plan and text are never both there
-/// as a whole.
-std::string write_gcode(const gcode::Job& job, PrintPlan& plan, Report& report) {
+/// The text of the file. What is said of the whole plan needs all of it; then each layer's steps are unpacked once more, to
+/// be written and let go of, so that plan and text are never both there as a whole.
+std::string write_gcode(const gcode::Job& job, PrintPlan& plan, std::vector<std::string> packed, Report& report) {
   const Stopwatch stopwatch(report.timings_ms.gcode);
   const gcode::Writer writer(job);
   std::string text;
   text.reserve(room_for(plan));
   text += writer.head();
   const std::string tail = writer.tail();
+  const auto let_go = [](auto& list) { std::exchange(list, {}); };  // not `list = {}`: that keeps its room
+  for (auto& layer : plan.layers) let_go(layer.steps);
   const auto write = [&](std::size_t i) {
+    decode(packed[i], plan.layers[i]);
+    let_go(packed[i]);
     auto block = writer.layer(i);
-    std::exchange(plan.layers[i].steps, {});  // not `steps = {}`: that keeps their room
+    let_go(plan.layers[i].steps);
     return block;
   };
   parallel_in_order(plan.layers.size(), write, [&](std::size_t i, const std::string& block) {
@@ -132,7 +137,7 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
   refuse_emptiness(job, box, layers);
   give_back_memory();
   begin("travel", 0.65);
-  auto [plan, statistics] = plan_plate(job.settings, objects, std::move(layers), watch, report);
+  auto [plan, packed, statistics] = plan_plate(job.settings, objects, std::move(layers), watch, report);
   note_statistics(statistics, report);
   report.layers = plan.layers.size();
   report.height_mm = plan.layers.empty() ? 0.0 : to_mm(plan.layers.back().z);
@@ -140,7 +145,7 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
   begin("G-code", 0.85);
   auto text = write_gcode({job.settings, plan, statistics, std::filesystem::path(job.models.front()).stem().string(),
                            std::move(thumbnails), provenance_lines(report.models, job.placement)},
-                          plan, report);
+                          plan, std::move(packed), report);
   begin("audit", 0.95);
   auto passed = audit_gcode(job, std::move(text), report);
   watch.progress("done", 1.0);

@@ -5,6 +5,7 @@
 #include "pipeline/stopwatch.h"
 
 #include "adhesion/adhesion.h"
+#include "motion/motion.h"
 #include "travel/travel.h"
 
 #include <fmt/format.h>
@@ -39,7 +40,8 @@ std::vector<ObjectLabel> labels_of(const std::vector<PlacedObject>& objects) {
 
 /// All copies of all objects at one height. Objects end at different heights; layers are those of the tallest. The last
 /// copy of an object takes what the layer holds.
-travel::LayerInput plate_layer(const std::vector<PlacedObject>& objects, std::vector<PrintedLayers>& layers, std::size_t index) {
+travel::LayerInput plate_layer(const std::vector<PlacedObject>& objects, std::vector<PrintedLayers>& layers, const travel::AreasRead& read,
+                               std::size_t index) {
   travel::LayerInput input;
   input.index = index;
   std::uint32_t label = 0;
@@ -54,8 +56,9 @@ travel::LayerInput plate_layer(const std::vector<PlacedObject>& objects, std::ve
       input.z = layer.z;
       input.height = layer.height;
       input.objects.push_back({object, moved(std::move(layer.beads), by), weft::moved(std::move(layer.outline), by),
-                               weft::moved(std::move(layer.skin), by), weft::moved(std::move(layer.top), by),
-                               weft::moved(std::move(layer.sparse), by)});
+                               read.skin ? weft::moved(std::move(layer.skin), by) : Regions{},
+                               read.top ? weft::moved(std::move(layer.top), by) : Regions{},
+                               read.sparse ? weft::moved(std::move(layer.sparse), by) : Regions{}});
     }
   }
   return input;
@@ -126,14 +129,15 @@ std::vector<PackedLayer> plan_moves(const Settings& settings, std::vector<travel
 
 }  // namespace
 
-motion::Planned plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects, std::vector<PrintedLayers> layers, const Watch& watch,
-                           Report& report) {
+PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects, std::vector<PrintedLayers> layers, const Watch& watch,
+                        Report& report) {
   const Stopwatch stopwatch(report.timings_ms.travel);
   std::size_t count = 0;
   for (const auto& object : layers) count = std::max(count, object.size());
-  auto inputs = parallel_map(count, [&](std::size_t i) { return plate_layer(objects, layers, i); });
+  const auto read = travel::areas_read(settings.travel);
+  auto inputs = parallel_map(count, [&](std::size_t i) { return plate_layer(objects, layers, read, i); });
 
-  motion::Planned out;
+  PlannedPlate out;
   auto& plan = out.plan;
   plan.objects = labels_of(objects);
   add_adhesion(settings, inputs, plan.notices);
@@ -154,12 +158,15 @@ motion::Planned plan_plate(const Settings& settings, const std::vector<PlacedObj
     return travel::order(settings.travel, prepared[i], linked[i]);
   });
   auto planned = plan_moves(settings, std::move(prepared), std::move(ordered), watch, plan.notices);
-  for (const auto& layer : planned) out.statistics.append(layer.statistics);
+  for (auto& layer : planned) {
+    out.statistics.append(layer.statistics);
+    out.packed.push_back(std::move(layer.steps));
+  }
   // Unpacked they lie side by side; the pieces of a plan that lie scattered where beads were keep their room from the system.
   give_back_memory();
   plan.layers = parallel_map(count, [&](std::size_t i) {
     LayerPlan layer;
-    decode(std::exchange(planned[i].steps, {}), layer);
+    decode(out.packed[i], layer);
     return layer;
   });
   return out;

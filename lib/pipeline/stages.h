@@ -3,7 +3,7 @@
 #include "mesh/mesh.h"
 #include "model/layer.h"
 #include "model/plan.h"
-#include "motion/motion.h"
+#include "model/statistics.h"
 #include "pipeline/pipeline.h"
 
 #include <string>
@@ -35,8 +35,15 @@ using PrintedLayers = std::vector<PrintedLayer>;
 /// @param cache may be null
 PrintedLayers print_object(const Settings& settings, const PlacedObject& object, const Watch& watch, Report& report, StageCache* cache);
 
+/// A plan, and its layers once more as bytes (codec.h), which take a third of the memory.
+struct PlannedPlate {
+  PrintPlan plan;
+  std::vector<std::string> packed;  ///< one a layer
+  Statistics statistics;
+};
+
 /// The whole plate as steps: copies put in their places, adhesion around them, order, seams and travels, speeds and times.
-motion::Planned plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects, std::vector<PrintedLayers> layers, const Watch& watch,
+PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects, std::vector<PrintedLayers> layers, const Watch& watch,
                      Report& report);
 
 /// @throws Error{interrupted} when the watch says so

@@ -137,6 +137,11 @@ void add_seams(const TravelSettings& settings, Prepared& layer) {
 
 }  // namespace
 
+AreasRead areas_read(const TravelSettings& settings) {
+  const auto combing = settings.retraction_combing;
+  return {combing == Combing::noskin, combing == Combing::no_outer_surfaces, combing == Combing::infill};
+}
+
 Prepared prepare_order(const TravelSettings& settings, LayerInput input) {
   Prepared out;
   out.input = std::move(input);

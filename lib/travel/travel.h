@@ -30,6 +30,12 @@ struct ObjectLayer {
   Regions sparse;            ///< sparse infill: what combing = infill keeps to
 };
 
+/// Which areas of an ObjectLayer are read with these settings; the others may be left empty.
+struct AreasRead {
+  bool skin = false, top = false, sparse = false;
+};
+AreasRead areas_read(const TravelSettings& settings);
+
 /// Where the nozzle may go on a layer.
 struct Room {
   Ring reach;               ///< empty: anywhere
