@@ -23,6 +23,14 @@ cleanup() {
 }
 trap cleanup EXIT
 
+# The first port from $1 on that nobody listens at: another run of this may be on, or have been cut short.
+free_port() {
+  local port
+  for port in $(seq "$1" $(($1 + 500))); do
+    (: < "/dev/tcp/127.0.0.1/$port") 2> /dev/null || { echo "$port"; return; }
+  done
+}
+
 host=$(hostname -s)
 mkdir -p "$scratch"/{munge,ctld,slurmd}
 dd if=/dev/urandom of="$scratch/munge/key" bs=128 count=1 status=none
@@ -38,8 +46,8 @@ export SLURM_CONF=$scratch/slurm.conf
 cat > "$SLURM_CONF" << CONF
 ClusterName=weft
 SlurmctldHost=$host(127.0.0.1)
-SlurmctldPort=16817
-SlurmdPort=16818
+SlurmctldPort=$(free_port 16817)
+SlurmdPort=$(free_port 17817)
 AuthType=auth/munge
 AuthInfo=socket=$scratch/munge/socket
 CredType=cred/munge
@@ -62,7 +70,7 @@ CONF
 slurmctld
 slurmd
 for _ in $(seq 60); do sinfo -h -o %T 2> /dev/null | grep -q idle && break; sleep 0.5; done
-sinfo -h -o %T | grep -q idle || { echo "Slurm did not come up:" >&2; tail -5 "$scratch"/*.log >&2; exit 1; }
+sinfo -h -o %T | grep -q idle || { echo "Slurm did not come up:" >&2; tail -n 5 "$scratch"/*.log >&2; exit 1; }
 
 # 60 jobs, of which one is off the bed; one takes long: the share that holds it is killed.
 jobs=$scratch/jobs.jsonl
@@ -98,7 +106,7 @@ failed=0
 expect() { if [ "$2" = "$3" ]; then echo "ok: $1"; else echo "FAILED: $1: $2, wanted $3" >&2; failed=1; fi; }
 status=0
 "$weft" batch "$jobs" -o "$scratch/out" --collect 2> "$scratch/collect.log" || status=$?
-tail -1 "$scratch/collect.log"
+tail -n 1 "$scratch/collect.log"
 expect "the killed share was requeued" "$restarts" "Restarts=1"
 expect "collecting says that a job failed" "$status" 7
 expect "every other job is there" "$(find "$scratch/out" -name '*.gcode' | wc -l)" 61
