@@ -1,5 +1,4 @@
 #pragma once
-#include <cmath>
 #include <cstdint>
 
 namespace weft {
@@ -20,10 +19,15 @@ consteval Um operator""_um(unsigned long long um) { return static_cast<Um>(um); 
 /// Millimetres of a length, for formulas and for printing.
 constexpr double to_mm(Um length) { return length / 1000.0; }
 
-/// The nearest micron; ties away from zero. Pre: |mm| <= 16 000.
-inline Um from_mm(double mm) { return static_cast<Um>(std::lround(mm * 1000.0)); }
+/// The nearest micron of a length in fractional microns; ties away from zero, as std::lround, which is a call and took
+/// 2 % of the program's time. Pre: |um| < 2^31.
+constexpr Um rounded(double um) {
+  const auto whole = static_cast<std::int64_t>(um);
+  const double rest = um - static_cast<double>(whole);  // exact
+  return static_cast<Um>(whole + (rest >= 0.5 ? 1 : 0) - (rest <= -0.5 ? 1 : 0));
+}
 
-/// The nearest micron of a length in fractional microns; ties away from zero.
-inline Um rounded(double um) { return static_cast<Um>(std::lround(um)); }
+/// The nearest micron; ties away from zero. Pre: |mm| <= 16 000.
+constexpr Um from_mm(double mm) { return rounded(mm * 1000.0); }
 
 }  // namespace weft

@@ -1,9 +1,22 @@
-#include <catch2/catch.hpp>
-
 #include "core/hash.h"
 #include "core/polygon.h"
 
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
 using namespace weft;
+
+TEST_CASE("core: a length is rounded to the nearest micron as std::lround does", "[law]") {
+  for (const double whole : {0.0, 1.0, 7.0, 16'777'215.0, 2'147'483'646.0})
+    for (const double rest : {0.0, 0.25, 0.49999999, 0.5, 0.50000001, 0.75})
+      for (const double um : {whole + rest, -whole - rest}) {
+        CAPTURE(um);
+        CHECK(rounded(um) == static_cast<Um>(std::lround(um)));
+      }
+  CHECK(rounded(std::nextafter(0.5, 0.0)) == 0);
+  CHECK(rounded(std::nextafter(-0.5, 0.0)) == 0);
+}
 
 TEST_CASE("core: a literal in millimetres is whole microns") {
   STATIC_REQUIRE(0.45_mm == 450);
@@ -19,7 +32,8 @@ TEST_CASE("core: orient is exact at the corners of the lattice") {
 }
 
 TEST_CASE("core: area counts holes as missing") {
-  const Region frame{{{0, 0}, {10000, 0}, {10000, 10000}, {0, 10000}}, {{{2000, 2000}, {2000, 8000}, {8000, 8000}, {8000, 2000}}}};
+  const Region frame{{{0, 0}, {10000, 0}, {10000, 10000}, {0, 10000}},
+                     {{{2000, 2000}, {2000, 8000}, {8000, 8000}, {8000, 2000}}}};
   CHECK(area_mm2(frame) == Approx(64.0));
   CHECK(perimeter_of(frame.outer) == Approx(40000));
 }
