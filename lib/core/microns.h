@@ -20,7 +20,7 @@ consteval Um operator""_um(unsigned long long um) { return static_cast<Um>(um); 
 constexpr double to_mm(Um length) { return length / 1000.0; }
 
 /// The nearest micron of a length in fractional microns; ties away from zero, as std::lround, which is a call and took
-/// 2 % of the program's time. Pre: |um| < 2^31.
+/// 2 % of all instructions. Pre: |um| < 2^31.
 constexpr Um rounded(double um) {
   const auto whole = static_cast<std::int64_t>(um);
   const double rest = um - static_cast<double>(whole);  // exact

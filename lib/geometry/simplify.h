@@ -18,7 +18,7 @@ void drop_collinear_of_line(Polyline& line);
 Polyline simplified_line(std::span<const Point> line, Um bound);
 
 /// The same for a ring, whose area changes by 0.75 % at most: a small one gets a smaller bound, one that would
-/// collapse keeps its points.
+/// collapse keeps its points. Cost: O(n) for each bound that is tried, three quarters of the one before.
 /// A ring with itself may cross afterwards where it is narrower than 2 × bound; `simplified(Regions)` sees to that.
 Ring simplified(const Ring& ring, Um bound);
 

@@ -7,9 +7,9 @@ namespace weft::infill {
 namespace {
 
 constexpr double most_slope = 0.4;      // of an edge that lines run along: 22°, where a turn along it becomes too long
-constexpr double shortest = 1;          // bands; beside shorter edges the nozzle had no time to change its strand
+constexpr double shortest = 1;          // bands; a strand is not changed for a shorter edge
 constexpr double jog = 0.25;            // bands along a line, in which it moves aside
-constexpr double least_change_um = 15;  // of a side; less is not seen on a print
+constexpr double least_change_um = 15;  // of a side; for less no junction is worth it
 constexpr double touching_um = 1;       // the lattice
 
 /// Without the corners between which the sides stay where they are without them.
@@ -28,12 +28,11 @@ std::vector<Sides> thinned(const std::vector<Sides>& all) {
   return kept;
 }
 
-template <class Corner>
-double reach_at(const Corner& a, const Corner& b, double x) {
+}  // namespace
+
+double SideFit::reach_at(const Corner& a, const Corner& b, double x) {
   return b.x > a.x ? a.reach + (b.reach - a.reach) * (x - a.x) / (b.x - a.x) : b.reach;
 }
-
-}  // namespace
 
 bool SideFit::along(Turned a, Turned b) {
   return std::abs(b.y - a.y) <= most_slope * std::abs(b.x - a.x);

@@ -47,6 +47,7 @@ class SideFit {
   struct Corner {
     double x = 0, reach = 0;
   };
+  static double reach_at(const Corner& a, const Corner& b, double x);
   std::vector<Corner> side(const Besides& all, std::uint32_t interval) const;
 
   double band_;

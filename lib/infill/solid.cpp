@@ -114,7 +114,7 @@ class Filler {
   }
 
  private:
-  struct Place {
+  struct Vertex {
     Turned at;
     Um width = 0;
   };
@@ -189,7 +189,7 @@ class Filler {
   void emit_lines(std::span<const std::uint32_t> lines) {
     const std::uint32_t first = lines.front();
     bool rightwards = !started_ || std::abs(left_[first] - at_.x) <= std::abs(right_[first] - at_.x);
-    std::vector<Place> path;
+    std::vector<Vertex> path;
     double start = rightwards ? left_[first] : right_[first];
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const std::uint32_t here = lines[i];
@@ -212,7 +212,7 @@ class Filler {
   }
 
   /// A line from x to x, as wide at each place as its sides reach.
-  void append_line(std::vector<Place>& path, std::uint32_t i, double from, double to) const {
+  void append_line(std::vector<Vertex>& path, std::uint32_t i, double from, double to) const {
     if (!sides_ || sides_->is_plain(i)) {
       for (const double x : {from, to}) path.push_back({{x, y(i)}, width_});
       return;
@@ -226,7 +226,7 @@ class Filler {
       const double t = b.x > a.x ? std::clamp((x - a.x) / (b.x - a.x), 0.0, 1.0) : 0;
       const double below = std::lerp(a.below, b.below, t), above = std::lerp(a.above, b.above, t);
       const double width = std::clamp(below + above, narrowest_side * lines_.spacing, widest_strand * lines_.spacing);
-      return Place{{x, y(i) + (above - below) / 2}, rounded(width)};
+      return Vertex{{x, y(i) + (above - below) / 2}, rounded(width)};
     };
     const auto inside = [&](const Sides& each) { return each.x > std::min(from, to) && each.x < std::max(from, to); };
     path.push_back(at(from));
@@ -285,17 +285,18 @@ class Filler {
       path.push_back({first.x - (second.x - first.x) / 2, first.y - lines_.spacing / 2});
       for (const std::uint32_t i : strip) path.push_back(at(i));
       path.push_back({last.x + (last.x - before.x) / 2, last.y + lines_.spacing / 2});
-      std::vector<Place> places;
+      std::vector<Vertex> vertices;
       for (std::size_t i = 0; i < path.size(); ++i)
-        places.push_back({path[i], rounded(across(strip, std::clamp<std::size_t>(i, 1, strip.size()) - 1) / strands)});
+        vertices.push_back(
+            {path[i], rounded(across(strip, std::clamp<std::size_t>(i, 1, strip.size()) - 1) / strands)});
       const bool turned = started_ && std::hypot(path.back().x - at_.x, path.back().y - at_.y) <
                                           std::hypot(path.front().x - at_.x, path.front().y - at_.y);
-      if (turned) std::reverse(places.begin(), places.end());
-      add(places, role);
+      if (turned) std::reverse(vertices.begin(), vertices.end());
+      add(vertices, role);
     }
   }
 
-  void add(const std::vector<Place>& path, Role role) {
+  void add(const std::vector<Vertex>& path, Role role) {
     double total = 0;
     for (std::size_t i = 1; i < path.size(); ++i)
       total += std::hypot(path[i].at.x - path[i - 1].at.x, path[i].at.y - path[i - 1].at.y);
@@ -303,8 +304,8 @@ class Filler {
     Bead bead;
     bead.role = role, bead.part = style_.part, bead.sequence = style_.sequence;
     bead.path.reserve(path.size());
-    for (const Place& place : path) {
-      const Junction j{frame_.back(place.at), std::max(1, place.width), static_cast<float>(style_.flow)};
+    for (const Vertex& vertex : path) {
+      const Junction j{frame_.back(vertex.at), std::max(1, vertex.width), static_cast<float>(style_.flow)};
       if (bead.path.empty() || bead.path.back().at != j.at) bead.path.push_back(j);
     }
     if (bead.path.size() < 2) return;

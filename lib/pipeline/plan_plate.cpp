@@ -1,19 +1,18 @@
+#include "adhesion/adhesion.h"
+#include "motion/motion.h"
 #include "pipeline/codec.h"
 #include "pipeline/give_back.h"
 #include "pipeline/parallel.h"
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
-
-#include "adhesion/adhesion.h"
-#include "motion/motion.h"
 #include "travel/travel.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
 #include <numbers>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace weft::pipeline {
 namespace {
@@ -32,7 +31,8 @@ std::vector<ObjectLabel> labels_of(const std::vector<PlacedObject>& objects) {
       Ring outline = object.hull;
       for (auto& p : outline) p = p + object.offsets[copy];
       const Point centre = box_of(outline).centre();
-      out.push_back({object.offsets.size() == 1 ? object.name : fmt::format("{}_{}", object.name, copy + 1), centre, std::move(outline)});
+      out.push_back({object.offsets.size() == 1 ? object.name : fmt::format("{}_{}", object.name, copy + 1), centre,
+                     std::move(outline)});
     }
   }
   return out;
@@ -40,8 +40,8 @@ std::vector<ObjectLabel> labels_of(const std::vector<PlacedObject>& objects) {
 
 /// All copies of all objects at one height. Objects end at different heights; layers are those of the tallest. The last
 /// copy of an object takes what the layer holds.
-travel::LayerInput plate_layer(const std::vector<PlacedObject>& objects, std::vector<PrintedLayers>& layers, const travel::AreasRead& read,
-                               std::size_t index) {
+travel::LayerInput plate_layer(const std::vector<PlacedObject>& objects, std::vector<PrintedLayers>& layers,
+                               const travel::AreasRead& read, std::size_t index) {
   travel::LayerInput input;
   input.index = index;
   std::uint32_t label = 0;
@@ -77,10 +77,12 @@ void add_adhesion(const Settings& settings, std::vector<travel::LayerInput>& lay
   std::vector<adhesion::PlateLayer> plate(count);
   for (std::size_t i = 0; i < count; ++i) {
     plate[i].height = layers[i].height;
-    for (const auto& object : layers[i].objects) plate[i].outlines.insert(plate[i].outlines.end(), object.outline.begin(), object.outline.end());
+    for (const auto& object : layers[i].objects)
+      plate[i].outlines.insert(plate[i].outlines.end(), object.outline.begin(), object.outline.end());
   }
   const Ring surface = print_surface(settings.machine);
-  auto built = adhesion::build(settings.adhesion, {.layers = plate, .nozzle = settings.machine.nozzle_diameter, .print_surface = &surface});
+  auto built = adhesion::build(
+      settings.adhesion, {.layers = plate, .nozzle = settings.machine.nozzle_diameter, .print_surface = &surface});
   for (std::size_t i = 0; i < built.layers.size(); ++i) layers[i].adhesion = std::move(built.layers[i]);
   std::move(built.notices.begin(), built.notices.end(), std::back_inserter(notices));
 }
@@ -92,8 +94,8 @@ struct PackedLayer {
 };
 
 /// Ways, speeds and times. What a layer was made of is let go of as it goes.
-std::vector<PackedLayer> plan_moves(const Settings& settings, std::vector<travel::Prepared> prepared, std::vector<travel::Ordered> ordered,
-                                    const Watch& watch, Notices& notices) {
+std::vector<PackedLayer> plan_moves(const Settings& settings, std::vector<travel::Prepared> prepared,
+                                    std::vector<travel::Ordered> ordered, const Watch& watch, Notices& notices) {
   const std::size_t count = prepared.size();
   std::vector<std::optional<Point>> from(count);
   for (std::size_t i = 1; i < count; ++i) from[i] = ordered[i - 1].end ? ordered[i - 1].end : from[i - 1];
@@ -129,8 +131,8 @@ std::vector<PackedLayer> plan_moves(const Settings& settings, std::vector<travel
 
 }  // namespace
 
-PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects, std::vector<PrintedLayers> layers, const Watch& watch,
-                        Report& report) {
+PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects,
+                        std::vector<PrintedLayers> layers, const Watch& watch, Report& report) {
   const Stopwatch stopwatch(report.timings_ms.travel);
   std::size_t count = 0;
   for (const auto& object : layers) count = std::max(count, object.size());
@@ -162,7 +164,8 @@ PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject
     out.statistics.append(layer.statistics);
     out.packed.push_back(std::move(layer.steps));
   }
-  // Unpacked they lie side by side; the pieces of a plan that lie scattered where beads were keep their room from the system.
+  // Unpacked they lie side by side; the pieces of a plan that lie scattered where beads were keep their room from the
+  // system.
   give_back_memory();
   plan.layers = parallel_map(count, [&](std::size_t i) {
     LayerPlan layer;

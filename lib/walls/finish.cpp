@@ -176,7 +176,9 @@ void finish(Line line, const FinishOptions& o, Beads& out, double& dropped_mm) {
     thin_out(stretch);
     limit_steps(stretch);
     steady_start(stretch, any_taper);
-    if (line.inset > 0 || !last_meets) {  // travel may begin there
+    // Travel may begin there, too. A single bead that goes on into a thicker part keeps its steps: evened, they would
+    // reach beyond the outline.
+    if (line.inset > 0 || !last_meets) {
       std::reverse(stretch.begin(), stretch.end());
       steady_start(stretch, line.inset == 0 ? any_taper : even_inside);
       std::reverse(stretch.begin(), stretch.end());

@@ -18,10 +18,11 @@ constexpr double most_lean = 0.25;      // … and leans no more than so much to
 constexpr double closing = 2.5;         // sides that close in faster than this are the end
 constexpr double width_of_end = 0.5;    // … no further than so many widths before it
 constexpr double square_share = 0.4;    // … if all of it is at least so near to its mean distance
-constexpr double least_square = 0.9;    // sine between an end's edge and the way to it: it is met squarely
-constexpr double least_squared = 2.5;   // times the free width: a shorter axis has no way of its own yet
-constexpr double squared_off = 0.4;     // of the width: so long is the last piece that does
-constexpr double sidestep = 0.6;        // … and so long the one before, which leads from the axis to it
+constexpr double squarish = 0.9;        // sine between an end's edge and the way to it: it is met squarely
+constexpr double longer_axis = 2.5;  // … if the axis is longer than so many free widths; else it has no way of its own
+constexpr double last_piece = 0.4;   // of the width: so long is what meets it
+constexpr double sidestep = 0.6;     // … and so long the one before, which leads from the axis to it
+constexpr double piece_share = 0.9;     // of the last piece that goes straight, the rest is the sidestep's
 constexpr double end_beside = 0.4;      // of the width: beside its middle a blunt end is looked at, too
 constexpr double stubby_share = 1.2;    // of its width: a strip whose axis is shorter is filled straight across
 constexpr double outside_um = 8;        // so far a corner of a band may reach over the part's outline
@@ -36,7 +37,7 @@ double quad_area(Place a, Place b, Place c, Place d) {
 void square_off(std::vector<Vertex>& path, Place origin, Place way) {
   const auto along = [&](const Vertex& v) { return (v.at.x - origin.x) * way.x + (v.at.y - origin.y) * way.y; };
   const auto aside = [&](const Vertex& v) { return (v.at.y - origin.y) * way.x - (v.at.x - origin.x) * way.y; };
-  const double end = along(path.back()), piece = squared_off * path.back().width;
+  const double end = along(path.back()), piece = last_piece * path.back().width;
   double length = 0, shift = 0, width = 0;
   while (path.size() > 1 && end - along(path.back()) < piece) {
     const Vertex &a = path[path.size() - 2], &b = path.back();
@@ -46,7 +47,7 @@ void square_off(std::vector<Vertex>& path, Place origin, Place way) {
   }
   if (length <= 0) return;
   shift /= length, width /= length;
-  const double begin = end - 0.9 * length;
+  const double begin = end - piece_share * length;
   while (path.size() > 1 && begin - along(path.back()) < sidestep * width) path.pop_back();
   for (const double x : {begin, end})
     path.push_back({{origin.x + x * way.x - shift * way.y, origin.y + x * way.y + shift * way.x}, width});
@@ -190,7 +191,7 @@ double Strip::end_straight(bool first, std::vector<Vertex>& out) const {
   const Place start = inward(before), axis_way = unit(inward(back), start),
               edge_way = ahead(start, axis_way, first).edge;
   const double turn = cross(axis_way, edge_way);
-  const bool square = whole > least_squared * free && std::abs(turn) >= least_square;
+  const bool square = whole > longer_axis * free && std::abs(turn) >= squarish;
   const Place way = !square    ? axis_way
                     : turn > 0 ? Place{edge_way.y, -edge_way.x}
                                : Place{-edge_way.y, edge_way.x},

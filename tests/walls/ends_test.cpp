@@ -3,7 +3,6 @@
 #include "walls/walls.h"
 
 #include <algorithm>
-#include <utility>
 
 #include <catch2/catch.hpp>
 
@@ -16,8 +15,7 @@ WallLayer filled(const Regions& regions) {
   WallSettings settings;
   settings.wall_line_count = 100;
   settings.wall_line_width_0 = settings.wall_line_width_x = 0.45_mm;
-  const SlicedLayer layer = layer_of(regions);
-  return walls::build(settings, {.layer = layer, .index = 1});
+  return built(regions, settings);
 }
 
 bool covers(const Bead& bead, Point p) {
@@ -178,8 +176,7 @@ TEST_CASE("walls: a rib just as thick as min_feature_size is printed wherever th
       ring.push_back({rounded(p.x * c - p.y * s), rounded(p.x * s + p.y * c)});
     WallSettings settings;
     settings.min_feature_size = 50;
-    const SlicedLayer layer = layer_of({{ring, {}}});
     CAPTURE(degrees);
-    CHECK_FALSE(walls::build(settings, {.layer = layer, .index = 1}).beads.empty());
+    CHECK_FALSE(built({{ring, {}}}, settings).beads.empty());
   }
 }

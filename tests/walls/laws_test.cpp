@@ -15,8 +15,7 @@ WallLayer walls_of(const Regions& regions) {
   settings.min_feature_size = 0.001_mm;
   settings.min_wall_length = 0;
   settings.flow_compensation = false;
-  const SlicedLayer layer = layer_of(regions);
-  return walls::build(settings, {.layer = layer, .index = 1});
+  return built(regions, settings);
 }
 
 /// How far p lies outside, µm; 0 inside.

@@ -38,6 +38,12 @@ inline SlicedLayer layer_of(Regions regions) {
   return {0.2_mm, 0.2_mm, std::move(regions)};
 }
 
+/// Walls of one layer, the second of an object.
+inline WallLayer built(const Regions& regions, const WallSettings& settings = {}, Um nozzle = 0.4_mm) {
+  const SlicedLayer layer = layer_of(regions);
+  return walls::build(settings, {.layer = layer, .index = 1, .nozzle_diameter = nozzle});
+}
+
 /// Area of the bands of all beads, mm².
 inline double bead_area_mm2(const WallLayer& walls) {
   double sum = 0;
