@@ -2,8 +2,8 @@
 
 #include "batch_run.h"
 #include "mesh/file_bytes.h"
-#include "pipeline/crew.h"
 #include "preview/preview.h"
+#include "tasks/crew.h"
 #include "verbs.h"
 
 #include <filesystem>
@@ -82,7 +82,7 @@ void write_page(const std::vector<jobs::Prepared>& jobs, const Finished& finishe
     t.strength = jobs::strength_estimate(*entry.record, jobs[i].job.settings);
     t.picture = picture_of(options.folder / entry.line.output, jobs[i].job.settings, picture_share);
   };
-  run_crew(
+  tasks::run_crew(
       options.threads,
       [&]() -> std::optional<std::size_t> { return begun < jobs.size() ? std::optional(begun++) : std::nullopt; },
       fill);

@@ -4,7 +4,7 @@
 #include "jobs/memory.h"
 #include "jobs/memory_gate.h"
 #include "jobs/workplace.h"
-#include "pipeline/crew.h"
+#include "tasks/crew.h"
 
 #include <algorithm>
 #include <atomic>
@@ -59,7 +59,7 @@ class Run {
   }
 
   BatchResult work() {
-    run_crew(
+    tasks::run_crew(
         options_.threads, [this] { return next(); }, [this](std::size_t i) { run_one(i); });
     const std::lock_guard lock(mutex_);
     result_.interrupted = watch_.interrupted();

@@ -1,7 +1,7 @@
 #include "pipeline/audit_files.h"
 
-#include "pipeline/parallel.h"
-#include "pipeline/tasks.h"
+#include "tasks/parallel.h"
+#include "tasks/tasks.h"
 
 namespace weft {
 
@@ -17,7 +17,7 @@ std::vector<AuditOutcome> audit_files(const std::vector<AuditJob>& jobs, unsigne
     return outcome;
   };
   std::vector<AuditOutcome> outcomes;
-  pipeline::with_threads(threads, [&] { outcomes = pipeline::parallel_map(jobs.size(), one); });
+  tasks::with_threads(threads, [&] { outcomes = tasks::parallel_map(jobs.size(), one); });
   return outcomes;
 }
 

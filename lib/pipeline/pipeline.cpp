@@ -5,14 +5,14 @@
 #include "gcode/writer.h"
 #include "pipeline/codec.h"
 #include "pipeline/give_back.h"
-#include "pipeline/parallel.h"
 #include "pipeline/plate.h"
 #include "pipeline/provenance.h"
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
-#include "pipeline/tasks.h"
 #include "preview/thumbnail.h"
 #include "settings/catalogue.h"
+#include "tasks/parallel.h"
+#include "tasks/tasks.h"
 
 #include <fmt/format.h>
 
@@ -53,7 +53,7 @@ std::string write_gcode(const gcode::Job& job, PrintPlan& plan, std::vector<std:
     let_go(plan.layers[i].steps);
     return block;
   };
-  parallel_in_order(plan.layers.size(), write, [&](std::size_t i, const std::string& block) {
+  tasks::parallel_in_order(plan.layers.size(), write, [&](std::size_t i, const std::string& block) {
     if (i % layers_between_giving_back == 0) give_back_memory();
     text += block;
   });
@@ -124,7 +124,7 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
   auto objects = place_models(job, report, cache);
   std::vector<gcode::Thumbnail> thumbnails;
   // Pictures are drawn while the model is sliced.
-  Beside beside([&] { thumbnails = thumbnails_of(job.settings, objects); });
+  tasks::Beside beside([&] { thumbnails = thumbnails_of(job.settings, objects); });
   begin("slicing", 0.05);
   std::vector<PrintedLayers> layers;
   Box3 box;
@@ -155,7 +155,7 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
 }  // namespace
 
 std::optional<audit::Passed> run(const Job& job, const Watch& watch, Report& report, StageCache* cache) {
-  const ThreadLimit limit(job.threads);
+  const tasks::ThreadLimit limit(job.threads);
   return run_stages(job, watch, report, cache);
 }
 

@@ -2,9 +2,9 @@
 #include "motion/motion.h"
 #include "pipeline/codec.h"
 #include "pipeline/give_back.h"
-#include "pipeline/parallel.h"
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
+#include "tasks/parallel.h"
 #include "travel/travel.h"
 
 #include <algorithm>
@@ -106,7 +106,7 @@ std::vector<PackedLayer> plan_moves(const Settings& settings, std::vector<travel
     std::optional<Point3> start;
   };
   std::optional<Point3> at;
-  auto packed = parallel_linked(
+  auto packed = tasks::parallel_linked(
       count,
       [&](std::size_t i) {
         stop_if_cancelled(watch);
@@ -137,7 +137,7 @@ PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject
   std::size_t count = 0;
   for (const auto& object : layers) count = std::max(count, object.size());
   const auto read = travel::areas_read(settings.travel);
-  auto inputs = parallel_map(count, [&](std::size_t i) { return plate_layer(objects, layers, read, i); });
+  auto inputs = tasks::parallel_map(count, [&](std::size_t i) { return plate_layer(objects, layers, read, i); });
 
   PlannedPlate out;
   auto& plan = out.plan;
@@ -150,12 +150,12 @@ PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject
   }
   for (auto& notice : travel::check(settings.travel, settings.retraction)) plan.notices.push_back(std::move(notice));
 
-  auto prepared = parallel_map(count, [&](std::size_t i) {
+  auto prepared = tasks::parallel_map(count, [&](std::size_t i) {
     stop_if_cancelled(watch);
     return travel::prepare_order(settings.travel, std::move(inputs[i]));
   });
   const auto linked = travel::link(settings.travel, prepared);
-  auto ordered = parallel_map(count, [&](std::size_t i) {
+  auto ordered = tasks::parallel_map(count, [&](std::size_t i) {
     stop_if_cancelled(watch);
     return travel::order(settings.travel, prepared[i], linked[i]);
   });
@@ -167,7 +167,7 @@ PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject
   // Unpacked they lie side by side; the pieces of a plan that lie scattered where beads were keep their room from the
   // system.
   give_back_memory();
-  plan.layers = parallel_map(count, [&](std::size_t i) {
+  plan.layers = tasks::parallel_map(count, [&](std::size_t i) {
     LayerPlan layer;
     decode(out.packed[i], layer);
     return layer;

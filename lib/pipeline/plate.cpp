@@ -5,9 +5,9 @@
 #include "mesh/placement.h"
 #include "mesh/read.h"
 #include "pipeline/cached.h"
-#include "pipeline/parallel.h"
 #include "pipeline/stopwatch.h"
 #include "preview/thumbnail.h"
+#include "tasks/parallel.h"
 
 #include <fmt/format.h>
 
@@ -57,7 +57,7 @@ Ring hull_of(const Mesh& mesh) {
 
 std::vector<PlacedObject> place_models(const Job& job, Report& report, StageCache* cache) {
   const Stopwatch stopwatch(report.timings_ms.read);
-  const auto loaded = parallel_map(job.models.size(), [&](std::size_t i) { return read_model(job.models[i], job.placement.scale, cache); });
+  const auto loaded = tasks::parallel_map(job.models.size(), [&](std::size_t i) { return read_model(job.models[i], job.placement.scale, cache); });
   for (const auto& model : loaded) note_model(model, report);
 
   const auto& machine = job.settings.machine;
@@ -87,7 +87,7 @@ std::vector<gcode::Thumbnail> thumbnails_of(const Settings& settings, const std:
     for (const auto& v : object.mesh.vertices) plate.vertices.push_back({v.x + at.x, v.y + at.y, v.z});
     for (const auto& t : object.mesh.triangles) plate.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
   }
-  return parallel_map(sizes.size(), [&](std::size_t i) {
+  return tasks::parallel_map(sizes.size(), [&](std::size_t i) {
     const auto size = sizes[i];
     const auto png = preview::thumbnail(plate, {size.width, size.height});
     return gcode::Thumbnail{size.width, size.height, std::string(png.begin(), png.end())};

@@ -1,7 +1,7 @@
 #include "pipeline/cached.h"
-#include "pipeline/parallel.h"
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
+#include "tasks/parallel.h"
 
 #include "core/error.h"
 #include "geometry/boolean.h"
@@ -43,7 +43,7 @@ using Fills = std::vector<FilledLayer>;
 
 Cuts slice_object(const Settings& settings, const PlacedObject& object, const Watch& watch) {
   const slice::Cutter cutter(object.mesh, slice::planes(settings.layers, box_of(object.mesh).max.z));
-  return parallel_map(cutter.size(), [&](std::size_t i) {
+  return tasks::parallel_map(cutter.size(), [&](std::size_t i) {
     stop_if_cancelled(watch);
     return cutter.cut(i, settings.layers.resolution);
   });
@@ -59,7 +59,7 @@ Settings of_first_layer(Settings settings) {
 }
 
 Walls build_walls(const Settings& settings, const Settings& first, const Cuts& cuts, const Watch& watch) {
-  return parallel_map(cuts.size(), [&](std::size_t i) {
+  return tasks::parallel_map(cuts.size(), [&](std::size_t i) {
     stop_if_cancelled(watch);
     const Regions over_air = i > 0 ? geometry::subtract(cuts[i].layer.regions, cuts[i - 1].layer.regions) : Regions{};
     return walls::build((i == 0 ? first : settings).walls,
@@ -73,7 +73,7 @@ std::vector<infill::LayerAreas> find_areas(const Settings& settings, const Cuts&
   for (std::size_t i = 0; i < cuts.size(); ++i) seen[i] = {cuts[i].layer.z, cuts[i].layer.height, &cuts[i].layer.regions, &walls[i].inside};
   const infill::ShellObject object{seen, infill::box_of(seen), settings.machine.nozzle_diameter};
   constexpr std::size_t run = 8;
-  auto runs = parallel_map((cuts.size() + run - 1) / run, [&](std::size_t r) {
+  auto runs = tasks::parallel_map((cuts.size() + run - 1) / run, [&](std::size_t r) {
     return infill::find_areas(settings.shells, settings.infill, object, r * run, std::min(run, cuts.size() - r * run));
   });
   std::vector<infill::LayerAreas> areas;
@@ -87,7 +87,7 @@ Fills fill_object(const Settings& settings, const Settings& first, const Cuts& c
   auto areas = find_areas(settings, cuts, walls);
   Box box;  // patterns hang on its centre, so they move with the object
   for (const auto& cut : cuts) box.add(box_of(cut.layer.regions));
-  return parallel_map(cuts.size(), [&](std::size_t i) {
+  return tasks::parallel_map(cuts.size(), [&](std::size_t i) {
     stop_if_cancelled(watch);
     const auto& layer = cuts[i].layer;
     const auto& s = i == 0 ? first : settings;

@@ -1,7 +1,7 @@
 #include "pipeline/stage_cache.h"
 
 #include "pipeline/disk_store.h"
-#include "pipeline/tasks.h"
+#include "tasks/tasks.h"
 
 #include <algorithm>
 #include <map>
@@ -13,7 +13,7 @@ namespace weft {
 namespace {
 /// A result in memory, or the place where it will be.
 struct Cell {
-  pipeline::Once once;
+  tasks::Once once;
   std::shared_ptr<const void> value;
   std::size_t bytes = 0;        // 0 until it is made; guarded by the cache's mutex
   std::uint64_t last_used = 0;  // the same

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-/// The stages run over all layers of a plate: this folder alone knows about threads.
+/// The stages run over all layers of a plate, side by side.
 namespace weft::pipeline {
 
 /// A model on the bed: sliced once, printed at each offset.

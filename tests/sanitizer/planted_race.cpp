@@ -1,6 +1,6 @@
 // Has tasks of parallel_map write to one variable: the thread sanitizer must see it, or its silence about the rest of
 // weft says nothing.
-#include "pipeline/parallel.h"
+#include "tasks/parallel.h"
 
 #include <atomic>
 #include <chrono>
@@ -11,7 +11,7 @@ int main() {
   std::atomic<int> begun = 0;
   std::size_t shared = 0;
   const auto latest = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  weft::pipeline::parallel_map(8, [&](std::size_t i) {
+  weft::tasks::parallel_map(8, [&](std::size_t i) {
     begun.fetch_add(1, std::memory_order_relaxed);  // which orders nothing
     while (begun.load(std::memory_order_relaxed) < 2 && std::chrono::steady_clock::now() < latest)
       std::this_thread::yield();

@@ -3,7 +3,7 @@
 #include <functional>
 #include <optional>
 
-namespace weft {
+namespace weft::tasks {
 
 /// Works through a list with several pieces side by side, in one arena: what a piece runs in parallel itself shares the
 /// threads with the other pieces, and a thread that finds no piece to begin helps those that are running.
@@ -19,4 +19,4 @@ void run_crew(unsigned threads, const std::function<std::optional<std::size_t>()
 /// Number of threads that `threads` stands for: itself, or all cores.
 unsigned thread_count(unsigned threads);
 
-}  // namespace weft
+}  // namespace weft::tasks

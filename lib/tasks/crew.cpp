@@ -1,6 +1,6 @@
-#include "pipeline/crew.h"
+#include "tasks/crew.h"
 
-#include "pipeline/hand_over.h"
+#include "tasks/hand_over.h"
 
 #include <mutex>
 
@@ -9,7 +9,7 @@
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
-namespace weft {
+namespace weft::tasks {
 
 unsigned thread_count(unsigned threads) {
   return threads != 0 ? threads : static_cast<unsigned>(tbb::info::default_concurrency());
@@ -21,7 +21,7 @@ void run_crew(unsigned threads, const std::function<std::optional<std::size_t>()
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, places);
   tbb::task_arena arena(static_cast<int>(places));
   tbb::task_group group;
-  pipeline::HandOver hand_over;
+  HandOver hand_over;
   std::mutex mutex;
   unsigned running = 0;
 
@@ -43,7 +43,7 @@ void run_crew(unsigned threads, const std::function<std::optional<std::size_t>()
       ++running;
       hand_over.begin();
       group.run([&, i = *index] {
-        const pipeline::HandOver::Task handed(hand_over);
+        const HandOver::Task handed(hand_over);
         piece(i);
       });
     }
@@ -55,4 +55,4 @@ void run_crew(unsigned threads, const std::function<std::optional<std::size_t>()
   });
 }
 
-}  // namespace weft
+}  // namespace weft::tasks

@@ -4,7 +4,7 @@
 #include <memory>
 
 /// Everything that weft asks of TBB, but for the crew of a batch.
-namespace weft::pipeline {
+namespace weft::tasks {
 
 /// task(i) for i in [0, count), side by side in any order; returns when all are done. Pre: task does not throw.
 void for_each_index(std::size_t count, const std::function<void(std::size_t)>& task);
@@ -68,4 +68,4 @@ class ThreadLimit {
 /// Runs the work where its tasks have so many threads, also more than there are cores; 0: all cores.
 void with_threads(unsigned threads, const std::function<void()>& work);
 
-}  // namespace weft::pipeline
+}  // namespace weft::tasks

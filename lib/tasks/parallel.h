@@ -1,5 +1,5 @@
 #pragma once
-#include "pipeline/tasks.h"
+#include "tasks/tasks.h"
 
 #include <algorithm>
 #include <atomic>
@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace weft::pipeline {
+namespace weft::tasks {
 
 /// All results; where there are errors, that of the lowest index is rethrown.
 template <class Out>
@@ -111,4 +111,4 @@ auto parallel_linked(std::size_t count, F f, Link link, G g) {
   return taken_out(results, failed);
 }
 
-}  // namespace weft::pipeline
+}  // namespace weft::tasks

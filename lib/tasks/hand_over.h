@@ -4,7 +4,7 @@
 #include <sanitizer/tsan_interface.h>
 #endif
 
-namespace weft::pipeline {
+namespace weft::tasks {
 
 /// What TBB promises, told to the thread sanitizer: what was done before a baton was passed is seen by who takes it
 /// after.
@@ -66,4 +66,4 @@ class HandOver {
   Baton to_tasks_, from_tasks_;
 };
 
-}  // namespace weft::pipeline
+}  // namespace weft::tasks

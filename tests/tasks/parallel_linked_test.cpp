@@ -1,4 +1,4 @@
-#include "pipeline/parallel.h"
+#include "tasks/parallel.h"
 
 #include <numeric>
 #include <stdexcept>
@@ -6,9 +6,9 @@
 
 #include <catch2/catch.hpp>
 
-using namespace weft::pipeline;
+using namespace weft::tasks;
 
-TEST_CASE("parallel: links are made in index order, whatever the threads, and results come in it") {
+TEST_CASE("tasks: links are made in index order, whatever the threads, and results come in it") {
   for (const unsigned threads : {1u, 2u, 8u}) {
     const ThreadLimit limit(threads);
     std::vector<std::size_t> linked;
@@ -33,7 +33,7 @@ TEST_CASE("parallel: links are made in index order, whatever the threads, and re
   parallel_in_order(0, [](std::size_t) { return 0; }, [&](std::size_t, int) { FAIL(); });
 }
 
-TEST_CASE("parallel: of several errors that of the lowest index is told, in whichever step it was") {
+TEST_CASE("tasks: of several errors that of the lowest index is told, in whichever step it was") {
   const auto error_of = [](std::size_t in_f, std::size_t in_link, std::size_t in_g) {
     const auto maybe = [](std::size_t i, std::size_t at, const char* where) {
       if (i == at) throw std::runtime_error(where + std::to_string(i));

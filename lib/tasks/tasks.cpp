@@ -1,6 +1,6 @@
-#include "pipeline/tasks.h"
+#include "tasks/tasks.h"
 
-#include "pipeline/hand_over.h"
+#include "tasks/hand_over.h"
 
 #include <optional>
 #include <utility>
@@ -13,7 +13,7 @@
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
-namespace weft::pipeline {
+namespace weft::tasks {
 
 void for_each_index(std::size_t count, const std::function<void(std::size_t)>& task) {
   HandOver hand_over;
@@ -126,4 +126,4 @@ void with_threads(unsigned threads, const std::function<void()>& work) {
   });
 }
 
-}  // namespace weft::pipeline
+}  // namespace weft::tasks
