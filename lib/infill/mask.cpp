@@ -16,21 +16,29 @@ constexpr Word bit_of(int column) {
   return Word{1} << (static_cast<unsigned>(column) % 64);
 }
 
-/// to |= from, shifted by `by` cells to higher columns (by > 0) or to lower ones.
-void or_shifted(const Word* from, Word* to, std::size_t words, int by) {
-  const auto whole = static_cast<std::size_t>(std::abs(by)) / 64;
-  const int part = std::abs(by) % 64;
-  if (by > 0) {
-    for (std::size_t i = words; i-- > whole;) {
-      Word v = from[i - whole] << part;
-      if (part != 0 && i > whole) v |= from[i - whole - 1] >> (64 - part);
-      to[i] |= v;
-    }
-  } else {
-    for (std::size_t i = 0; i + whole < words; ++i) {
-      Word v = from[i + whole] >> part;
-      if (part != 0 && i + whole + 1 < words) v |= from[i + whole + 1] << (64 - part);
-      to[i] |= v;
+/// The middle of three neighbouring words, grown by `cells` to higher and lower columns. Pre: 0 < cells < 64
+Word grown_between(Word before, Word here, Word after, int cells) {
+  if ((before | here | after) == 0 || ~here == 0) return here;
+  Word up = here, from_before = before, down = here, from_after = after;
+  for (int done = 0, by = 0; done < cells; done += by) {  // what is grown by n grows by up to n + 1 in one step
+    by = std::min(done + 1, cells - done);
+    up |= up << by | from_before >> (64 - by);
+    from_before |= from_before << by;
+    down |= down >> by | from_after << (64 - by);
+    from_after |= from_after >> by;
+  }
+  return up | down;
+}
+
+/// Grows a row to higher and lower columns.
+void grow_along(std::span<Word> row, int cells) {
+  for (int by = 0; cells > 0; cells -= by) {
+    by = std::min(cells, 63);
+    Word before = 0;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const Word here = row[i];
+      row[i] = grown_between(before, here, i + 1 < row.size() ? row[i + 1] : 0, by);
+      before = here;
     }
   }
 }
@@ -40,6 +48,10 @@ void fill_between_flips(Word* row, std::size_t words) {
   Word inside = 0;
   for (std::size_t i = 0; i < words; ++i) {
     Word v = row[i];
+    if (v == 0) {
+      row[i] = inside;
+      continue;
+    }
     v ^= v << 1, v ^= v << 2, v ^= v << 4, v ^= v << 8, v ^= v << 16, v ^= v << 32;
     v ^= inside;
     row[i] = v;
@@ -93,7 +105,8 @@ Mask::Mask(const Grid& grid, std::span<const Region> regions) : Mask(grid) {
     const double step = slope;  // columns a row: the cell cancels
     double column = (a.x + slope * (bottom + first * cell - a.y) - left) / cell;
     for (int r = first; r <= last; ++r, column += step) {
-      const int c = static_cast<int>(std::ceil(std::max(column, 0.0)));
+      const double at = std::max(column, 0.0);
+      const int whole = static_cast<int>(at), c = whole + static_cast<int>(whole < at);  // rounded up
       if (c < grid.columns) row(r)[word_of(c)] ^= bit_of(c);
     }
   };
@@ -180,42 +193,45 @@ bool Mask::meets(const Mask& other) const {
   return false;
 }
 
+void Mask::grow(int cells) {
+  const auto is_set = [](Word w) { return w != 0; };
+  const auto lowest = std::find_if(bits_.begin(), bits_.end(), is_set);
+  if (cells <= 0 || lowest == bits_.end()) return;
+  const auto highest = std::find_if(bits_.rbegin(), bits_.rend(), is_set).base() - 1;
+  const auto row_of_word = [&](auto word) { return static_cast<std::size_t>(word - bits_.begin()) / words_; };
+  const std::size_t first = row_of_word(lowest), count = row_of_word(highest) + 1 - first;
+  const auto reach = static_cast<std::size_t>(cells);
+
+  // Beside the mask: each row takes what is up to twice `cells` above it, and so they lie `cells` too low. What a row
+  // has of n rows it has of 2 n by one more look, n rows up.
+  std::vector<Word> rows((count + 2 * reach) * words_);
+  std::copy_n(row(static_cast<int>(first)), count * words_, &rows[2 * reach * words_]);
+  for (std::size_t r = 2 * reach; r < 2 * reach + count; ++r) grow_along({&rows[r * words_], words_}, cells);
+  for (std::size_t done = 1, by = 0; done < 2 * reach + 1; done += by) {
+    by = std::min(done, 2 * reach + 1 - done);
+    Word* const to = rows.data();
+    const Word* const above = to + by * words_;
+    for (std::size_t i = 0, end = rows.size() - by * words_; i < end; ++i) to[i] |= above[i];
+  }
+  const std::size_t from = first - std::min(first, reach),
+                    to = std::min(first + count + reach, static_cast<std::size_t>(grid_.rows));
+  std::copy_n(&rows[(from + reach - first) * words_], (to - from) * words_, row(static_cast<int>(from)));
+  clear_beyond_columns();
+}
+
 Mask Mask::grown(int cells) const {
-  if (cells <= 0 || bits_.empty()) return *this;
-  Mask wide = *this;
-  std::vector<Word> before(words_);
-  for (int r = 0; r < grid_.rows; ++r) {
-    Word* to = wide.row(r);
-    if (std::all_of(to, to + words_, [](Word w) { return w == 0; })) continue;
-    for (int done = 0, by = 0; done < cells; done += by) {  // what is grown by n grows by up to n + 1 in one step
-      by = std::min(done + 1, cells - done);
-      std::copy(to, to + words_, before.begin());
-      or_shifted(before.data(), to, words_, by);
-      or_shifted(before.data(), to, words_, -by);
-    }
-  }
-  Mask tall = wide;
-  for (int done = 0, by = 0; done < cells; done += by) {
-    by = std::min(done + 1, cells - done);
-    if (done > 0) wide = tall;
-    for (int r = 0; r < grid_.rows; ++r) {
-      for (const int other : {r - by, r + by}) {
-        if (other < 0 || other >= grid_.rows) continue;
-        const Word* from = wide.row(other);
-        Word* to = tall.row(r);
-        for (std::size_t i = 0; i < words_; ++i) to[i] |= from[i];
-      }
-    }
-  }
-  tall.clear_beyond_columns();
-  return tall;
+  Mask all = *this;
+  all.grow(cells);
+  return all;
 }
 
 Mask Mask::shrunk(int cells) const {
   Mask outside = *this;
   for (Word& w : outside.bits_) w = ~w;
   outside.clear_beyond_columns();
-  return *this - outside.grown(cells);
+  outside.grow(cells);
+  for (std::size_t i = 0; i < bits_.size(); ++i) outside.bits_[i] = bits_[i] & ~outside.bits_[i];
+  return outside;
 }
 
 std::vector<Ring> Mask::outlines() const {

@@ -65,6 +65,7 @@ class Mask {
   std::uint64_t* row(int r) { return bits_.data() + static_cast<std::size_t>(r) * words_; }
   const std::uint64_t* row(int r) const { return bits_.data() + static_cast<std::size_t>(r) * words_; }
   void clear_beyond_columns();
+  void grow(int cells);
 
   Grid grid_;
   std::size_t words_ = 0;  // of a row

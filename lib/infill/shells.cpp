@@ -21,26 +21,33 @@ constexpr double most_cells = 2.3e6;  // of the grid over an object: 150 × 150 
 constexpr int margin_cells = 4;
 constexpr int beyond_cells = 2;  // how far an area is drawn over the wall beside it before it is cut to the wall's edge
 
-/// The masks that a run of layers needs, made once.
+/// Layers [from, to).
+struct LayerRange {
+  std::size_t from, to;
+};
+
+/// The masks that a run of layers needs, made once: insides of all layers within reach, outlines of the run and its
+/// neighbours.
 class Window {
  public:
-  Window(const ShellObject& object, std::size_t from, std::size_t to) : from_(from) {
+  Window(const ShellObject& object, LayerRange run, LayerRange within_reach)
+      : insides_from_(within_reach.from), outlines_from_(run.from - std::min<std::size_t>(run.from, 1)) {
     const Grid whole = Grid::over(object.box, finest_cell, 0, most_cells);
     Box box;
-    for (std::size_t i = from; i < to; ++i)
+    for (std::size_t i = within_reach.from; i < within_reach.to; ++i)
       box.add(weft::box_of(*object.layers[i].outline)), box.add(weft::box_of(*object.layers[i].inside));
     grid_ = whole.window(box, margin_cells * whole.cell);
-    for (std::size_t i = from; i < to; ++i) {
-      outlines_.emplace_back(grid_, *object.layers[i].outline);
+    for (std::size_t i = insides_from_; i < within_reach.to; ++i)
       insides_.emplace_back(grid_, *object.layers[i].inside);
-    }
+    for (std::size_t i = outlines_from_; i < std::min(run.to + 1, object.layers.size()); ++i)
+      outlines_.emplace_back(grid_, *object.layers[i].outline);
   }
   const Grid& grid() const { return grid_; }
-  const Mask& outline(std::size_t layer) const { return outlines_[layer - from_]; }
-  const Mask& inside(std::size_t layer) const { return insides_[layer - from_]; }
+  const Mask& outline(std::size_t layer) const { return outlines_[layer - outlines_from_]; }
+  const Mask& inside(std::size_t layer) const { return insides_[layer - insides_from_]; }
 
  private:
-  std::size_t from_;
+  std::size_t insides_from_, outlines_from_;
   Grid grid_;
   std::vector<Mask> outlines_, insides_;
 };
@@ -267,15 +274,17 @@ Box box_of(std::span<const ShellLayer> layers) {
 
 std::vector<LayerAreas> find_areas(const ShellSettings& settings, const InfillSettings& infill,
                                    const ShellObject& object, std::size_t first, std::size_t count) {
-  std::size_t from = first, to = first + count;
-  for (std::size_t i = first; i < first + count; ++i) {
+  const LayerRange run{first, first + count};
+  LayerRange within_reach = run;
+  for (std::size_t i = run.from; i < run.to; ++i) {
     const Reach reach = reach_of(settings, object.layers, i);
-    from = std::min(from, i - std::min(i, std::max<std::size_t>(reach.below, 1)));
-    to = std::max(to, std::min(object.layers.size(), i + std::max<std::size_t>(reach.above, 1) + 1));
+    within_reach.from = std::min(within_reach.from, i - std::min(i, std::max<std::size_t>(reach.below, 1)));
+    within_reach.to =
+        std::max(within_reach.to, std::min(object.layers.size(), i + std::max<std::size_t>(reach.above, 1) + 1));
   }
-  const Window window(object, from, to);
+  const Window window(object, run, within_reach);
   std::vector<LayerAreas> result;
-  for (std::size_t i = first; i < first + count; ++i) {
+  for (std::size_t i = run.from; i < run.to; ++i) {
     if (object.layers[i].inside->empty()) {
       result.emplace_back();
       continue;

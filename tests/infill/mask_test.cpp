@@ -1,0 +1,67 @@
+#include "infill/mask.h"
+
+#include <random>
+
+#include <catch2/catch.hpp>
+
+using namespace weft;
+using infill::Grid;
+using infill::Mask;
+
+namespace {
+
+Grid grid_of(int columns, int rows) {
+  return {{0, 0}, 100, columns, rows};
+}
+
+/// Scattered rectangles, as cells.
+Mask scattered(const Grid& grid, unsigned seed, int count) {
+  std::mt19937 random(seed);
+  const auto below = [&](int end) { return static_cast<Um>(random() % static_cast<unsigned>(end)); };
+  Mask all(grid);
+  for (int i = 0; i < count; ++i) {
+    const Point a{below(grid.columns) * grid.cell, below(grid.rows) * grid.cell};
+    const Point b{a.x + (1 + below(90)) * grid.cell, a.y + (1 + below(6)) * grid.cell};
+    const Region box{{a, {b.x, a.y}, b, {a.x, b.y}}, {}};
+    all |= Mask(grid, {&box, 1});
+  }
+  return all;
+}
+
+/// Whether a cell so near in x and in y is `wanted`; none is beyond the grid.
+bool any_near(const Mask& mask, int column, int row, int cells, bool wanted) {
+  for (int r = std::max(0, row - cells); r <= std::min(mask.grid().rows - 1, row + cells); ++r)
+    for (int c = std::max(0, column - cells); c <= std::min(mask.grid().columns - 1, column + cells); ++c)
+      if (mask.at(c, r) == wanted) return true;
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "mask: grown by some cells it holds all cells so near to one of its own, shrunk those so far from all others") {
+  for (const int columns : {64, 130, 200})
+    for (const int cells : {1, 2, 4, 7, 63, 64, 100}) {
+      const Grid grid = grid_of(columns, 40);
+      const Mask mask = scattered(grid, static_cast<unsigned>(columns + cells), cells < 60 ? 9 : 3);
+      const Mask grown = mask.grown(cells), shrunk = mask.shrunk(cells);
+      int wrong = 0;
+      for (int r = 0; r < grid.rows; ++r)
+        for (int c = 0; c < grid.columns; ++c) {
+          wrong += static_cast<int>(grown.at(c, r) != any_near(mask, c, r, cells, true));
+          wrong += static_cast<int>(shrunk.at(c, r) == any_near(mask, c, r, cells, false));
+        }
+      INFO(columns << " columns, grown and shrunk by " << cells);
+      CHECK(wrong == 0);
+    }
+}
+
+TEST_CASE("mask: what is empty stays so, and nothing is set beyond the columns") {
+  const Grid grid = grid_of(70, 10);
+  CHECK_FALSE(Mask(grid).grown(3).any());
+  const Region all{{{0, 0}, {7000, 0}, {7000, 1000}, {0, 1000}}, {}};
+  const Mask full(grid, {&all, 1});
+  CHECK(full.count() == 700);
+  CHECK(full.grown(5) == full);
+  CHECK(full.shrunk(5) == full);
+}
