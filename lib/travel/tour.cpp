@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <ranges>
 
 namespace weft::travel {
 namespace {
@@ -107,7 +108,9 @@ class Search {
     double length = whole_way();
     auto kept = places_;
     auto kept_edge = edge_;
-    auto kept_position = position_;
+    const auto part = [&](auto& list, int more) {  // what has changed since the last kick
+      return std::ranges::subrange(list.begin() + changed_from_, list.begin() + changed_to_ + more);
+    };
     for (int kick = 0; kick < kicks_a_stop * n_; ++kick) {
       int cut[3];
       const int window = std::min(n_, kick_window),
@@ -115,6 +118,7 @@ class Search {
       for (int& c : cut) c = base + static_cast<int>(random(static_cast<std::uint32_t>(window + 1)));
       std::sort(std::begin(cut), std::end(cut));
       if (cut[0] == cut[1] || cut[1] == cut[2]) continue;
+      changed_from_ = n_, changed_to_ = 0;
       std::rotate(places_.begin() + cut[0], places_.begin() + cut[1], places_.begin() + cut[2]);
       settled(cut[0], cut[2]);
       for (const int c :
@@ -124,9 +128,12 @@ class Search {
       const double now = whole_way();
       if (now < length - least_gain_um) {
         length = now;
-        kept = places_, kept_edge = edge_, kept_position = position_;
+        std::ranges::copy(part(places_, 0), kept.begin() + changed_from_);
+        std::ranges::copy(part(edge_, 1), kept_edge.begin() + changed_from_);
       } else {
-        places_ = kept, edge_ = kept_edge, position_ = kept_position;
+        std::ranges::copy(part(kept, 0), places_.begin() + changed_from_);
+        std::ranges::copy(part(kept_edge, 1), edge_.begin() + changed_from_);
+        for (int i = changed_from_; i < changed_to_; ++i) position_[places_[at(i)].stop] = i;
       }
     }
   }
@@ -143,6 +150,7 @@ class Search {
   static constexpr int fewest_to_kick = 5, most_to_kick = 400, kick_window = 50;
   static constexpr int kicks_a_stop = 3;  // ten gain another 0.3 % at thrice the time
   static constexpr double least_gain_um = 1.0;
+  static constexpr double rounding_um = 1e-3;  // no sum of hops is off by more, in whatever order they are added
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
   /// Way from what is left at position i to what is entered at position j; none where there is no such place.
@@ -179,6 +187,7 @@ class Search {
   void settled(int first, int last) {
     for (int i = first; i < last; ++i) position_[places_[at(i)].stop] = i, edge_[at(i)] = hop(i - 1, i);
     edge_[at(last)] = hop(last - 1, last);
+    changed_from_ = std::min(changed_from_, first), changed_to_ = std::max(changed_to_, last);
   }
 
   void reverse(int first, int last) {
@@ -200,45 +209,64 @@ class Search {
     if (gain < least_gain_um) return false;
     gain -= hop(places_[at(first)].entry, last + 1);
     if (gain < least_gain_um || !reversible(first, last)) return false;
+    turn(first, last);
+    return true;
+  }
+  /// The same where one of the two new hops is known: that to the first place, or that from the last.
+  bool try_reverse(int first, int last, bool to_first, double known) {
+    if (first > last || last - first >= longest_move_) return false;
+    double gain = edge_[at(first)] + edge_[at(last + 1)];
+    if (gain - known < least_gain_um - rounding_um) return false;
+    gain -= to_first ? known : hop(first - 1, places_[at(last)].exit);
+    gain -= to_first ? hop(places_[at(first)].entry, last + 1) : known;
+    if (gain < least_gain_um || !reversible(first, last)) return false;
+    turn(first, last);
+    return true;
+  }
+  void turn(int first, int last) {
     reverse(first, last);
     settled(first, last + 1);
     touch(first - 1), touch(first), touch(last), touch(last + 1);
-    return true;
   }
 
-  /// Or-opt: takes positions first … last out and puts them between positions gap − 1 and gap, turned around or not.
-  bool try_move(int first, int last, int gap, bool turned) {
-    if (gap >= first && gap <= last + 1) return false;
-    if (std::max(last, gap) - std::min(first, gap) >= longest_move_) return false;
-    double gain = edge_[at(first)] + edge_[at(last + 1)] + edge_[at(gap)];
-    if (gain < least_gain_um) return false;
-    gain -= hop(first - 1, last + 1);
-    if (gain < least_gain_um) return false;
-    const Place &begin = places_[at(first)], &end = places_[at(last)];
-    gain -= hop(gap - 1, turned ? end.exit : begin.entry);
-    if (gain < least_gain_um) return false;
-    gain -= hop(turned ? begin.entry : end.exit, gap);
-    if (gain < least_gain_um || (turned && !reversible(first, last))) return false;
+  /// What one endpoint of the stop at position i is to be joined to: that of another stop, so far away.
+  struct Joint {
+    int i;
+    bool entry;  ///< of the stop at i, or its exit
+    double length;
+  };
+
+  /// Or-opt: segments of up to three stops that begin (or end) with a joint are taken out and put between the positions
+  /// gap − 1 and gap, turned around or not, so that the joint comes first (or last).
+  bool try_moves(const Joint& joint, int gap, bool joint_first) {
+    const bool turned = joint.entry != joint_first;
+    const double edge_at_gap = edge_[at(gap)];
+    for (int extra = 0; extra < 3; ++extra) {
+      const int first = joint.entry ? joint.i : joint.i - extra, last = joint.entry ? joint.i + extra : joint.i;
+      if (first < 0 || last >= n_) break;
+      if (gap >= first && gap <= last + 1) continue;
+      if (std::max(last, gap) - std::min(first, gap) >= longest_move_) continue;
+      double gain = edge_[at(first)] + edge_[at(last + 1)] + edge_at_gap;
+      if (gain - joint.length < least_gain_um - rounding_um) continue;
+      gain -= hop(first - 1, last + 1);
+      if (gain - joint.length < least_gain_um - rounding_um) continue;
+      // The endpoint that is not the joint is where the segment is left, or entered.
+      const Point far = joint.entry ? places_[at(last)].exit : places_[at(first)].entry;
+      gain -= joint_first ? joint.length : hop(gap - 1, far);
+      gain -= joint_first ? hop(far, gap) : joint.length;
+      if (gain < least_gain_um || (turned && !reversible(first, last))) continue;
+      move(first, last, gap, turned);
+      return true;
+    }
+    return false;
+  }
+  void move(int first, int last, int gap, bool turned) {
     touch(first - 1), touch(first), touch(last), touch(last + 1), touch(gap - 1), touch(gap);
     if (turned) reverse(first, last);
     const int low = std::min(first, gap), high = std::max(last + 1, gap);
     const int middle = gap < first ? first : last + 1;
     std::rotate(places_.begin() + low, places_.begin() + middle, places_.begin() + high);
     settled(low, high);
-    return true;
-  }
-
-  /// Segments of up to three stops that begin (or end) at position i, put before `gap` so that position i comes first
-  /// (or last).
-  bool try_moves(int i, int gap, bool head_is_entry, bool to_gap_head) {
-    for (int extra = 0; extra < 3; ++extra) {
-      // The endpoint at i becomes the one next to the gap: the segment grows away from it.
-      const int first = head_is_entry ? i : i - extra, last = head_is_entry ? i + extra : i;
-      if (first < 0 || last >= n_) break;
-      const bool turned = head_is_entry != to_gap_head;
-      if (try_move(first, last, gap, turned)) return true;
-    }
-    return false;
   }
 
   bool improve(std::uint32_t stop) {
@@ -259,12 +287,13 @@ class Search {
         if (!free_end && apart_[neighbour] >= now) break;
         const int j = position_[other];
         const bool there_is_entry = (other_end % 2 != 0) == places_[at(j)].reversed;
+        const Joint joint{j, there_is_entry, apart_[neighbour]};
         if (from_exit) {
-          if (!there_is_entry && try_reverse(std::min(i, j) + 1, std::max(i, j))) return true;
-          if (try_moves(j, i + 1, there_is_entry, true)) return true;
+          if (!there_is_entry && try_reverse(std::min(i, j) + 1, std::max(i, j), true, joint.length)) return true;
+          if (try_moves(joint, i + 1, true)) return true;
         } else {
-          if (there_is_entry && try_reverse(std::min(i, j), std::max(i, j) - 1)) return true;
-          if (try_moves(j, i, there_is_entry, false)) return true;
+          if (there_is_entry && try_reverse(std::min(i, j), std::max(i, j) - 1, false, joint.length)) return true;
+          if (try_moves(joint, i, false)) return true;
         }
       }
     }
@@ -280,6 +309,7 @@ class Search {
   std::vector<double> apart_;  // beside neighbours_: how far they are
   TourEnds ends_;
   int n_, longest_move_ = 0;
+  int changed_from_ = 0, changed_to_ = 0;  // places that settled() was told of
   bool any_fixed_ = false;
   std::vector<int> position_;
   std::vector<char> look_;
