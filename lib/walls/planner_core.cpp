@@ -61,29 +61,38 @@ void Planner::cut_mouths(std::vector<int>& degree) {
   const auto climbs = [&](std::uint32_t h) {
     return core_[h / 2] && !mouth_[h / 2] && slope(h / 2) > o_.corner && s_.end(h).clearance > s_.start(h).clearance;
   };
+  // All that are found in one look are cut together, so that it does not matter which is found first; where one is cut,
+  // another may lead on.
+  std::vector<std::uint8_t> seen(core_.size());
   std::vector<std::uint32_t> run;
-  for (std::uint32_t start = 0; start < s_.halves.size(); ++start) {
-    if (!climbs(start)) continue;
-    std::uint32_t below = start;  // begins there: what leads to it does not climb
-    for (std::uint32_t h = onward(Skeleton::twin(start)); h != Skeleton::twin(below) && climbs(Skeleton::twin(h));
-         h = onward(h))
-      below = Skeleton::twin(h);
-    run.assign(1, below);
-    for (std::uint32_t h = onward(below); h != run.back() && climbs(h); h = onward(h)) run.push_back(h);
-    const std::uint32_t low = s_.halves[below].from, high = s_.to(run.back());
-    const int fewer = count_for(w_, 2 * s_.nodes[low].clearance, false).beads();
-    const int more = count_for(w_, 2 * s_.nodes[high].clearance, true).beads();
-    const double rise = s_.nodes[high].clearance - s_.nodes[low].clearance;
-    const bool splits = fewer == 1 && 2 * s_.nodes[high].clearance > wide_bead() && rise > 0.3 * w_.inner;
-    if (more - fewer < (splits ? 1 : 2)) continue;
-    for (const std::uint32_t h : run) {
-      core_[h / 2] = 0;
-      mouth_[h / 2] = 1;
-      --degree[s_.halves[h].from];
-      --degree[s_.to(h)];
+  for (std::size_t done = 0;;) {
+    std::fill(seen.begin(), seen.end(), 0);
+    for (std::uint32_t start = 0; start < s_.halves.size(); ++start) {
+      if (seen[start / 2] || !climbs(start)) continue;
+      std::uint32_t below = start;  // begins there: what leads to it does not climb
+      for (std::uint32_t h = onward(Skeleton::twin(start)); h != Skeleton::twin(below) && climbs(Skeleton::twin(h));
+           h = onward(h))
+        below = Skeleton::twin(h);
+      run.assign(1, below);
+      for (std::uint32_t h = onward(below); h != run.back() && climbs(h); h = onward(h)) run.push_back(h);
+      for (const std::uint32_t h : run) seen[h / 2] = 1;
+      const std::uint32_t low = s_.halves[below].from, high = s_.to(run.back());
+      const int fewer = count_for(w_, 2 * s_.nodes[low].clearance, false).beads();
+      const int more = count_for(w_, 2 * s_.nodes[high].clearance, true).beads();
+      const double rise = s_.nodes[high].clearance - s_.nodes[low].clearance;
+      const bool splits = fewer == 1 && 2 * s_.nodes[high].clearance > wide_bead() && rise > 0.3 * w_.inner;
+      if (more - fewer >= (splits ? 1 : 2)) runs_.push_back(run);
     }
-    tops_.push_back(high);
-    runs_.push_back(run);
+    if (done == runs_.size()) break;
+    for (; done < runs_.size(); ++done) {
+      for (const std::uint32_t h : runs_[done]) {
+        core_[h / 2] = 0;
+        mouth_[h / 2] = 1;
+        --degree[s_.halves[h].from];
+        --degree[s_.to(h)];
+      }
+      tops_.push_back(s_.to(runs_[done].back()));
+    }
   }
   for (const std::uint32_t n : tops_) {
     bool peak = degree[n] == 0;

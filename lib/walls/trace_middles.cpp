@@ -148,8 +148,10 @@ class Tracer {
       const auto& from = s_.start(h);
       strip.add_axis(from.at, std::max(1.0, from.clearance - level(h, true)));
       for (const Place p : left[j]) strip.add_left(p);
-      std::vector<Place> right{side(h, true), side(h, false)};
-      if (j + 1 < chain.size() || strip.closed) around(h, chain[(j + 1) % chain.size()], right);
+      std::vector<Place> right;  // what lies around a node goes with the piece behind it, as on the left
+      if (j > 0 || strip.closed) around(chain[j > 0 ? j - 1 : chain.size() - 1], h, right);
+      right.push_back(side(h, true));
+      right.push_back(side(h, false));
       for (const Place p : right) strip.add_right(p);
     }
     const auto& to = s_.end(chain.back());

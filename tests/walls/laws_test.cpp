@@ -141,8 +141,7 @@ TEST_CASE("walls: no bead of a random polygon is wider than max_wall_line_width"
 }
 
 TEST_CASE("walls: the mirror image of a part gets the mirror image of its beads", "[walls][law]") {
-  // Measured over 1,000 of these: 6 differ by more than 5 µm, where ramps between counts of beads meet at a junction
-  // and the one found first goes before, or a tip ends a micron sooner.
+  // Measured over 1,000 of these: one differs by more than 5 µm, where two directions of a short bead are equally good.
   std::mt19937 random(20'240'601);
   int count = 0, off = 0;
   for (int i = 0; i < 1000; ++i) {
@@ -156,7 +155,7 @@ TEST_CASE("walls: the mirror image of a part gets the mirror image of its beads"
     off += most > 5 ? 1 : 0;
   }
   INFO(off << " of " << count);
-  CHECK(off <= count / 100);
+  CHECK(off <= count / 1000);
 }
 
 TEST_CASE("walls: a rib of 0.4 mm is printed alike in every layer", "[walls][law]") {
