@@ -11,6 +11,7 @@ Laying Planner::run() {
   cut_at_thresholds();
   filter();
   open_needless_mouths();
+  pass_junctions();
   ramps();
   for (std::uint32_t e = 0; e < core_.size(); ++e) set_core_bounds(e);
   run_into_corners();

@@ -24,6 +24,11 @@ class Planner {
     Count other;
     double at_start = 0, at_end = 0;  ///< share of the other
   };
+  /// A climb in which walls keep to the outline: half the thickness they fill, by the clearance.
+  struct Passage {
+    double low, high;              ///< clearance
+    double walls_low, walls_high;  ///< what walls fill there
+  };
   struct Descent {
     std::uint32_t half;
     Span span;
@@ -68,6 +73,23 @@ class Planner {
   /// How wide a bead may grow for a short way, rather than be joined by another.
   double wide_bead() const { return std::min(w_.most, 1.7 * std::min(w_.inner, w_.outer)); }
 
+  // small places where thick arms meet
+  /// Where four arms or more of equal beads meet in a place with room for one bead more, their walls go on as wide as
+  /// they come, and a bead in the middle fills what they leave. With less room wider walls fill it better; with more, a
+  /// wall that turns back.
+  void pass_junctions();
+  /// The flat core around a node, if it is shorter than a bead is wide, with the steep ways down from it.
+  bool summit(std::uint32_t node, std::vector<std::uint32_t>& nodes, std::vector<std::uint32_t>& edges,
+              std::vector<std::vector<std::uint32_t>>& arms);
+  /// Makes an arm end where it is level.
+  void down_to_level(std::vector<std::uint32_t>& arm) const;
+  /// Whether beyond each of them lies one stretch, all of the same even number of beads.
+  bool alike(const std::vector<std::vector<std::uint32_t>>& arms, Count& count);
+  void pass(std::uint32_t e, Count count, Passage passage);
+  bool passes(std::uint32_t e) const { return e < passage_.size() && passage_[e] != none; }
+  /// Half the thickness that walls fill where the clearance is that; all of it but in a passage.
+  double walled(std::uint32_t e, double clearance) const;
+
   // ramps between counts
   void ramps();
   /// The one core half that leads on from the end of h, or h itself when there is none or more.
@@ -85,9 +107,11 @@ class Planner {
   /// Beads end on the axis where the clearance falls to their distance.
   void descend(std::uint32_t h, Span span);
 
+  static constexpr std::uint32_t none = ~0U;
   static constexpr double outer_spread =
-      1.25;                                   // of its width: an outer wall alone on its side grows to this in a taper
-  static constexpr double same_um = 1e-3;     // lengths that differ by less are equal
+      1.25;  // of its width: an outer wall alone on its side grows to this in a taper
+  static constexpr double least_middle = 0.9, most_middle = 1.2;  // of a bead's width: room for one bead more
+  static constexpr double same_um = 1e-3;                         // lengths that differ by less are equal
   static constexpr double stub_share = 0.25;  // of the clearance: flat ends of the axis shorter than this are corners
   static constexpr double dip_share = 0.02;   // of the clearance: … and never reach over a rise of more than this
 
@@ -99,6 +123,8 @@ class Planner {
   std::vector<std::vector<std::uint32_t>> runs_;  // halves of each mouth, climbing
   std::vector<Count> count_;
   std::vector<Blend> blend_;
+  std::vector<Passage> passages_;
+  std::vector<std::uint32_t> passage_;  // by edge: its passage, or none
   std::vector<double> scratch_;
   std::vector<Descent> leave_;
   Laying out_;

@@ -80,6 +80,26 @@ TEST_CASE("walls: the bead of a rib is led on to the wall of the bar that it run
     }
 }
 
+TEST_CASE("walls: where arms of two beads cross, the walls pass and one bead fills the middle", "[walls]") {
+  // A second wall circled the middle and laid most of it twice. What is bare now are the points of the middle's star.
+  for (const double turn : {0.0, 0.3}) {
+    CAPTURE(turn);
+    for (const double width : {1000.0, 1100.0}) {
+      CAPTURE(width);
+      Ring cross;
+      for (int arm = 0; arm < 4; ++arm) {
+        const double c = std::cos(turn + arm * std::numbers::pi / 2), s = std::sin(turn + arm * std::numbers::pi / 2);
+        const double half = width / 2, corners[][2] = {{4000, -half}, {4000, half}, {half, half}};
+        for (const auto& [x, y] : corners) cross.push_back({rounded(c * x - s * y), rounded(s * x + c * y)});
+      }
+      const WallLayer walls = filled({{cross, {}}});
+      CHECK(std::count_if(walls.beads.begin(), walls.beads.end(), [](const Bead& b) { return b.closed; }) == 1);
+      CHECK(bare_share({cross, {}}, walls, {{-800, -800}, {800, 800}}, 13) < 0.035);
+      CHECK(bead_area_mm2(walls) == Approx(area_mm2(Region{cross, {}})).epsilon(0.005));
+    }
+  }
+}
+
 TEST_CASE("walls: a bead goes straight on to an end that is not quite square", "[walls]") {
   for (const Um slant : {0, 60, 150}) {
     // A bar of 1.3 mm: two walls and one bead between them, whose ends do not turn aside.

@@ -1,0 +1,96 @@
+// Small places where thick arms meet: the walls pass, and one bead in their middle fills what they leave.
+#include "walls/planner.h"
+
+#include <algorithm>
+
+namespace weft::walls {
+
+void Planner::pass_junctions() {
+  std::vector<std::uint32_t> nodes, edges;
+  std::vector<std::vector<std::uint32_t>> arms;
+  for (std::uint32_t n = 0; n < any_.size(); ++n) {
+    if (!summit(n, nodes, edges, arms) || arms.size() < 4) continue;
+    double walls = 0, room = 0;  // half the thickness that the walls fill, and that there is
+    for (auto& arm : arms) {
+      down_to_level(arm);
+      walls = std::max(walls, s_.end(arm.back()).clearance);
+    }
+    for (const std::uint32_t m : nodes) room = std::max(room, s_.nodes[m].clearance);
+    Count count;
+    const double middle = 2 * (room - walls);
+    if (middle < least_middle * w_.inner || middle > most_middle * w_.inner || !alike(arms, count)) continue;
+    for (const auto& arm : arms) {
+      const double low = s_.end(arm.back()).clearance, high = s_.start(arm.front()).clearance;
+      for (const std::uint32_t h : arm) pass(h / 2, count, {low, high, low, walls});
+    }
+    for (const std::uint32_t e : edges) pass(e, count, {0, room, walls, walls});
+    std::erase_if(peaks_, [&](std::uint32_t m) { return std::find(nodes.begin(), nodes.end(), m) != nodes.end(); });
+  }
+}
+
+bool Planner::summit(std::uint32_t node, std::vector<std::uint32_t>& nodes, std::vector<std::uint32_t>& edges,
+                     std::vector<std::vector<std::uint32_t>>& arms) {
+  double length = 0;
+  nodes.assign(1, node);
+  edges.clear();
+  arms.clear();
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    for_each_leaving(any_[nodes[i]], [&](std::uint32_t h) {
+      const std::uint32_t e = h / 2;
+      if ((!core_[e] && !mouth_[e]) || std::find(edges.begin(), edges.end(), e) != edges.end()) return;
+      if (steep_[e] && s_.end(h).clearance < s_.start(h).clearance) {
+        arms.push_back({h});
+        return;
+      }
+      edges.push_back(e);
+      length += s_.length(e);
+      if (std::find(nodes.begin(), nodes.end(), s_.to(h)) == nodes.end()) nodes.push_back(s_.to(h));
+    });
+    if (length >= w_.inner) return false;
+  }
+  return true;
+}
+
+void Planner::down_to_level(std::vector<std::uint32_t>& arm) const {
+  for (;;) {
+    std::uint32_t found = none;
+    int ways = 0;
+    for_each_leaving(Skeleton::twin(arm.back()), [&](std::uint32_t g) {
+      if (g != Skeleton::twin(arm.back()) && (core_[g / 2] || mouth_[g / 2])) found = g, ++ways;
+    });
+    if (ways != 1 || s_.end(found).clearance >= s_.start(found).clearance) return;
+    if (!steep_[found / 2] && !count_[found / 2].middle) return;
+    arm.push_back(found);
+  }
+}
+
+bool Planner::alike(const std::vector<std::vector<std::uint32_t>>& arms, Count& count) {
+  int ways = 0;
+  bool same = true;
+  for (const auto& arm : arms)
+    for_each_leaving(Skeleton::twin(arm.back()), [&](std::uint32_t h) {
+      if (!core_[h / 2] || h == Skeleton::twin(arm.back())) return;
+      same = same && (ways == 0 || count_[h / 2] == count);
+      count = count_[h / 2];
+      ++ways;
+    });
+  return same && ways == static_cast<int>(arms.size()) && count.pairs > 0 && !count.middle;
+}
+
+void Planner::pass(std::uint32_t e, Count count, Passage passage) {
+  core_[e] = 1;
+  mouth_[e] = 0;
+  count_[e] = count;
+  if (passage_.size() < core_.size()) passage_.resize(core_.size(), none);
+  passage_[e] = static_cast<std::uint32_t>(passages_.size());
+  passages_.push_back(passage);
+}
+
+double Planner::walled(std::uint32_t e, double clearance) const {
+  if (!passes(e)) return clearance;
+  const Passage& p = passages_[passage_[e]];
+  if (p.high - p.low < same_um) return p.walls_high;
+  return p.walls_low + (p.walls_high - p.walls_low) * (clearance - p.low) / (p.high - p.low);
+}
+
+}  // namespace weft::walls
