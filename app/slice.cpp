@@ -78,6 +78,7 @@ Job job_of(const Command& command, const Settings& settings) {
   job.settings = settings;
   job.placement = placement_of(command.options);
   job.threads = command.threads;
+  job.hash_gcode = command.report.has_value();
   const auto mode = command.options["audit"].as<std::string>();
   if (mode != "reject" && mode != "annotate")
     throw Error{Error::Kind::usage, fmt::format("'{}' is not one of reject, annotate", mode), "--audit", "the audit cannot be turned off"};

@@ -93,22 +93,42 @@ std::string_view not_text(std::string_view front) {
 
 }  // namespace
 
-Passed check(const MachineSettings& machine, const MaterialSettings& material, const AuditSettings& audit,
-             std::string gcode, Mode mode) {
-  Auditor auditor(machine, material, audit, mode == Mode::annotate);
-  auditor.feed(gcode);
-  Report report = auditor.finish();
+Check::Check(const MachineSettings& machine, const MaterialSettings& material, const AuditSettings& audit, Mode mode)
+    : auditor_(std::make_unique<Auditor>(machine, material, audit, mode == Mode::annotate)), mode_(mode) {}
+Check::~Check() = default;
+
+void Check::reserve(std::size_t bytes) {
+  gcode_.reserve(bytes);
+}
+
+void Check::add(std::string_view piece) {
+  const std::size_t before = gcode_.size();
+  gcode_ += piece;
+  auditor_->feed(std::string_view(gcode_).substr(before));  // the bytes that stand there
+}
+
+Passed Check::passed() {
+  auto gcode = std::move(gcode_);
+  Report report = auditor_->finish();
   if (!report.clean()) {
-    if (mode == Mode::reject) throw Rejected(std::move(report));
+    if (mode_ == Mode::reject) throw Rejected(std::move(report));
     report.verdict = Verdict::annotated;
   }
-  if (auditor.marks().empty() && report.findings.empty()) {  // the usual case: a copy of the text would be as large again
+  if (auditor_->marks().empty() && report.findings.empty()) {  // the usual case: a copy would be as large again
     const auto place = header_place(gcode);
     gcode.replace(place.at, place.replaced, header_line(gcode, place, report));
     return {std::move(gcode), std::move(report)};
   }
-  auto text = stated(gcode, auditor.marks(), report);
+  auto text = stated(gcode, auditor_->marks(), report);
   return {std::move(text), std::move(report)};
+}
+
+Passed check(const MachineSettings& machine, const MaterialSettings& material, const AuditSettings& audit,
+             std::string gcode, Mode mode) {
+  Check all(machine, material, audit, mode);
+  all.gcode_ = std::move(gcode);
+  all.auditor_->feed(all.gcode_);
+  return all.passed();
 }
 
 Report examine_text(const MachineSettings& machine, const MaterialSettings& material, const AuditSettings& audit,

@@ -10,14 +10,17 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 /// The boundary audit: finished G-code is read back by a reader that shares nothing with the writer, and every motion
-/// in it is checked against the machine. `check` is the door that all G-code of weft leaves through; `examine` looks at
+/// in it is checked against the machine. `Check` is the door that all G-code of weft leaves through; `examine` looks at
 /// a file of any slicer.
 namespace weft::audit {
+
+class Auditor;
 
 /// Names of Motion::Kind and Side in reports.
 std::string_view name_of(Motion::Kind kind);
@@ -90,23 +93,45 @@ class Rejected : public Error {
   Report report_;
 };
 
-/// G-code that went through the audit. Only `check` makes one, and the file writer takes nothing else.
+/// G-code that went through the audit. Only `Check` makes one, and the file writer takes nothing else.
 class Passed {
  public:
   std::string_view gcode() const { return gcode_; }
   const Report& report() const { return report_; }
 
  private:
-  friend Passed check(const MachineSettings&, const MaterialSettings&, const AuditSettings&, std::string, Mode);
+  friend class Check;
   Passed(std::string gcode, Report report) : gcode_(std::move(gcode)), report_(std::move(report)) {}
   std::string gcode_;
   Report report_;
 };
 
-/// Audits finished G-code and states the verdict in its header: the line that starts with `; weft_audit = ` is
-/// rewritten, or one is put behind the first line. With Mode::annotate a comment stands before every offending line;
-/// else the bytes are kept. Cost: one pass; memory for the text and, when annotating, for one copy of it.
-/// @throws Rejected when something was found and the mode is Mode::reject
+/// Audits G-code while it grows: the text is the audit's from its first byte, so that nothing stands in it unread.
+class Check {
+ public:
+  Check(const MachineSettings& machine, const MaterialSettings& material, const AuditSettings& audit, Mode mode);
+  ~Check();
+  Check(const Check&) = delete;
+  Check& operator=(const Check&) = delete;
+
+  /// Room for a text of so many bytes, which then grows without a copy.
+  void reserve(std::size_t bytes);
+  /// What the text goes on with. Cost: one pass.
+  void add(std::string_view piece);
+  /// States the verdict in the text's header: the line that starts with `; weft_audit = ` is rewritten, or one is put
+  /// behind the first line. With Mode::annotate a comment stands before every offending line; else the bytes are kept.
+  /// Memory: when annotating, one copy of the text. Post: there is no text.
+  /// @throws Rejected when something was found and the mode is Mode::reject
+  Passed passed();
+
+ private:
+  friend Passed check(const MachineSettings&, const MaterialSettings&, const AuditSettings&, std::string, Mode);
+  std::unique_ptr<Auditor> auditor_;
+  Mode mode_;
+  std::string gcode_;
+};
+
+/// Audits finished G-code, as Check does. @throws Rejected
 Passed check(const MachineSettings& machine, const MaterialSettings& material, const AuditSettings& audit,
              std::string gcode, Mode mode);
 

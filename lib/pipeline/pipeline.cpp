@@ -35,14 +35,13 @@ std::size_t room_for(const PrintPlan& plan) {
   return bytes;
 }
 
-/// The text of the file. What is said of the whole plan needs all of it; then each layer's steps are unpacked once more, to
-/// be written and let go of, so that plan and text are never both there as a whole.
-std::string write_gcode(const gcode::Job& job, PrintPlan& plan, std::vector<std::string> packed, Report& report) {
+/// The text of the file, audited as it grows. What is said of the whole plan needs all of it; then each layer's steps are
+/// unpacked once more, to be written and let go of, so that plan and text are never both there as a whole.
+void write_gcode(const gcode::Job& job, PrintPlan& plan, std::vector<std::string> packed, audit::Check& check, Report& report) {
   const Stopwatch stopwatch(report.timings_ms.gcode);
   const gcode::Writer writer(job);
-  std::string text;
-  text.reserve(room_for(plan));
-  text += writer.head();
+  check.reserve(room_for(plan));
+  check.add(writer.head());
   const std::string tail = writer.tail();
   const auto let_go = [](auto& list) { std::exchange(list, {}); };  // not `list = {}`: that keeps its room
   for (auto& layer : plan.layers) let_go(layer.steps);
@@ -55,10 +54,10 @@ std::string write_gcode(const gcode::Job& job, PrintPlan& plan, std::vector<std:
   };
   tasks::parallel_in_order(plan.layers.size(), write, [&](std::size_t i, const std::string& block) {
     if (i % layers_between_giving_back == 0) give_back_memory();
-    text += block;
+    const Stopwatch audit(report.timings_ms.audit);
+    check.add(block);
   });
-  text += tail;
-  return text;  // not `text += tail`: that is a reference, and copied
+  check.add(tail);
 }
 
 void note_statistics(const Statistics& s, Report& report) {
@@ -85,14 +84,13 @@ void note_audit(const audit::Report& a, Report& report) {
   report.warnings.insert(report.warnings.end(), a.notices.begin(), a.notices.end());
 }
 
-std::optional<audit::Passed> audit_gcode(const Job& job, std::string text, Report& report) {
+std::optional<audit::Passed> verdict_of(audit::Check& check, const Job& job, Report& report) {
   const Stopwatch stopwatch(report.timings_ms.audit);
-  const auto& s = job.settings;
   try {
-    auto passed = audit::check(s.machine, s.material, s.audit, std::move(text), job.audit);
+    auto passed = check.passed();
     note_audit(passed.report(), report);
     report.status = Report::Status::ok;
-    report.gcode_sha256 = sha256(passed.gcode());
+    if (job.hash_gcode) report.gcode_sha256 = sha256(passed.gcode());
     return passed;
   } catch (const audit::Rejected& rejected) {
     note_audit(rejected.report(), report);
@@ -143,11 +141,12 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
   report.height_mm = plan.layers.empty() ? 0.0 : to_mm(plan.layers.back().z);
   report.warnings.insert(report.warnings.end(), plan.notices.begin(), plan.notices.end());
   begin("G-code", 0.85);
-  auto text = write_gcode({job.settings, plan, statistics, std::filesystem::path(job.models.front()).stem().string(),
-                           std::move(thumbnails), provenance_lines(report.models, job.placement)},
-                          plan, std::move(packed), report);
+  audit::Check check(job.settings.machine, job.settings.material, job.settings.audit, job.audit);
+  write_gcode({job.settings, plan, statistics, std::filesystem::path(job.models.front()).stem().string(),
+               std::move(thumbnails), provenance_lines(report.models, job.placement)},
+              plan, std::move(packed), check, report);
   begin("audit", 0.95);
-  auto passed = audit_gcode(job, std::move(text), report);
+  auto passed = verdict_of(check, job, report);
   watch.progress("done", 1.0);
   return passed;
 }

@@ -29,7 +29,8 @@ struct Job {
   Settings settings;
   Placement placement;
   audit::Mode audit = audit::Mode::reject;
-  unsigned threads = 0;  ///< 0: all cores. The result does not depend on it
+  unsigned threads = 0;    ///< 0: all cores. The result does not depend on it
+  bool hash_gcode = true;  ///< whether the report is to hold the SHA-256 of the G-code
 };
 
 /// How a caller watches a job and stops it.

@@ -115,7 +115,6 @@ std::vector<PackedLayer> plan_moves(const Settings& settings, std::vector<travel
         return travel::route(settings.travel, settings.retraction, layer, ordered[i], from[i]);
       },
       [&](std::size_t i, travel::Routed routed) {
-        if (i % layers_between_giving_back == 0) give_back_memory();
         departures[i].departures = routed.departures;
         Begun layer{std::move(routed.plan), at};
         at = motion::start_after(layer.plan, at);

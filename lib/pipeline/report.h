@@ -42,7 +42,7 @@ struct Report {
     std::size_t checked_moves = 0, not_audited = 0, violation_count = 0;
     std::vector<Violation> violations;
   };
-  /// Wall-clock time of a stage, ms.
+  /// Wall-clock time of a stage, ms. The audit reads layers while others are written: its time counts in gcode, too.
   struct Timings {
     double read = 0, slice = 0, walls = 0, infill = 0, travel = 0, gcode = 0, audit = 0, total = 0;
   };
@@ -50,7 +50,7 @@ struct Report {
   Status status = Status::failed;
   std::string error;  ///< why it failed or was rejected, as on standard error
   std::vector<Model> models;
-  std::string settings_sha256, gcode_sha256;
+  std::string settings_sha256, gcode_sha256;  ///< of the G-code: "" when not asked for (Job), or there is none
   std::size_t layers = 0;
   double height_mm = 0, print_time_s = 0;
   double filament_mm = 0, filament_mm3 = 0, filament_g = 0;

@@ -9,7 +9,7 @@
 
 namespace weft::audit {
 
-static_assert(!std::is_constructible_v<Passed, std::string, Report>, "only check may make one");
+static_assert(!std::is_constructible_v<Passed, std::string, Report>, "only Check may make one");
 static_assert(!std::is_default_constructible_v<Passed>);
 
 namespace {
@@ -94,6 +94,21 @@ TEST_CASE("audit: the verdict finds its place in any header", "[audit]") {
   CHECK_THAT(verdict("G28\nG1 X300 Y1\nG1 X1 Y1\n;TYPE:Perimeter\n;x ; weft_audit = no\nG1 X5 Y500"),
              Catch::Contains("travel\nG1 X5 Y500"));
   CHECK_THAT(checked("G28", Mode::reject).gcode().data(), Catch::StartsWith("G28\n; weft_audit = pass"));
+}
+
+TEST_CASE("audit: a text that grows piece by piece is judged and stated as one that is there at once", "[audit]") {
+  const Bench bench;
+  for (const std::size_t piece : {1U, 7U, 64U, 1000U}) {
+    Check growing(bench.machine, bench.material, bench.settings, Mode::annotate);
+    for (std::size_t at = 0; at < bad.size(); at += piece) growing.add(std::string_view(bad).substr(at, piece));
+    const auto passed = growing.passed();
+    CHECK(passed.gcode() == checked(bad, Mode::annotate).gcode());
+    CHECK(passed.report().violation_count == 3);
+  }
+  Check rejecting(bench.machine, bench.material, bench.settings, Mode::reject);
+  rejecting.add(good);
+  rejecting.add("G1 X300 Y10\n");
+  CHECK_THROWS_AS(rejecting.passed(), Rejected);
 }
 
 TEST_CASE("audit: the first findings are kept, the worst of each sort always among them", "[audit]") {
