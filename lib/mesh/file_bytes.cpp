@@ -21,6 +21,10 @@ Error unreadable(const std::string& path, int error) {
           error == ENOENT ? "check the path" : ""};
 }
 
+Error changed(const std::string& path) {
+  return {Error::Kind::file, "changed while it was read", path, "is another program still writing it?"};
+}
+
 }  // namespace
 
 InputFile::InputFile(std::string path)
@@ -58,8 +62,12 @@ void InputFile::check_unchanged() const {
   struct stat after {};
   if (!regular() || ::fstat(descriptor_, &after) != 0) return;
   const auto same = [](const timespec& s, const timespec& t) { return s.tv_sec == t.tv_sec && s.tv_nsec == t.tv_nsec; };
-  if (static_cast<std::size_t>(after.st_size) != read_ || !same(before_.st_mtim, after.st_mtim))
-    throw Error{Error::Kind::file, "changed while it was read", path_, "is another program still writing it?"};
+  if (after.st_size != before_.st_size || !same(before_.st_mtim, after.st_mtim)) throw changed(path_);
+}
+
+void InputFile::check_whole() const {
+  check_unchanged();
+  if (regular() && size() != read_) throw changed(path_);
 }
 
 void FileBytes::take(InputFile& file) {
@@ -71,7 +79,7 @@ void FileBytes::take(InputFile& file) {
     if (size_ < room) break;
     room *= 2;
   }
-  file.check_unchanged();
+  file.check_whole();
 }
 
 }  // namespace weft::mesh

@@ -27,8 +27,10 @@ class InputFile {
   std::size_t front(char* to, std::size_t most) const;
   /// The next bytes: fewer than `most` only at the end. Throws: Error::Kind::file.
   std::size_t read(char* to, std::size_t most);
-  /// Throws: Error::Kind::file when a regular file is not as it was, or not of the size of what was read.
+  /// Throws: Error::Kind::file when a regular file is not as it was.
   void check_unchanged() const;
+  /// The same, or when it is not of the size of what was read.
+  void check_whole() const;
 
  private:
   std::string path_;

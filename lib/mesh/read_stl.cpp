@@ -1,9 +1,12 @@
 #include "core/error.h"
 #include "mesh/formats.h"
-#include "mesh/weld.h"
+#include "mesh/weld_parts.h"
+#include "tasks/tasks.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -35,28 +38,44 @@ std::uint32_t count_of(std::string_view bytes) {
   std::abort();  // only called when one of them is not placeable
 }
 
-/// Takes triangles as they lie in the file, in pieces of any number.
+/// Gives the next so many bytes of the file, and may use the room for them.
+using Fetch = std::function<std::string_view(char* room, std::size_t bytes)>;
+
+/// Reads the triangles of a file, in blocks.
 class Triangles {
  public:
-  Triangles(std::size_t count, const std::string& path, double scale)
-      : path_(path),
-        scale_(scale),
-        weld_(count / 2 + 16) {  // Euler: a closed surface has half as many vertices as triangles
-    triangles_.reserve(count);
-  }
+  Triangles(std::size_t count, const std::string& path, double scale) : count_(count), path_(path), scale_(scale) {}
 
-  void add(std::string_view bytes) {
-    for (; bytes.size() >= triangle_bytes; bytes.remove_prefix(triangle_bytes)) add_one(bytes.data() + corners_offset);
-  }
-
-  Contents take() {
+  Contents read(const Fetch& fetch) const {
+    constexpr std::size_t block_triangles = 4096;
+    struct Block {
+      std::unique_ptr<char[]> room = std::make_unique_for_overwrite<char[]>(block_triangles * triangle_bytes);
+      std::string_view bytes{};
+    };
+    PartReader reader;
+    reader.parts = (count_ + block_triangles - 1) / block_triangles;
+    reader.most_triangles = count_;
+    reader.expected_vertices = count_ / 2 + 16;  // Euler: a closed surface has half as many vertices as triangles
+    std::vector<Block> blocks(std::min(reader.parts, tasks::most_in_flight()));
+    reader.fetch = [&](std::size_t i, std::size_t place) {
+      const std::size_t triangles = std::min(block_triangles, count_ - i * block_triangles);
+      blocks[place].bytes = fetch(blocks[place].room.get(), triangles * triangle_bytes);
+    };
+    reader.read = [&](std::size_t i, std::size_t place, Part& part) {
+      decode(blocks[place].bytes, i * block_triangles, part);
+    };
     Contents contents;
-    contents.bodies.push_back({"", {weld_.take_vertices(), std::move(triangles_)}});
+    contents.bodies.push_back({"", welded(reader)});
     return contents;
   }
 
  private:
-  void add_one(const char* at) {
+  void decode(std::string_view bytes, std::size_t first, Part& part) const {
+    for (; !bytes.empty(); bytes.remove_prefix(triangle_bytes))
+      part.triangles.push_back(decoded(bytes.data() + corners_offset, first + part.triangles.size(), part.weld));
+  }
+
+  Triangle decoded(const char* at, std::size_t triangle, Weld& weld) const {
     float corners[9];
     std::memcpy(corners, at, sizeof corners);
     double mm[9];
@@ -65,19 +84,18 @@ class Triangles {
       mm[k] = double{corners[k]} * scale_;
       sound &= placeable(mm[k]);
     }
-    if (!sound) refuse_corner(path_, scale_, triangles_.size(), corners);
+    if (!sound) refuse_corner(path_, scale_, triangle, corners);
     Um um[9];
     for (std::size_t k = 0; k < 9; ++k) um[k] = lattice(mm[k]);
-    const auto a = weld_.index({um[0], um[1], um[2]});
-    const auto b = weld_.index({um[3], um[4], um[5]});
-    const auto c = weld_.index({um[6], um[7], um[8]});
-    triangles_.push_back({a, b, c});
+    const auto a = weld.index({um[0], um[1], um[2]});
+    const auto b = weld.index({um[3], um[4], um[5]});
+    const auto c = weld.index({um[6], um[7], um[8]});
+    return {a, b, c};
   }
 
+  std::size_t count_;
   const std::string& path_;
   double scale_;
-  Weld weld_;
-  std::vector<Triangle> triangles_;
 };
 
 void refuse_too_many(std::size_t count, const std::string& path) {
@@ -107,32 +125,33 @@ std::optional<std::string> damage_of_binary_stl(std::string_view bytes) {
 Contents read_binary_stl(const Source& source) {
   const std::size_t count = count_of(source.bytes);
   refuse_too_many(count, source.path);
-  Triangles triangles(count, source.path, source.scale);
-  triangles.add(source.bytes.substr(header_bytes));
-  return triangles.take();
+  std::string_view rest = source.bytes.substr(header_bytes);
+  return Triangles(count, source.path, source.scale).read([&](char*, std::size_t bytes) {
+    const auto block = rest.substr(0, bytes);
+    rest.remove_prefix(bytes);
+    return block;
+  });
 }
 
 Contents read_binary_stl(InputFile& file, const std::string& path, double scale,
                          const std::function<void(std::string_view)>& see) {
-  std::vector<char> block(1200 * triangle_bytes);
-  const auto next = [&](std::size_t most) {
-    const std::string_view bytes(block.data(), file.read(block.data(), most));
+  const auto fetch = [&](char* room, std::size_t size) {
+    const std::string_view bytes(room, file.read(room, size));
+    if (bytes.size() < size) file.check_whole();  // it was longer
     see(bytes);
     return bytes;
   };
-  const auto header = next(header_bytes);
-  if (header.size() < header_bytes) file.check_unchanged();  // it was longer
-  const std::size_t count = count_of(header);
+  char header[header_bytes];
+  const std::size_t count = count_of(fetch(header, header_bytes));
   refuse_too_many(count, path);
-  Triangles triangles(count, path, scale);
   try {
-    for (auto bytes = next(block.size()); !bytes.empty(); bytes = next(block.size())) triangles.add(bytes);
+    auto contents = Triangles(count, path, scale).read(fetch);
+    file.check_whole();
+    return contents;
   } catch (const Error&) {
     file.check_unchanged();  // then it is not the model's fault
     throw;
   }
-  file.check_unchanged();
-  return triangles.take();
 }
 
 }  // namespace weft::mesh

@@ -1,5 +1,6 @@
 #include "mesh/weld.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace weft::mesh {
@@ -7,6 +8,22 @@ namespace weft::mesh {
 Weld::Weld(std::size_t expected) {
   vertices_.reserve(expected);
   resize(static_cast<unsigned>(std::bit_width(2 * expected | 15)));
+}
+
+std::vector<std::uint32_t> Weld::indices(std::span<const Point3> points) {
+  constexpr std::size_t ahead = 24;  // memory answers in the time that so many points take
+  std::vector<std::uint32_t> out;
+  out.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (i + ahead < points.size()) __builtin_prefetch(&slots_[hash(points[i + ahead]) >> shift_]);
+    out.push_back(index(points[i]));
+  }
+  return out;
+}
+
+void Weld::clear() {
+  vertices_.clear();
+  std::fill(slots_.begin(), slots_.end(), vacant);
 }
 
 std::uint32_t Weld::insert(Point3 p, std::size_t slot) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -36,7 +37,13 @@ class Weld {
     }
   }
 
+  /// Of each of the points, as `index` one after the other would give them, but what a slot holds is fetched ahead.
+  std::vector<std::uint32_t> indices(std::span<const Point3> points);
+
+  std::span<const Point3> vertices() const { return vertices_; }
   std::vector<Point3> take_vertices() { return std::move(vertices_); }
+  /// Forgets all points, not the room for them.
+  void clear();
 
  private:
   static constexpr std::uint32_t vacant = ~std::uint32_t{0};

@@ -60,12 +60,13 @@ void parallel_in_order(std::size_t count, F f, Take take) {
       piece.failed = std::current_exception();
     }
   };
-  for_each_in_order(count, slots, make, [&](std::size_t i) {
+  const auto take_out = [&](std::size_t i) {
     Piece& piece = pieces[i % slots];
     if (piece.failed) std::rethrow_exception(piece.failed);
     take(i, std::move(*piece.out));
     piece.out.reset();
-  });
+  };
+  for_each_in_order(count, slots, {.make = make, .take = take_out});
 }
 
 /// g(i, link(i, f(i))) for i in [0, count), returned in index order: f and g in any order and side by side, link in index
@@ -92,22 +93,21 @@ auto parallel_linked(std::size_t count, F f, Link link, G g) {
       failed[i] = std::current_exception();
     }
   };
-  for_each_in_order(
-      count, slots,
-      [&](std::size_t i) {
-        if (!broken) guarded(i, [&](Piece& piece) { piece.made.emplace(f(i)); });
-      },
-      [&](std::size_t i) {
-        if (failed[i]) broken = true;
-        if (broken) return;
-        guarded(i, [&](Piece& piece) { piece.linked.emplace(link(i, std::move(*piece.made))); });
-        if (failed[i]) broken = true;
-      },
-      [&](std::size_t i) {
-        if (!pieces[i % slots].linked) return;
-        guarded(i, [&](Piece& piece) { results[i].emplace(g(i, std::move(*piece.linked))); });
-        pieces[i % slots].linked.reset();
-      });
+  const auto make = [&](std::size_t i) {
+    if (!broken) guarded(i, [&](Piece& piece) { piece.made.emplace(f(i)); });
+  };
+  const auto take = [&](std::size_t i) {
+    if (failed[i]) broken = true;
+    if (broken) return;
+    guarded(i, [&](Piece& piece) { piece.linked.emplace(link(i, std::move(*piece.made))); });
+    if (failed[i]) broken = true;
+  };
+  const auto finish = [&](std::size_t i) {
+    if (!pieces[i % slots].linked) return;
+    guarded(i, [&](Piece& piece) { results[i].emplace(g(i, std::move(*piece.linked))); });
+    pieces[i % slots].linked.reset();
+  };
+  for_each_in_order(count, slots, {.make = make, .take = take, .finish = finish});
   return taken_out(results, failed);
 }
 

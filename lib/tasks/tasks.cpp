@@ -25,39 +25,42 @@ void for_each_index(std::size_t count, const std::function<void(std::size_t)>& t
   });
 }
 
-void for_each_in_order(std::size_t count, std::size_t places, const std::function<void(std::size_t)>& make,
-                       const std::function<void(std::size_t)>& take,
-                       const std::function<void(std::size_t)>& finish) {
+void for_each_in_order(std::size_t count, std::size_t places, const Steps& steps) {
   HandOver hand_over;
   std::vector<Baton> place(places);
-  Baton turn;
+  Baton turn_to_begin, turn_to_take;
   std::size_t next = 0;
-  const auto number = [&](tbb::flow_control& control) {
-    if (next == count) control.stop();
-    return next < count ? next++ : count;
-  };
-  const auto in_place = [&](const std::function<void(std::size_t)>& work) {
-    return [&hand_over, &place, &work, places](std::size_t i) {
-      const HandOver::Task handed(hand_over);
-      place[i % places].take();
-      work(i);
-      place[i % places].pass();
-      return i;
-    };
-  };
-  const auto taken = [&](std::size_t i) {
+  const auto in_place = [&hand_over, &place, places](const std::function<void(std::size_t)>& step, std::size_t i) {
     const HandOver::Task handed(hand_over);
-    place[i % places].take(), turn.take();
-    take(i);
-    place[i % places].pass(), turn.pass();
+    place[i % places].take();
+    step(i);
+    place[i % places].pass();
     return i;
   };
+  const auto begun = [&](tbb::flow_control& control) {
+    if (next == count) {
+      control.stop();
+      return count;
+    }
+    turn_to_begin.take();
+    const std::size_t i = in_place(steps.begin, next++);
+    turn_to_begin.pass();
+    return i;
+  };
+  const auto made = [&](std::size_t i) { return in_place(steps.make, i); };
+  const auto taken = [&](std::size_t i) {
+    turn_to_take.take();
+    in_place(steps.take, i);
+    turn_to_take.pass();
+    return i;
+  };
+  const auto finished = [&](std::size_t i) { return in_place(steps.finish, i); };
   const auto done = [](std::size_t) {};  // in order, so that the next to use the place comes after
   using tbb::filter_mode;
-  const auto filters = tbb::make_filter<void, std::size_t>(filter_mode::serial_in_order, number) &
-                       tbb::make_filter<std::size_t, std::size_t>(filter_mode::parallel, in_place(make)) &
+  const auto filters = tbb::make_filter<void, std::size_t>(filter_mode::serial_in_order, begun) &
+                       tbb::make_filter<std::size_t, std::size_t>(filter_mode::parallel, made) &
                        tbb::make_filter<std::size_t, std::size_t>(filter_mode::serial_in_order, taken) &
-                       tbb::make_filter<std::size_t, std::size_t>(filter_mode::parallel, in_place(finish)) &
+                       tbb::make_filter<std::size_t, std::size_t>(filter_mode::parallel, finished) &
                        tbb::make_filter<std::size_t, void>(filter_mode::serial_in_order, done);
   hand_over.begin();
   const HandOver::Wait waited(hand_over);

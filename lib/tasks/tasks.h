@@ -9,12 +9,17 @@ namespace weft::tasks {
 /// task(i) for i in [0, count), side by side in any order; returns when all are done. Pre: task does not throw.
 void for_each_index(std::size_t count, const std::function<void(std::size_t)>& task);
 
-/// make(i) for i in [0, count) in any order and side by side, take(i) after it in index order, one at a time, then
-/// finish(i) side by side again. All three may use the place i % places of what has so many: i − places is done with it.
+/// What is done with each piece of a row, one step after the other.
+struct Steps {
+  std::function<void(std::size_t)> begin = [](std::size_t) {};   ///< in index order, one at a time
+  std::function<void(std::size_t)> make;                         ///< in any order, side by side
+  std::function<void(std::size_t)> take;                         ///< in index order, one at a time
+  std::function<void(std::size_t)> finish = [](std::size_t) {};  ///< in any order, side by side
+};
+/// The steps of i for i in [0, count), several pieces on their way at once. Those of i may use the place i % places of
+/// what has so many: i − places is done with it.
 /// @throws what `take` throws, then nothing more is taken. Pre: the others do not throw; places > 0 unless count is 0
-void for_each_in_order(std::size_t count, std::size_t places, const std::function<void(std::size_t)>& make,
-                       const std::function<void(std::size_t)>& take,
-                       const std::function<void(std::size_t)>& finish = [](std::size_t) {});
+void for_each_in_order(std::size_t count, std::size_t places, const Steps& steps);
 /// Places that keep all threads at work.
 std::size_t most_in_flight();
 

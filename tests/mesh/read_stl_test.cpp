@@ -3,7 +3,9 @@
 #include "mesh/fixtures.h"
 #include "mesh/formats.h"
 #include "mesh/weld.h"
+#include "tasks/tasks.h"
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -150,6 +152,42 @@ TEST_CASE("mesh: a binary STL is the same model read from a file, in blocks, as 
     CHECK(blocks.format == whole.format);
     CHECK(blocks.triangles_in_file == whole.triangles_in_file);
     CHECK(blocks.objects[0].mesh == whole.objects[0].mesh);
+  }
+  std::filesystem::remove(path);
+}
+
+TEST_CASE("mesh: a mesh in many blocks has its triangles in order and its vertices as they appear, on any number of threads",
+          "[mesh][law]") {
+  Facets facets = row_of_boxes(750);  // three blocks, and in the second half corners are far from their like
+  std::mt19937 random(5);
+  std::shuffle(facets.begin() + 5'000, facets.end(), random);
+  Weld weld(0);
+  Mesh expected;
+  const auto corner = [&](Corner c) { return weld.index({lattice(c.x), lattice(c.y), lattice(c.z)}); };
+  for (const auto& [a, b, c] : facets) {
+    const std::uint32_t first = corner(a), second = corner(b);
+    expected.triangles.push_back({first, second, corner(c)});
+  }
+  expected.vertices = weld.take_vertices();
+  for (const unsigned threads : {1U, 2U, 8U}) {
+    const tasks::ThreadLimit limit(threads);
+    const Mesh mesh = read(binary_stl(facets)).objects[0].mesh;
+    CHECK(mesh.vertices == expected.vertices);
+    CHECK(mesh.triangles == expected.triangles);
+  }
+}
+
+TEST_CASE("mesh: of several blocks with an error the first is told, as an error of the model", "[mesh]") {
+  Facets facets = row_of_boxes(750);
+  facets[8'500][0].x = facets[4'500][2].y = std::numeric_limits<float>::infinity();
+  const auto path = (std::filesystem::temp_directory_path() / "weft-infinite.stl").string();
+  std::ofstream(path, std::ios::binary) << binary_stl(facets);
+  try {
+    read_file(path);
+    FAIL("read");
+  } catch (const Error& error) {
+    CHECK(error.kind() == Error::Kind::model);
+    CHECK_THAT(error.what(), Contains("triangle 4501 (byte"));
   }
   std::filesystem::remove(path);
 }
