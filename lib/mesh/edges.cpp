@@ -1,85 +1,98 @@
 #include "mesh/edges.h"
 
+#include "tasks/blocks.h"
+#include "tasks/tasks.h"
+
 #include <algorithm>
-#include <span>
+#include <utility>
 
 namespace weft::mesh {
 namespace {
 
-constexpr std::uint32_t next_corner[3] = {1, 2, 0};
+constexpr std::uint32_t next_corner[3] = {1, 2, 0}, last_corner[3] = {2, 0, 1};
 
-/// A side in the bucket of its lower vertex.
-struct Entry {
-  std::uint32_t upper;         ///< its other vertex
-  std::uint32_t side_and_way;  ///< 2 * side + whether it leaves from the lower vertex
-  std::uint32_t side() const { return side_and_way >> 1; }
-  bool upward() const { return side_and_way & 1; }
-};
-
-void sort_by_upper(std::span<Entry> bucket) {
+void sort_by_upper(std::span<Edges::Side> bucket) {
   constexpr std::size_t few = 24;
   if (bucket.size() > few) {
-    std::sort(bucket.begin(), bucket.end(), [](Entry a, Entry b) {
-      return a.upper != b.upper ? a.upper < b.upper : a.side_and_way < b.side_and_way;
+    std::sort(bucket.begin(), bucket.end(), [](const Edges::Side& a, const Edges::Side& b) {
+      return a.upper != b.upper ? a.upper < b.upper : a.triangle_and_way < b.triangle_and_way;
     });
     return;
   }
   for (std::size_t i = 1; i < bucket.size(); ++i) {
-    const Entry entry = bucket[i];
+    const Edges::Side side = bucket[i];
     std::size_t at = i;
-    for (; at > 0 && bucket[at - 1].upper > entry.upper; --at) bucket[at] = bucket[at - 1];
-    bucket[at] = entry;
+    for (; at > 0 && bucket[at - 1].upper > side.upper; --at) bucket[at] = bucket[at - 1];
+    bucket[at] = side;
   }
 }
 
-void link(std::span<const Entry> edge, EdgeTable& table) {
-  if (edge.size() == 2) {
-    const std::uint32_t agrees = edge[0].upward() != edge[1].upward();
-    table.neighbours[edge[0].side()] = {edge[1].side() & EdgeTable::none, agrees & 1};
-    table.neighbours[edge[1].side()] = {edge[0].side() & EdgeTable::none, agrees & 1};
-  } else if (edge.size() == 1) {
-    table.neighbours[edge[0].side()] = {EdgeTable::none, 0};
-    ++table.open_edges;
-  } else {
-    for (const Entry& entry : edge) {
-      table.neighbours[entry.side()] = {EdgeTable::several, 0};
-      table.crowded_sides.push_back(entry.side());
-    }
-    table.crowded_ends.push_back(table.crowded_sides.size());
-  }
+/// What is near in the mesh stays in the cache; and so few ranges that each has its page at hand while they are filled.
+int range_bits_for(std::size_t vertices) {
+  constexpr int near = 12, most = 10;
+  int bits = near;
+  while (vertices >> bits >> most) ++bits;
+  return bits;
 }
 
 }  // namespace
 
-EdgeTable edges_of(const Mesh& mesh) {
-  // A counting sort of the sides by their lower vertex; each bucket is short and sorted by the upper one.
-  std::vector<std::uint32_t> ends(mesh.vertices.size() + 1, 0);
-  for (const Triangle& t : mesh.triangles)
-    for (std::uint32_t i = 0; i < 3; ++i) ++ends[std::min(t[i], t[next_corner[i]]) + 1];
-  for (std::size_t v = 1; v < ends.size(); ++v) ends[v] += ends[v - 1];
-  std::vector<Entry> entries(3 * mesh.triangles.size());
-  std::uint32_t side = 0;
-  for (const Triangle& t : mesh.triangles)
-    for (std::uint32_t i = 0; i < 3; ++i, ++side) {
-      const std::uint32_t from = t[i], to = t[next_corner[i]];
-      entries[ends[std::min(from, to)]++] = {std::max(from, to), 2 * side + (from < to)};
+// A counting sort by range, stable, in blocks of triangles: each block counts its sides, then all know their places.
+Edges::Edges(const Mesh& mesh) : mesh_(mesh), range_bits_(range_bits_for(mesh.vertices.size())) {
+  const std::size_t ranges = (mesh.vertices.size() >> range_bits_) + 1;
+  const tasks::Blocks blocks(mesh.triangles.size(), 1 << 15, 256);
+  std::vector<std::uint32_t> places(blocks.count() * ranges, 0);
+  const auto for_each_side = [&](std::size_t block, const auto& see) {
+    std::uint32_t* const of_block = places.data() + block * ranges;
+    for (std::size_t t = blocks.begin(block); t < blocks.end(block); ++t) {
+      const Triangle& corners = mesh.triangles[t];
+      for (std::uint32_t i = 0; i < 3; ++i)
+        see(of_block[std::min(corners[i], corners[next_corner[i]]) >> range_bits_], 4 * static_cast<std::uint32_t>(t) + i);
     }
-
-  EdgeTable table;
-  table.neighbours.resize(entries.size());
-  std::size_t begin = 0;
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {  // by now ends[v] is where the bucket of v ends
-    const std::span bucket(entries.data() + begin, ends[v] - begin);
-    begin = ends[v];
-    sort_by_upper(bucket);
-    for (std::size_t from = 0; from < bucket.size();) {
-      std::size_t to = from + 1;
-      while (to < bucket.size() && bucket[to].upper == bucket[from].upper) ++to;
-      link(bucket.subspan(from, to - from), table);
-      from = to;
+  };
+  tasks::for_each_index(blocks.count(), [&](std::size_t block) {
+    for_each_side(block, [](std::uint32_t& count, std::uint32_t) { ++count; });
+  });
+  starts_.reserve(ranges + 1);
+  std::uint32_t sum = 0;
+  for (std::size_t range = 0; range < ranges; ++range) {
+    starts_.push_back(sum);
+    for (std::size_t block = 0; block < blocks.count(); ++block) {
+      const std::uint32_t count = std::exchange(places[block * ranges + range], sum);
+      sum += count;
     }
   }
-  return table;
+  starts_.push_back(sum);
+  sides_.resize(sum);
+  tasks::for_each_index(blocks.count(), [&](std::size_t block) {
+    for_each_side(block, [&](std::uint32_t& place, std::uint32_t side) { sides_[place++] = side; });
+  });
+}
+
+std::vector<Edges::Side> Edges::sides(std::size_t range) const {
+  const std::span unsorted(sides_.data() + starts_[range], starts_[range + 1] - starts_[range]);
+  const auto first = static_cast<std::uint32_t>(range << range_bits_);
+  const std::size_t vertices = std::min(std::size_t{1} << range_bits_, mesh_.vertices.size() - first);
+  const auto side_of = [&](std::uint32_t side) {
+    const Triangle& corners = mesh_.triangles[side >> 2];
+    const std::uint32_t i = side & 3, from = corners[i], to = corners[next_corner[i]];
+    return Side{std::min(from, to), std::max(from, to), corners[last_corner[i]], 2 * (side >> 2) + (from < to)};
+  };
+  // A counting sort by the lower vertex; each bucket is short and sorted by the upper one.
+  std::vector<std::uint32_t> ends(vertices + 1, 0);
+  for (const std::uint32_t side : unsorted) ++ends[side_of(side).lower - first + 1];
+  for (std::size_t v = 1; v < ends.size(); ++v) ends[v] += ends[v - 1];
+  std::vector<Side> sorted(unsorted.size());
+  for (const std::uint32_t side : unsorted) {
+    const Side entry = side_of(side);
+    sorted[ends[entry.lower - first]++] = entry;
+  }
+  std::size_t begin = 0;
+  for (std::size_t v = 0; v < vertices; ++v) {  // by now ends[v] is where the bucket of v ends
+    sort_by_upper(std::span(sorted.data() + begin, ends[v] - begin));
+    begin = ends[v];
+  }
+  return sorted;
 }
 
 }  // namespace weft::mesh

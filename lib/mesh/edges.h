@@ -1,30 +1,50 @@
 #pragma once
 #include "mesh/mesh.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace weft::mesh {
 
-/// Who meets whom at the edges of a mesh. A side is a triangle's edge: side 3t + i goes from corner i of triangle t to
-/// the next one.
-struct EdgeTable {
-  /// Of each side: the one side it shares its edge with.
-  struct Neighbour {
-    std::uint32_t side : 31;
-    std::uint32_t agrees : 1;  ///< it runs the other way, as in a well-oriented surface
+/// Who meets whom at the edges of a mesh: the sides of its triangles, by ranges of vertices, so that ranges can be looked at
+/// side by side. Refers to the mesh.
+class Edges {
+ public:
+  /// A triangle at an edge.
+  struct Side {
+    std::uint32_t lower, upper;      ///< the edge's vertices
+    std::uint32_t apex;              ///< the triangle's third one
+    std::uint32_t triangle_and_way;  ///< 2 * triangle + whether its side leaves from the lower vertex
+    std::uint32_t triangle() const { return triangle_and_way >> 1; }
+    bool upward() const { return triangle_and_way & 1; }
   };
-  static constexpr std::uint32_t none = 0x7fffffff;     ///< an open edge
-  static constexpr std::uint32_t several = 0x7ffffffe;  ///< an edge of three or more triangles
 
-  std::vector<Neighbour> neighbours;
-  std::size_t open_edges = 0;
-  std::vector<std::uint32_t> crowded_sides;  ///< sides of edges of three or more triangles, edge by edge
-  std::vector<std::size_t> crowded_ends;     ///< where in crowded_sides each such edge ends
+  /// Pre: no triangle has a corner twice; fewer than 2^28 triangles. Cost: linear; 4 bytes a side.
+  explicit Edges(const Mesh& mesh);
+
+  std::size_t ranges() const { return starts_.size() - 1; }
+
+  /// The sides of a range edge by edge: in order of the lower, then of the upper vertex, then of triangles. Ranges are in
+  /// order of the lower vertex.
+  /// Cost: linear but for vertices of very many edges, which are sorted. Thread: any number at once.
+  std::vector<Side> sides(std::size_t range) const;
+
+ private:
+  const Mesh& mesh_;
+  int range_bits_;                    ///< so many lowest bits of a vertex tell it within its range
+  std::vector<std::size_t> starts_;   ///< of each range in sides_, and one more
+  std::vector<std::uint32_t> sides_;  ///< 4 * triangle + the corner that the side leaves from
 };
 
-/// Pre: no triangle has a corner twice; fewer than 2^28 triangles.
-/// Cost: linear but for vertices of very many edges, which are sorted; 8 bytes a side and 4 a vertex.
-EdgeTable edges_of(const Mesh& mesh);
+/// edge(sides) for each edge, in order.
+template <class F>
+void for_each_edge(std::span<const Edges::Side> sides, F edge) {
+  for (std::size_t from = 0, to = 0; from < sides.size(); from = to) {
+    while (to < sides.size() && sides[to].lower == sides[from].lower && sides[to].upper == sides[from].upper) ++to;
+    edge(sides.subspan(from, to - from));
+  }
+}
 
 }  // namespace weft::mesh

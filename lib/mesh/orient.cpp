@@ -1,6 +1,10 @@
 #include "mesh/orient.h"
 
+#include "tasks/blocks.h"
+#include "tasks/parallel.h"
+
 #include <algorithm>
+#include <utility>
 
 namespace weft::mesh {
 namespace {
@@ -13,80 +17,87 @@ struct Shell {
   double facing() const { return invert ? -six_um3 : six_um3; }
 };
 
-struct Shells {
-  std::vector<Shell> all;
-  std::vector<std::uint32_t> of;   ///< of each triangle
-  std::vector<std::uint8_t> turn;  ///< of each triangle: whether to turn it to agree with the first of its shell
-};
-
-Shells shells_of(const Mesh& mesh, const EdgeTable& edges) {
-  constexpr std::uint32_t unseen = ~std::uint32_t{0};
-  Shells shells{{}, std::vector(mesh.triangles.size(), unseen), std::vector<std::uint8_t>(mesh.triangles.size())};
-  std::vector<std::uint32_t> stack;
-  for (std::uint32_t seed = 0; seed < mesh.triangles.size(); ++seed) {
-    if (shells.of[seed] != unseen) continue;
-    const auto id = static_cast<std::uint32_t>(shells.all.size());
-    Shell shell;
-    shells.of[seed] = id;
-    stack.push_back(seed);
-    while (!stack.empty()) {
-      const std::uint32_t triangle = stack.back();
-      stack.pop_back();
-      ++shell.triangles;
-      shell.turned += shells.turn[triangle];
-      for (std::uint32_t i = 0; i < 3; ++i) {
-        const EdgeTable::Neighbour neighbour = edges.neighbours[3 * triangle + i];
-        if (neighbour.side == EdgeTable::none) shell.closed = false;
-        if (neighbour.side >= EdgeTable::several) continue;
-        const std::uint32_t other = neighbour.side / 3;
-        const bool turn = shells.turn[triangle] == neighbour.agrees;
-        if (shells.of[other] == unseen) {
-          shells.of[other] = id;
-          shells.turn[other] = turn;
-          stack.push_back(other);
-        } else if (shells.turn[other] != turn) {
-          shell.one_sided = true;
-        }
-      }
+/// What the triangles of each shell give together: add(part, t) for the triangles of a block, merge(shell, part) block by
+/// block, so that what is summed up is the same on any number of threads.
+template <class Part, class Add, class Merge>
+void sum_by_shell(const ShellForest& shells, std::size_t triangles, Add add, Merge merge) {
+  struct Run {
+    std::uint32_t shell;
+    Part part{};
+  };
+  constexpr std::size_t block_triangles = 1 << 14;
+  const tasks::Blocks blocks(triangles, block_triangles, triangles);
+  const auto sum = [&](std::size_t block) {
+    std::vector<Run> runs;  // of neighbours in the file, most of which are of one shell
+    for (std::size_t t = blocks.begin(block); t < blocks.end(block);) {
+      Run run{shells.shell(t)};
+      for (; t < blocks.end(block) && shells.shell(t) == run.shell; ++t) add(run.part, t);
+      runs.push_back(run);
     }
-    shells.all.push_back(shell);
-  }
-  return shells;
+    return runs;
+  };
+  tasks::parallel_in_order(blocks.count(), sum, [&](std::size_t, const std::vector<Run>& runs) {
+    for (const Run& run : runs) merge(run.shell, run.part);
+  });
+}
+
+std::vector<Shell> shells_of(const Mesh& mesh, Adjacency& adjacency) {
+  std::vector<Shell> all(adjacency.shells.number_shells());
+  const ShellForest& shells = adjacency.shells;
+  for (const std::uint32_t t : adjacency.open) all[shells.shell(t)].closed = false;
+  for (const std::uint32_t t : adjacency.one_sided) all[shells.shell(t)].one_sided = true;
+  struct Part {
+    std::size_t triangles = 0, turned = 0;
+    Box3 box;
+  };
+  sum_by_shell<Part>(
+      shells, mesh.triangles.size(),
+      [&](Part& part, std::size_t t) {
+        ++part.triangles;
+        part.turned += shells.turned(t);
+        for (const std::uint32_t corner : mesh.triangles[t]) part.box.add(mesh.vertices[corner]);
+      },
+      [&](std::uint32_t shell, const Part& part) {
+        all[shell].triangles += part.triangles;
+        all[shell].turned += part.turned;
+        all[shell].box.add(part.box);
+      });
+  return all;
 }
 
 /// At an edge of several triangles a shell is closed when as many of its sides run up the edge as down.
-void find_open_at_crowded_edges(const Mesh& mesh, const EdgeTable& edges, Shells& shells) {
+void find_open_at_crowded_edges(const Adjacency& adjacency, std::vector<Shell>& shells) {
   std::vector<std::pair<std::uint32_t, int>> ways;  // shell, +1 or -1
   std::size_t begin = 0;
-  for (const std::size_t end : edges.crowded_ends) {
+  for (const std::size_t end : adjacency.crowded_ends) {
     ways.clear();
     for (; begin < end; ++begin) {
-      const std::uint32_t side = edges.crowded_sides[begin], triangle = side / 3;
-      const Triangle& t = mesh.triangles[triangle];
-      const bool upward = t[side % 3] < t[(side + 1) % 3];
-      ways.emplace_back(shells.of[triangle], upward != (shells.turn[triangle] != 0) ? 1 : -1);
+      const Edges::Side side = adjacency.crowded[begin];
+      const bool turned = adjacency.shells.turned(side.triangle());
+      ways.emplace_back(adjacency.shells.shell(side.triangle()), side.upward() != turned ? 1 : -1);
     }
     std::sort(ways.begin(), ways.end());
     for (std::size_t i = 0, sum_end = 0; i < ways.size(); i = sum_end) {
       int sum = 0;
       for (sum_end = i; sum_end < ways.size() && ways[sum_end].first == ways[i].first; ++sum_end)
         sum += ways[sum_end].second;
-      if (sum != 0) shells.all[ways[i].first].closed = false;
+      if (sum != 0) shells[ways[i].first].closed = false;
     }
   }
 }
 
-void measure(const Mesh& mesh, Shells& shells) {
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    for (const std::uint32_t corner : mesh.triangles[i]) shells.all[shells.of[i]].box.add(mesh.vertices[corner]);
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    Shell& shell = shells.all[shells.of[i]];
-    const auto& [a, b, c] = mesh.triangles[i];
-    const Point3 size = shell.box.size(), low = shell.box.min;  // seen from its middle an open shell has a volume too
-    const Point3 middle{low.x + size.x / 2, low.y + size.y / 2, low.z + size.z / 2};
-    const double six = six_volumes_um3(middle, mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
-    shell.six_um3 += shells.turn[i] && !shell.one_sided ? -six : six;
-  }
+void measure(const Mesh& mesh, const ShellForest& forest, std::vector<Shell>& shells) {
+  sum_by_shell<double>(
+      forest, mesh.triangles.size(),
+      [&](double& six_um3, std::size_t t) {
+        const Shell& shell = shells[forest.shell(t)];
+        const auto& [a, b, c] = mesh.triangles[t];
+        const Point3 size = shell.box.size(), low = shell.box.min;  // seen from its middle an open one has a volume too
+        const Point3 middle{low.x + size.x / 2, low.y + size.y / 2, low.z + size.z / 2};
+        const double six = six_volumes_um3(middle, mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
+        six_um3 += forest.turned(t) && !shell.one_sided ? -six : six;
+      },
+      [&](std::uint32_t shell, double six_um3) { shells[shell].six_um3 += six_um3; });
 }
 
 /// Rule 4 of the header.
@@ -125,23 +136,26 @@ void decide(std::vector<Shell>& shells) {
 
 }  // namespace
 
-void orient(Mesh& mesh, const EdgeTable& edges, Repairs& repairs) {
-  Shells shells = shells_of(mesh, edges);
-  find_open_at_crowded_edges(mesh, edges, shells);
-  measure(mesh, shells);
-  decide(shells.all);
-  repairs.shells = shells.all.size();
-  for (const Shell& shell : shells.all) {
+void orient(Mesh& mesh, Adjacency adjacency, Repairs& repairs) {
+  std::vector<Shell> shells = shells_of(mesh, adjacency);
+  find_open_at_crowded_edges(adjacency, shells);
+  measure(mesh, adjacency.shells, shells);
+  decide(shells);
+  repairs.shells = shells.size();
+  bool any = false;
+  for (const Shell& shell : shells) {
     repairs.one_sided_shells += shell.one_sided;
     if (shell.one_sided) continue;
+    any |= shell.turned > 0 || shell.invert;
     if (shell.turned == 0 && shell.invert)
       ++repairs.inverted_shells;
     else
       repairs.flipped += shell.invert ? shell.triangles - shell.turned : shell.turned;
   }
+  if (!any) return;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const Shell& shell = shells.all[shells.of[i]];
-    if (!shell.one_sided && (shells.turn[i] != 0) != shell.invert)
+    const Shell& shell = shells[adjacency.shells.shell(i)];
+    if (!shell.one_sided && adjacency.shells.turned(i) != shell.invert)
       std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
   }
 }

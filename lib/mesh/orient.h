@@ -1,5 +1,5 @@
 #pragma once
-#include "mesh/edges.h"
+#include "mesh/adjacency.h"
 #include "mesh/repair.h"
 
 namespace weft::mesh {
@@ -16,6 +16,6 @@ namespace weft::mesh {
 /// the slicer's nonzero rule sees it as solid nevertheless. One-sided shells (Möbius) and open ones in rule 4 are left.
 /// Writes the counts flipped, inverted_shells, shells and one_sided_shells. Cost: linear, but for rule 4 up to
 /// (inward shells) × 1000.
-void orient(Mesh& mesh, const EdgeTable& edges, Repairs& repairs);
+void orient(Mesh& mesh, Adjacency adjacency, Repairs& repairs);
 
 }  // namespace weft::mesh

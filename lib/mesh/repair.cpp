@@ -1,11 +1,13 @@
 #include "mesh/repair.h"
 
-#include "mesh/edges.h"
+#include "mesh/adjacency.h"
 #include "mesh/orient.h"
 #include "mesh/weld.h"
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -13,15 +15,9 @@ namespace weft::mesh {
 namespace {
 
 /// Triangles that may have a twin: where three or more meet, or two that meet at all three edges.
-std::vector<std::uint32_t> twin_suspects(const EdgeTable& edges) {
-  std::vector<std::uint32_t> suspects;
-  for (const std::uint32_t side : edges.crowded_sides) suspects.push_back(side / 3);
-  for (std::uint32_t t = 0; 3 * t < edges.neighbours.size(); ++t) {
-    const std::uint32_t other = edges.neighbours[3 * t].side;
-    if (other < EdgeTable::several && edges.neighbours[3 * t + 1].side / 3 == other / 3 &&
-        edges.neighbours[3 * t + 2].side / 3 == other / 3)
-      suspects.push_back(t);
-  }
+std::vector<std::uint32_t> twin_suspects(const Adjacency& adjacency) {
+  std::vector<std::uint32_t> suspects = adjacency.twins;
+  for (const Edges::Side& side : adjacency.crowded) suspects.push_back(side.triangle());
   std::sort(suspects.begin(), suspects.end());
   suspects.erase(std::unique(suspects.begin(), suspects.end()), suspects.end());
   return suspects;
@@ -74,7 +70,7 @@ std::vector<Triangle> drop_twins(Mesh& mesh, const std::vector<std::uint32_t>& s
 /// an odd number of triangles meets. Pieces without such an edge close the surface, or are one: a file in which every
 /// triangle is there from both sides. Where two parts touch face to face, the faces are such a piece, and the parts
 /// become one.
-std::size_t drop_sheets(Mesh& mesh, const EdgeTable& edges, const std::vector<Triangle>& balanced) {
+std::size_t drop_sheets(Mesh& mesh, const std::vector<Triangle>& balanced) {
   const std::size_t count = mesh.triangles.size();
   std::vector<std::uint8_t> in_sheet(count);
   for (std::uint32_t i = 0; i < count; ++i)
@@ -87,23 +83,18 @@ std::size_t drop_sheets(Mesh& mesh, const EdgeTable& edges, const std::vector<Tr
     return i;
   };
   std::vector<std::uint8_t> odd(count);
-  for (std::uint32_t side = 0; side < edges.neighbours.size(); ++side) {
-    const std::uint32_t other = edges.neighbours[side].side, t = side / 3;
-    if (other == EdgeTable::none) odd[t] = true;
-    if (other < EdgeTable::several && in_sheet[t] && in_sheet[other / 3]) piece[root(t)] = root(other / 3);
-  }
-  std::size_t begin = 0;
-  for (const std::size_t end : edges.crowded_ends) {
-    const bool odd_edge = (end - begin) % 2;
-    std::uint32_t first = EdgeTable::none;
-    for (; begin < end; ++begin) {
-      const std::uint32_t t = edges.crowded_sides[begin] / 3;
-      if (odd_edge) odd[t] = true;
-      if (!in_sheet[t]) continue;
-      if (first == EdgeTable::none) first = t;
-      piece[root(t)] = root(first);
-    }
-  }
+  const Edges edges(mesh);
+  for (std::size_t range = 0; range < edges.ranges(); ++range)
+    for_each_edge(edges.sides(range), [&](std::span<const Edges::Side> edge) {
+      std::optional<std::uint32_t> first;
+      for (const Edges::Side& side : edge) {
+        const std::uint32_t t = side.triangle();
+        if (edge.size() % 2 == 1) odd[t] = true;
+        if (!in_sheet[t]) continue;
+        if (!first) first = t;
+        piece[root(t)] = root(*first);
+      }
+    });
   std::vector<std::uint8_t> open_piece(count), unwanted(count);
   for (std::uint32_t i = 0; i < count; ++i)
     if (in_sheet[i] && odd[i]) open_piece[root(i)] = true;
@@ -118,17 +109,16 @@ std::size_t drop_sheets(Mesh& mesh, const EdgeTable& edges, const std::vector<Tr
 Repaired repair(Mesh mesh) {
   Repairs repairs;
   repairs.degenerate = drop_degenerate(mesh);
-  EdgeTable edges = edges_of(mesh);
-  if (const auto suspects = twin_suspects(edges); !suspects.empty()) {
+  Adjacency adjacency = adjacency_of(mesh);
+  if (const auto suspects = twin_suspects(adjacency); !suspects.empty()) {
     const auto balanced = drop_twins(mesh, suspects, repairs.duplicates);
-    if (repairs.duplicates > 0) edges = edges_of(mesh);
-    if (!balanced.empty()) repairs.sheets = drop_sheets(mesh, edges, balanced);
-    if (repairs.sheets > 0) edges = edges_of(mesh);
+    if (!balanced.empty()) repairs.sheets = drop_sheets(mesh, balanced);
+    if (repairs.duplicates + repairs.sheets > 0) adjacency = adjacency_of(mesh);
   }
-  orient(mesh, edges, repairs);
+  repairs.open_edges = adjacency.open.size();
+  repairs.non_manifold_edges = adjacency.crowded_ends.size();
+  orient(mesh, std::move(adjacency), repairs);
   drop_unused_vertices(mesh);
-  repairs.open_edges = edges.open_edges;
-  repairs.non_manifold_edges = edges.crowded_ends.size();
   return {std::move(mesh), repairs};
 }
 

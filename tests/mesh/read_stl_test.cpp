@@ -172,8 +172,7 @@ TEST_CASE("mesh: a mesh in many blocks has its triangles in order and its vertic
   for (const unsigned threads : {1U, 2U, 8U}) {
     const tasks::ThreadLimit limit(threads);
     const Mesh mesh = read(binary_stl(facets)).objects[0].mesh;
-    CHECK(mesh.vertices == expected.vertices);
-    CHECK(mesh.triangles == expected.triangles);
+    CHECK((mesh == expected));
   }
 }
 

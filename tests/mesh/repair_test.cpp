@@ -1,6 +1,8 @@
 #include "mesh/fixtures.h"
+#include "tasks/tasks.h"
 
 #include <algorithm>
+#include <optional>
 #include <random>
 
 #include <catch2/catch.hpp>
@@ -26,6 +28,17 @@ Result repaired(const Facets& facets) {
 
 /// Corners 0, 1, 2 of a facet that is no triangle on the lattice.
 const Facet needle{{{0, 0, 0}, {20, 0, 0}, {20, 0, 0.0001f}}};
+
+/// Each facet cut at the middles of its sides.
+Facets in_quarters(const Facets& facets) {
+  const auto middle = [](Corner p, Corner q) { return Corner{(p.x + q.x) / 2, (p.y + q.y) / 2, (p.z + q.z) / 2}; };
+  Facets out;
+  for (const auto& [a, b, c] : facets) {
+    const Corner ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+    for (const Facet& part : {Facet{a, ab, ca}, Facet{ab, b, bc}, Facet{ca, bc, c}, Facet{ab, bc, ca}}) out.push_back(part);
+  }
+  return out;
+}
 
 /// Each outward shell once, each inward one once: no side has the same direction as another of its edge.
 bool consistent(const Mesh& mesh) {
@@ -207,6 +220,40 @@ TEST_CASE("mesh: repairing twice is repairing once", "[mesh][repair][law]") {
     CHECK(twice.repairs.one_sided_shells == once.repairs.one_sided_shells);
     CHECK(twice.mesh.triangles.size() == once.mesh.triangles.size());
   }
+}
+
+TEST_CASE("mesh: a large mesh with every fault is repaired alike on any number of threads", "[mesh][repair][law]") {
+  // A grid of boxes in several blocks and ranges: some inside out, some open, some twice, some touching, all shuffled.
+  std::mt19937 random(6);
+  Facets facets;
+  for (int i = 0; i < 30; ++i)
+    for (int k = 0; k < 30; ++k) {
+      const float x = 11.F * static_cast<float>(i), y = 11.F * static_cast<float>(k) - (k % 2 == 0 ? 0.F : 1.F);
+      Facets one = in_quarters(in_quarters(box({x, y, 0}, {x + 10, y + 10, 10})));
+      if (random() % 9 == 0) one = reversed(one);
+      if (random() % 9 == 0) one.erase(one.begin() + static_cast<std::ptrdiff_t>(random() % one.size()));
+      if (random() % 9 == 0) one.push_back(one[random() % one.size()]);
+      if (random() % 9 == 0) one.push_back(reversed(one[random() % one.size()]));
+      if (random() % 9 == 0) one[3] = reversed(one[3]);
+      facets = std::move(facets) + one;
+    }
+  std::shuffle(facets.begin(), facets.end(), random);
+  std::optional<Object> first;
+  for (const unsigned threads : {1U, 2U, 8U}) {
+    const tasks::ThreadLimit limit(threads);
+    const Object object = read(binary_stl(facets)).objects[0];
+    if (!first) first = object;
+    CHECK((object.mesh == first->mesh));
+    CHECK(object.repairs == first->repairs);
+  }
+  CHECK(first->mesh.triangles.size() > 140'000);
+  CHECK(first->repairs.duplicates > 100);
+  CHECK(first->repairs.sheets > 100);
+  CHECK(first->repairs.flipped > 50);
+  CHECK(first->repairs.inverted_shells > 0);
+  CHECK(first->repairs.shells > 400);
+  CHECK(first->repairs.open_edges > 200);
+  CHECK(first->repairs.non_manifold_edges > 100);
 }
 
 TEST_CASE("mesh: a vertex of very many edges does not slow the repair down", "[mesh][repair]") {
