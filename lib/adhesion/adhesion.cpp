@@ -1,6 +1,7 @@
 #include "adhesion/adhesion.h"
 
 #include "adhesion/loops.h"
+#include "core/convex_hull.h"
 #include "geometry/offset.h"
 #include "model/flow.h"
 
@@ -129,7 +130,7 @@ Adhesion build(const AdhesionSettings& settings, const AdhesionInput& input) {
     for (const Bead& bead : brim) missing_mm -= length_mm(bead);
     const bool brim_outside = settings.brim_width > 0 && settings.brim_location != BrimLocation::inside;
     const Um clear = settings.skirt_gap + (brim_outside ? settings.brim_gap + settings.brim_width : 0);
-    for (std::size_t i = 0; i < height && !hull.empty(); ++i) {
+    for (std::size_t i = 0; i < height && hull.size() >= 3; ++i) {
       const Um band = band_of(settings, input.nozzle, input.layers[i].height);
       std::vector<BrimLoop> loops;
       for (int k = 0; k < settings.skirt_line_count || (i == 0 && missing_mm > 0 && k < most_loops); ++k) {

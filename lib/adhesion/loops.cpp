@@ -85,25 +85,6 @@ std::vector<BrimLoop> brim_loops(const Regions& outlines, BrimLocation location,
   return loops;
 }
 
-Ring convex_hull(std::vector<Point> points) {
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  if (points.size() < 3) return {};
-  Ring hull;
-  const auto half = [&](auto first, auto last) {
-    const std::size_t base = hull.size();
-    for (auto p = first; p != last; ++p) {
-      while (hull.size() >= base + 2 && orient(hull[hull.size() - 2], hull.back(), *p) <= 0) hull.pop_back();
-      hull.push_back(*p);
-    }
-    hull.pop_back();  // the other half begins with it
-  };
-  half(points.begin(), points.end());
-  half(points.rbegin(), points.rend());
-  if (hull.size() < 3) hull.clear();
-  return hull;
-}
-
 std::vector<BrimLoop> cut_loop(const BrimLoop& loop, const Regions& regions, bool keep_inside) {
   Polyline line = loop.line;
   if (loop.closed) line.push_back(line.front());

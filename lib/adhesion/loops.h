@@ -17,10 +17,6 @@ struct BrimLoop {
 /// @param band   width of each of the `count` bands
 std::vector<BrimLoop> brim_loops(const Regions& outlines, BrimLocation location, Um gap, double band_um, int count);
 
-/// The convex hull, counter-clockwise, without points on its edges. Empty when the points are on a line.
-/// Source: Andrew 1979, "Another efficient algorithm for convex hulls in two dimensions".
-Ring convex_hull(std::vector<Point> points);
-
 /// The pieces of a loop inside (or outside) of regions; a piece that runs over the loop's start is one piece.
 std::vector<BrimLoop> cut_loop(const BrimLoop& loop, const Regions& regions, bool keep_inside);
 

@@ -1,5 +1,6 @@
 #include "mesh/arrange.h"
 
+#include "core/convex_hull.h"
 #include "core/error.h"
 #include "mesh/fits.h"
 
@@ -94,7 +95,7 @@ std::optional<std::vector<Point>> in_cells(std::span<const Item> items, const Pl
     size = {std::max(size.x, item.size.x), std::max(size.y, item.size.y)};
     corners.insert(corners.end(), item.hull->begin(), item.hull->end());
   }
-  const Ring hull = hull_of(std::move(corners));
+  const Ring hull = convex_hull(std::move(corners));
   const Point pitch{std::max(size.x + spacing, 1_mm), std::max(size.y + spacing, 1_mm)};
   std::optional<std::vector<Point>> best;
   for (const bool odd_x : {true, false})

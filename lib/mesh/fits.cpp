@@ -1,5 +1,7 @@
 #include "mesh/fits.h"
 
+#include "core/convex_hull.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,43 +16,7 @@ double distance_to_segment(Point p, Point a, Point b) {
   return std::abs(static_cast<double>(orient(a, b, p))) / std::sqrt(length2);
 }
 
-bool strictly_inside(Point p, std::span<const Point> convex_shape) {
-  for (std::size_t i = 0; i < convex_shape.size(); ++i)
-    if (orient(convex_shape[i], convex_shape[(i + 1) % convex_shape.size()], p) <= 0) return false;
-  return convex_shape.size() > 2;
-}
-
-/// The outermost point in each of eight directions. Pre: there is a point.
-std::vector<Point> extremes(const std::vector<Point>& points) {
-  std::vector<Point> result;
-  for (const Point way :
-       {Point{1, 0}, Point{1, 1}, Point{0, 1}, Point{-1, 1}, Point{-1, 0}, Point{-1, -1}, Point{0, -1}, Point{1, -1}})
-    result.push_back(
-        *std::max_element(points.begin(), points.end(), [&](Point a, Point b) { return dot(a, way) < dot(b, way); }));
-  return result;
-}
-
 }  // namespace
-
-Ring hull_of(std::vector<Point> points) {
-  if (points.size() > 64) {  // most of a mesh lies within the octagon of its extreme points: not worth sorting
-    const Ring octagon = hull_of(extremes(points));
-    std::erase_if(points, [&](Point p) { return strictly_inside(p, octagon); });
-  }
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  if (points.size() < 3) return points;
-  Ring hull;
-  const auto add = [&](Point p, std::size_t keep) {
-    while (hull.size() > keep && orient(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
-    hull.push_back(p);
-  };
-  for (const Point p : points) add(p, 1);
-  const std::size_t lower = hull.size();
-  for (std::size_t i = points.size() - 1; i-- > 0;) add(points[i], lower);
-  hull.pop_back();
-  return hull;
-}
 
 bool is_convex(const Ring& ring) {
   for (std::size_t i = 0; i < ring.size(); ++i)

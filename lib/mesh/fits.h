@@ -6,10 +6,6 @@
 /// Exact questions about shapes on a plate. Everything that only touches is inside, and outside of what is kept out.
 namespace weft::mesh {
 
-/// The convex hull, counter-clockwise, without points in a line. O(n log n).
-/// Source: Andrew 1979, monotone chain.
-Ring hull_of(std::vector<Point> points);
-
 bool is_convex(const Ring& ring);
 
 /// How far p is outside the ring, fractional microns; 0 when it is in or on it.

@@ -44,6 +44,9 @@ struct Box3 {
 /// The box of the vertices.
 Box3 box_of(const Mesh& mesh);
 
+/// The convex hull of the vertices seen from above, as of convex_hull.
+Ring footprint_of(const Mesh& mesh);
+
 /// Enclosed volume, mm³, voids counted off; negative when the mesh is inside out. Of an open mesh: about what it would
 /// be if every hole were closed towards the centre of its box.
 double volume_mm3(const Mesh& mesh);

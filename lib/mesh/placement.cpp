@@ -1,8 +1,8 @@
 #include "mesh/placement.h"
 
+#include "core/convex_hull.h"
 #include "core/error.h"
 #include "mesh/arrange.h"
-#include "mesh/fits.h"
 #include "mesh/weld.h"
 
 #include <cmath>
@@ -25,23 +25,24 @@ Eigen::Rotation2Dd::Matrix2 turn(double degrees) {
   return result;
 }
 
-PlacedModel at_origin(const Loaded& loaded, double rotate_deg, Point& home) {
-  PlacedModel model{loaded.path, {}, {}, {}, {}};
+PlacedModel at_origin(Loaded loaded, double rotate_deg, Point& home) {
+  PlacedModel model{std::move(loaded.path), {}, {}, {}, {}, {}};
   Box3 in_file;
   for (const Object& object : loaded.objects) in_file.add(box_of(object.mesh));
   const Point about = in_file.footprint().centre();
-  for (const Object& object : loaded.objects) model.objects.push_back(rotated(object.mesh, rotate_deg, about));
+  for (Object& object : loaded.objects) model.objects.push_back(rotated(std::move(object.mesh), rotate_deg, about));
   Box3 turned;
   for (const Mesh& mesh : model.objects) turned.add(box_of(mesh));
   home = turned.footprint().centre();
   const Point3 by{-home.x, -home.y, -turned.min.z};
-  std::vector<Point> footprint;
+  std::vector<Point> corners;
   for (Mesh& mesh : model.objects) {
     mesh = moved(std::move(mesh), by);
     model.box.add(box_of(mesh));
-    for (const Point3& vertex : mesh.vertices) footprint.push_back(flat(vertex));
+    const Ring& footprint = model.footprints.emplace_back(footprint_of(mesh));
+    corners.insert(corners.end(), footprint.begin(), footprint.end());
   }
-  model.hull = hull_of(std::move(footprint));
+  model.hull = convex_hull(std::move(corners));
   return model;
 }
 
@@ -69,13 +70,14 @@ Mesh moved(Mesh mesh, Point3 by) {
   return mesh;
 }
 
-std::vector<PlacedModel> place(std::span<const Loaded> models, const PlacementOptions& options, const Plate& plate) {
+std::vector<PlacedModel> place(std::vector<Loaded> models, const PlacementOptions& options, const Plate& plate) {
   if (options.keep_position && options.copies > 1)
     throw Error(Error::Kind::usage, "copies of one position would lie in each other", "--keep-position",
                 "leave out --copies or --keep-position");
   std::vector<PlacedModel> placed;
   std::vector<Point> homes(models.size());
-  for (std::size_t i = 0; i < models.size(); ++i) placed.push_back(at_origin(models[i], options.rotate_deg, homes[i]));
+  for (std::size_t i = 0; i < models.size(); ++i) 
+    placed.push_back(at_origin(std::move(models[i]), options.rotate_deg, homes[i]));
   if (options.keep_position) {
     for (std::size_t i = 0; i < models.size(); ++i) placed[i].instances = {homes[i]};
     return placed;

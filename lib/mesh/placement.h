@@ -30,7 +30,8 @@ struct PlacedModel {
   std::vector<Mesh>
       objects;  ///< as many as were loaded; the middle of their box is x = y = 0, their lowest point z = 0
   Box3 box;     ///< of all objects
-  Ring hull;    ///< convex, of their footprint, counter-clockwise
+  std::vector<Ring> footprints;  ///< of each object: the convex hull, counter-clockwise
+  Ring hull;                     ///< of all of them
   std::vector<Point>
       instances;  ///< where the origin of each copy is on the plate; in rows from the front, from the left
   friend bool operator==(const PlacedModel&, const PlacedModel&) = default;
@@ -42,7 +43,7 @@ struct PlacedModel {
 /// positions; Error::Kind::audit when the rows leave the lattice. Law: deterministic; turning by a multiple of 90° is
 /// exact, by another angle rounds each vertex to a micron. Cost: linear in the models, and (copies × columns of the
 /// plate) for the rows.
-std::vector<PlacedModel> place(std::span<const Loaded> models, const PlacementOptions& options, const Plate& plate);
+std::vector<PlacedModel> place(std::vector<Loaded> models, const PlacementOptions& options, const Plate& plate);
 
 /// Throws Error::Kind::audit for the first model of which a copy reaches beyond the plate by more than `tolerance`,
 /// with the size that it has and the size that is there. Exact also for a concave plate: the triangles are looked at.

@@ -1,6 +1,5 @@
 #include "pipeline/plate.h"
 
-#include "geometry/convex_hull.h"
 #include "mesh/file_bytes.h"
 #include "mesh/placement.h"
 #include "mesh/read.h"
@@ -46,47 +45,41 @@ mesh::Loaded read_model(const std::string& path, double scale, StageCache* cache
                 [&] { return mesh::read(file.view(), path, {.scale = scale}); }).take();
 }
 
-Ring hull_of(const Mesh& mesh) {
-  std::vector<Point> corners;
-  corners.reserve(mesh.vertices.size());
-  for (const auto& v : mesh.vertices) corners.push_back(flat(v));
-  return convex_hull(std::move(corners));
-}
-
 }  // namespace
 
 std::vector<PlacedObject> place_models(const Job& job, Report& report, StageCache* cache) {
   const Stopwatch stopwatch(report.timings_ms.read);
-  const auto loaded = tasks::parallel_map(job.models.size(), [&](std::size_t i) { return read_model(job.models[i], job.placement.scale, cache); });
-  for (const auto& model : loaded) note_model(model, report);
+  auto loaded = tasks::parallel_map(job.models.size(), [&](std::size_t i) { return read_model(job.models[i], job.placement.scale, cache); });
+  std::vector<PlacedObject> out;
+  for (const auto& model : loaded) {
+    note_model(model, report);
+    for (std::size_t i = 0; i < model.objects.size(); ++i) out.push_back({name_of(model, i), {}, {}, {}});
+  }
 
   const auto& machine = job.settings.machine;
   const mesh::Plate plate{print_surface(machine), machine.bed_exclude_areas, machine.machine_height};
-  auto placed = mesh::place(loaded,
+  auto placed = mesh::place(std::move(loaded),
                             {.rotate_deg = job.placement.rotate_deg, .keep_position = job.placement.keep_position, .center = job.placement.centre,
                              .copies = job.placement.copies, .spacing = job.placement.spacing},
                             plate);
   // What does not fit is told before an hour of slicing; to annotate, the audit must see it.
   if (job.audit == audit::Mode::reject) mesh::check_fits(placed, plate, job.settings.audit.audit_tolerance);
 
-  std::vector<PlacedObject> out;
-  for (std::size_t m = 0; m < placed.size(); ++m)
-    for (std::size_t i = 0; i < placed[m].objects.size(); ++i)
-      out.push_back({name_of(loaded[m], i), std::move(placed[m].objects[i]), {}, placed[m].instances});
-  for (auto& object : out) object.hull = hull_of(object.mesh);
+  auto object = out.begin();
+  for (auto& model : placed)
+    for (std::size_t i = 0; i < model.objects.size(); ++i, ++object) {
+      object->mesh = std::move(model.objects[i]);
+      object->hull = std::move(model.footprints[i]);
+      object->offsets = model.instances;
+    }
   return out;
 }
 
 std::vector<gcode::Thumbnail> thumbnails_of(const Settings& settings, const std::vector<PlacedObject>& objects) {
   const auto& sizes = settings.gcode.thumbnails;
   if (sizes.empty() || objects.empty()) return {};
-  Mesh plate;
-  for (const auto& object : objects) {
-    const auto base = static_cast<std::uint32_t>(plate.vertices.size());
-    const Point at = object.offsets.front();
-    for (const auto& v : object.mesh.vertices) plate.vertices.push_back({v.x + at.x, v.y + at.y, v.z});
-    for (const auto& t : object.mesh.triangles) plate.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
-  }
+  std::vector<preview::Standing> plate;
+  for (const auto& object : objects) plate.push_back({&object.mesh, object.offsets.front()});
   return tasks::parallel_map(sizes.size(), [&](std::size_t i) {
     const auto size = sizes[i];
     const auto png = preview::thumbnail(plate, {size.width, size.height});

@@ -106,18 +106,22 @@ struct Raster {
   }
 };
 
-/// Corners in samples of the picture, z towards the eye, fitted to it with the margin.
-std::vector<Vec> projected(const Mesh& mesh, const Camera& camera, const Raster& raster) {
+/// The vertices of all meshes in samples of the picture, z towards the eye, fitted to it with the margin.
+std::vector<Vec> projected(std::span<const Standing> meshes, const Camera& camera, const Raster& raster) {
   std::vector<Vec> out;
-  out.reserve(mesh.vertices.size());
+  std::size_t count = 0;
+  for (const auto& [mesh, at] : meshes) count += mesh->vertices.size();
+  out.reserve(count);
   constexpr float far = std::numeric_limits<float>::max();
   Vec least{far, far, far}, most{-far, -far, -far};
-  for (const Point3 p : mesh.vertices) {
-    const Vec v = vec(p), at{dot(v, camera.right), -dot(v, camera.up), dot(v, camera.eye)};
-    least = {std::min(least.x, at.x), std::min(least.y, at.y), 0};
-    most = {std::max(most.x, at.x), std::max(most.y, at.y), 0};
-    out.push_back(at);
-  }
+  for (const auto& [mesh, stands] : meshes)
+    for (const Point3 p : mesh->vertices) {
+      const Vec v = vec({p.x + stands.x, p.y + stands.y, p.z});
+      const Vec at{dot(v, camera.right), -dot(v, camera.up), dot(v, camera.eye)};
+      least = {std::min(least.x, at.x), std::min(least.y, at.y), 0};
+      most = {std::max(most.x, at.x), std::max(most.y, at.y), 0};
+      out.push_back(at);
+    }
   const float width = static_cast<float>(raster.width), height = static_cast<float>(raster.height);
   const float across = std::max(most.x - least.x, 1.F), along = std::max(most.y - least.y, 1.F);
   const float scale = (1.F - 2 * margin) * std::min(width / across, height / along);
@@ -170,17 +174,21 @@ Image resolved(const Raster& raster, PixelSize size) {
 
 }  // namespace
 
-std::vector<std::uint8_t> thumbnail(const Mesh& mesh, PixelSize size) {
+std::vector<std::uint8_t> thumbnail(std::span<const Standing> meshes, PixelSize size) {
   assert(size.width >= 1 && size.width <= 4096 && size.height >= 1 && size.height <= 4096);
   const Camera camera;
   Raster raster(size);
-  const std::vector<Vec> corners = projected(mesh, camera, raster);
-  for (const Triangle& t : mesh.triangles) {
-    const Vec a = corners[t[0]], b = corners[t[1]], c = corners[t[2]];
-    if ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) >= 0) continue;  // turned away: y points down here
-    const auto window = raster.window(a, b, c);
-    if (window.empty()) continue;  // a fine mesh: most of its triangles lie between the samples
-    raster.triangle(a, b, c, shade(normal_of(mesh, t), camera), window);
+  const std::vector<Vec> corners = projected(meshes, camera, raster);
+  const Vec* corner = corners.data();
+  for (const auto& [mesh, at] : meshes) {
+    for (const Triangle& t : mesh->triangles) {
+      const Vec a = corner[t[0]], b = corner[t[1]], c = corner[t[2]];
+      if ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) >= 0) continue;  // turned away: y points down here
+      const auto window = raster.window(a, b, c);
+      if (window.empty()) continue;  // a fine mesh: most of its triangles lie between the samples
+      raster.triangle(a, b, c, shade(normal_of(*mesh, t), camera), window);
+    }
+    corner += mesh->vertices.size();
   }
   return encode_png(resolved(raster, size));
 }

@@ -64,13 +64,6 @@ double volume(const Beads& beads) {
 
 }  // namespace
 
-TEST_CASE("adhesion: the hull of points on a line is empty, of others convex", "[adhesion]") {
-  CHECK(adhesion::convex_hull({}).empty());
-  CHECK(adhesion::convex_hull({{0, 0}, {5, 5}, {9, 9}}).empty());
-  CHECK(adhesion::convex_hull({{0, 0}, {4, 0}, {2, 0}, {4, 4}, {1, 1}, {0, 4}, {2, 3}}) ==
-        Ring{{0, 0}, {4, 0}, {4, 4}, {0, 4}});
-}
-
 TEST_CASE("adhesion: a skirt keeps its distance and its count, the outermost loop first", "[adhesion]") {
   AdhesionSettings s = none();
   s.skirt_line_count = 3, s.skirt_gap = 5000;

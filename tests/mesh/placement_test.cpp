@@ -29,9 +29,9 @@ Loaded box_model(float x, float y, float z, Corner from = {0, 0, 0}) {
   return read(binary_stl(box(from, {from.x + x, from.y + y, from.z + z})));
 }
 
-std::vector<PlacedModel> placed(const std::vector<Loaded>& models, const PlacementOptions& options = {},
+std::vector<PlacedModel> placed(std::vector<Loaded> models, const PlacementOptions& options = {},
                                 const Plate& plate = square) {
-  return place(models, options, plate);
+  return place(std::move(models), options, plate);
 }
 
 /// The boxes of all copies on the plate.
@@ -199,22 +199,6 @@ TEST_CASE("placement: a disc fits on a round plate of its size", "[mesh][placeme
   const auto many = placed({box_model(40, 40, 5)}, {.copies = 12, .spacing = 2_mm}, round);  // 4 × 3 would be out
   CHECK(misfit(many, round) == "fits");
   CHECK(apart(footprints(many), 2_mm));
-}
-
-TEST_CASE("placement: the hull is convex and holds every point", "[mesh][placement][law]") {
-  std::mt19937 random(8);
-  for (int run = 0; run < 200; ++run) {
-    std::vector<Point> points;
-    const auto span = static_cast<Um>(2 + random() % 3000);
-    for (std::size_t i = 0; i < 1 + random() % 300; ++i)
-      points.push_back({static_cast<Um>(random()) % span, static_cast<Um>(random()) % span});
-    const Ring hull = hull_of(points);
-    CHECK(is_convex(hull));
-    if (hull.size() < 3) continue;
-    CHECK(double_area(hull) > 0);
-    for (const Point p : points) CHECK(side_of(hull, p) != Side::outside);
-    for (const Point p : hull) CHECK(std::find(points.begin(), points.end(), p) != points.end());
-  }
 }
 
 TEST_CASE("placement: a shape lies in a ring, overlaps it, or does neither", "[mesh][placement]") {

@@ -17,11 +17,16 @@ Mesh box(Um size) {
   return mesh;
 }
 
+std::vector<std::uint8_t> picture_of(const Mesh& mesh, PixelSize size) {
+  const Standing standing{&mesh, {0, 0}};
+  return thumbnail({&standing, 1}, size);
+}
+
 }  // namespace
 
 TEST_CASE("thumbnail: a box is opaque in the middle, clear in the corners, and has three tones", "[preview]") {
   const PixelSize size = GENERATE(PixelSize{32, 32}, PixelSize{220, 124}, PixelSize{300, 300}, PixelSize{1, 1});
-  Image image = decoded(thumbnail(box(20'000), size));
+  Image image = decoded(picture_of(box(20'000), size));
   REQUIRE(image.size == size);
   CHECK(image.pixel(size.width / 2, size.height / 2)[3] == 255);
   if (size.width == 1) return;
@@ -38,22 +43,32 @@ TEST_CASE("thumbnail: a box is opaque in the middle, clear in the corners, and h
 
 TEST_CASE("thumbnail: where the mesh stands does not matter", "[preview][law]") {
   Mesh mesh = box(20'000);
-  const auto here = thumbnail(mesh, {64, 64});
+  const auto here = picture_of(mesh, {64, 64});
   for (Point3& p : mesh.vertices) p = {p.x + 131'072, p.y - 65'536, p.z};
-  CHECK(thumbnail(mesh, {64, 64}) == here);
+  CHECK(picture_of(mesh, {64, 64}) == here);
+}
+
+TEST_CASE("thumbnail: meshes that stand on a plate look like one of all their triangles", "[preview][law]") {
+  const Mesh large = box(20'000), small = box(5'000);
+  const Standing plate[] = {{&large, {0, 0}}, {&small, {30'000, -10'000}}};
+  Mesh all = large;
+  for (const Point3& p : small.vertices) all.vertices.push_back({p.x + 30'000, p.y - 10'000, p.z});
+  for (const auto& [a, b, c] : small.triangles) all.triangles.push_back({a + 8, b + 8, c + 8});
+  CHECK(thumbnail(plate, {64, 64}) == picture_of(all, {64, 64}));
 }
 
 TEST_CASE("thumbnail: an empty mesh and one without thickness give a picture", "[preview]") {
   CHECK(decoded(thumbnail({}, {16, 16})).size == PixelSize{16, 16});
+  CHECK(decoded(picture_of({}, {16, 16})).size == PixelSize{16, 16});
   Mesh flat_mesh{{{0, 0, 0}, {10, 0, 0}, {20, 0, 0}}, {{0, 1, 2}}};
-  CHECK(decoded(thumbnail(flat_mesh, {16, 16})).size == PixelSize{16, 16});
+  CHECK(decoded(picture_of(flat_mesh, {16, 16})).size == PixelSize{16, 16});
 }
 
 TEST_CASE("thumbnail: a real model", "[preview]") {
   const auto path = corpus("models/benchy.stl");
   if (!path) return;
   const auto loaded = mesh::read_file(path->string());
-  const auto bytes = thumbnail(loaded.objects[0].mesh, {300, 300});
+  const auto bytes = picture_of(loaded.objects[0].mesh, {300, 300});
   Image image = decoded(bytes);
   std::size_t covered = 0;
   for (std::size_t i = 3; i < image.rgba.size(); i += 4) covered += image.rgba[i] == 255;
