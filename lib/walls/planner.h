@@ -74,11 +74,10 @@ class Planner {
   double wide_bead() const { return std::min(w_.most, 1.7 * std::min(w_.inner, w_.outer)); }
 
   // small places where thick arms meet
-  /// Where four arms or more of equal beads meet in a place with room for one bead more, their walls go on as wide as
-  /// they come, and a bead in the middle fills what they leave. With less room wider walls fill it better; with more, a
-  /// wall that turns back.
+  /// Where four arms or more of equal beads meet and their walls alone would become too wide, but there is no room for
+  /// a wall that turns back: the walls go on as wide as they come, and a bead in the middle fills what they leave.
   void pass_junctions();
-  /// The flat core around a node, if it is shorter than a bead is wide, with the steep ways down from it.
+  /// The place around a node that no steep way leads up from, if it is small, with the steep ways down from it.
   bool summit(std::uint32_t node, std::vector<std::uint32_t>& nodes, std::vector<std::uint32_t>& edges,
               std::vector<std::vector<std::uint32_t>>& arms);
   /// Makes an arm end where it is level.
@@ -110,8 +109,9 @@ class Planner {
   static constexpr std::uint32_t none = ~0U;
   static constexpr double outer_spread =
       1.25;  // of its width: an outer wall alone on its side grows to this in a taper
-  static constexpr double least_middle = 0.9, most_middle = 1.2;  // of a bead's width: room for one bead more
-  static constexpr double same_um = 1e-3;                         // lengths that differ by less are equal
+  static constexpr double longest_summit =
+      2.5;  // of a bead's width: bars of two beads that cross at 45° meet in two places so far apart
+  static constexpr double same_um = 1e-3;     // lengths that differ by less are equal
   static constexpr double stub_share = 0.25;  // of the clearance: flat ends of the axis shorter than this are corners
   static constexpr double dip_share = 0.02;   // of the clearance: … and never reach over a rise of more than this
 

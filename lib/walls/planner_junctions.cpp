@@ -17,8 +17,8 @@ void Planner::pass_junctions() {
     }
     for (const std::uint32_t m : nodes) room = std::max(room, s_.nodes[m].clearance);
     Count count;
-    const double middle = 2 * (room - walls);
-    if (middle < least_middle * w_.inner || middle > most_middle * w_.inner || !alike(arms, count)) continue;
+    if (2 * (room - walls) > wide_bead() || !alike(arms, count)) continue;
+    if (widest(count, 2 * room) < wide_bead()) continue;
     for (const auto& arm : arms) {
       const double low = s_.end(arm.back()).clearance, high = s_.start(arm.front()).clearance;
       for (const std::uint32_t h : arm) pass(h / 2, count, {low, high, low, walls});
@@ -35,18 +35,21 @@ bool Planner::summit(std::uint32_t node, std::vector<std::uint32_t>& nodes, std:
   edges.clear();
   arms.clear();
   for (std::size_t i = 0; i < nodes.size(); ++i) {
+    bool up = false, down = false;
     for_each_leaving(any_[nodes[i]], [&](std::uint32_t h) {
       const std::uint32_t e = h / 2;
       if ((!core_[e] && !mouth_[e]) || std::find(edges.begin(), edges.end(), e) != edges.end()) return;
       if (steep_[e] && s_.end(h).clearance < s_.start(h).clearance) {
         arms.push_back({h});
+        down = true;
         return;
       }
+      up = up || steep_[e];
       edges.push_back(e);
       length += s_.length(e);
       if (std::find(nodes.begin(), nodes.end(), s_.to(h)) == nodes.end()) nodes.push_back(s_.to(h));
     });
-    if (length >= w_.inner) return false;
+    if ((up && down) || length >= longest_summit * w_.inner) return false;  // on a slope, or wide
   }
   return true;
 }

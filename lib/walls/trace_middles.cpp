@@ -9,6 +9,7 @@ namespace weft::walls {
 namespace {
 
 using Vertex = Line::Vertex;
+constexpr double within_um = 2;  // a chord so far within a strip meets both its sides
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 class Tracer {
@@ -233,12 +234,14 @@ class Tracer {
     return others >= 2;
   }
 
-  /// How far before its end the mouth of a branch lies: the line between the feet of its last ribs.
+  /// How far before its end the mouth of a branch lies: the line between where its last ribs meet the walls around it.
   double mouth_before_end(std::uint32_t h) const {
-    const Place right = s_.halves[s_.halves[h].next].foot, left = s_.halves[Skeleton::twin(h)].foot,
-                node = s_.end(h).at;
+    const double inner = level(h, false);
+    const Place right = s_.on_end_rib(h, inner), left = s_.on_start_rib(Skeleton::twin(h), inner), node = s_.end(h).at;
     const Place back = unit(node, s_.start(h).at);
-    return std::max(0.0, ((right.x + left.x) / 2 - node.x) * back.x + ((right.y + left.y) / 2 - node.y) * back.y);
+    const auto before = [&](Place p) { return (p.x - node.x) * back.x + (p.y - node.y) * back.y; };
+    const double r = before(right), l = before(left);
+    return std::max(0.0, std::max(r, l) + std::min(within_um, std::abs(r - l)));
   }
 
   /// What is as long as it is wide, a part or the middle of one.
