@@ -77,6 +77,8 @@ class Planner {
   /// Where four arms or more of equal beads meet and their walls alone would become too wide, but there is no room for
   /// a wall that turns back: the walls go on as wide as they come, and a bead in the middle fills what they leave.
   void pass_junctions();
+  /// Whether steep ways lead up from a node, or down, but not both: it does not lie on a slope, nor in the flat.
+  bool steep_around(std::uint32_t node) const;
   /// The place around a node that no steep way leads up from, if it is small, with the steep ways down from it.
   bool summit(std::uint32_t node, std::vector<std::uint32_t>& nodes, std::vector<std::uint32_t>& edges,
               std::vector<std::vector<std::uint32_t>>& arms);

@@ -9,7 +9,7 @@ void Planner::pass_junctions() {
   std::vector<std::uint32_t> nodes, edges;
   std::vector<std::vector<std::uint32_t>> arms;
   for (std::uint32_t n = 0; n < any_.size(); ++n) {
-    if (!summit(n, nodes, edges, arms) || arms.size() < 4) continue;
+    if (!steep_around(n) || !summit(n, nodes, edges, arms) || arms.size() < 4) continue;
     double walls = 0, room = 0;  // half the thickness that the walls fill, and that there is
     for (auto& arm : arms) {
       down_to_level(arm);
@@ -26,6 +26,15 @@ void Planner::pass_junctions() {
     for (const std::uint32_t e : edges) pass(e, count, {0, room, walls, walls});
     std::erase_if(peaks_, [&](std::uint32_t m) { return std::find(nodes.begin(), nodes.end(), m) != nodes.end(); });
   }
+}
+
+bool Planner::steep_around(std::uint32_t node) const {
+  bool up = false, down = false;
+  for_each_leaving(any_[node], [&](std::uint32_t h) {
+    if (!steep_[h / 2] || (!core_[h / 2] && !mouth_[h / 2])) return;
+    (s_.end(h).clearance < s_.start(h).clearance ? down : up) = true;
+  });
+  return up != down;
 }
 
 bool Planner::summit(std::uint32_t node, std::vector<std::uint32_t>& nodes, std::vector<std::uint32_t>& edges,
