@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <ranges>
 
 namespace weft::travel {
 namespace {
@@ -108,8 +107,8 @@ class Search {
     double length = whole_way();
     auto kept = places_;
     auto kept_edge = edge_;
-    const auto part = [&](auto& list, int more) {  // what has changed since the last kick
-      return std::ranges::subrange(list.begin() + changed_from_, list.begin() + changed_to_ + more);
+    const auto copy_changed = [&](const auto& from, auto& to, int more) {  // since the last kick
+      std::copy(from.begin() + changed_from_, from.begin() + changed_to_ + more, to.begin() + changed_from_);
     };
     for (int kick = 0; kick < kicks_a_stop * n_; ++kick) {
       int cut[3];
@@ -128,11 +127,11 @@ class Search {
       const double now = whole_way();
       if (now < length - least_gain_um) {
         length = now;
-        std::ranges::copy(part(places_, 0), kept.begin() + changed_from_);
-        std::ranges::copy(part(edge_, 1), kept_edge.begin() + changed_from_);
+        copy_changed(places_, kept, 0);
+        copy_changed(edge_, kept_edge, 1);
       } else {
-        std::ranges::copy(part(kept, 0), places_.begin() + changed_from_);
-        std::ranges::copy(part(kept_edge, 1), edge_.begin() + changed_from_);
+        copy_changed(kept, places_, 0);
+        copy_changed(kept_edge, edge_, 1);
         for (int i = changed_from_; i < changed_to_; ++i) position_[places_[at(i)].stop] = i;
       }
     }
