@@ -59,7 +59,7 @@ Variable rounded_to(double v, int decimals) {
 }
 
 void add_boxes(const Job& job, Variables& out) {
-  const auto box = first_layer_box(job.plan);
+  const auto box = first_layer_box(job);
   const Box covered = box.empty() ? Box{{0, 0}, {0, 0}} : box;
   out["first_layer_print_min"] = pair_of(covered.min.x, covered.min.y);
   out["first_layer_print_max"] = pair_of(covered.max.x, covered.max.y);

@@ -49,6 +49,10 @@ struct Dialect {
   bool in_comments() const;
 };
 
+inline Dialect dialect_of(const MachineSettings& machine, const GcodeSettings& gcode) {
+  return {machine.firmware, gcode.gcode_label_objects, gcode.gcode_comment_dialect};
+}
+
 /// Names that every firmware takes as one word, and no two of them alike: letters, digits, '_' and what is not ASCII,
 /// at most 60 bytes.
 std::vector<std::string> label_names(const std::vector<ObjectLabel>& objects);

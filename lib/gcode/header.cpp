@@ -29,32 +29,18 @@ std::string in_mm(Um v) {
 
 }  // namespace
 
-void Extents::add(Point3 p) {
-  least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
-  most = {std::max(most.x, p.x), std::max(most.y, p.y), std::max(most.z, p.z)};
+LayerDigest digest_of(const Job& job, std::size_t layer) {
+  return job.digests.empty() ? digest_of(job.settings, job.plan.layers[layer]) : job.digests[layer];
 }
 
-Extents extents_of(const PrintPlan& plan) {
+Extents extents_of(const Job& job) {
   Extents out;
-  for (const auto& layer : plan.layers)
-    for (const auto& step : layer.steps) {
-      if (const auto* bead = std::get_if<Extrude>(&step))
-        for (const auto& j : bead->path) out.add({j.at.x, j.at.y, layer.z});
-      else if (const auto* travel = std::get_if<Travel>(&step))
-        for (const Point3 p : travel->path) out.add(p);
-      else if (const auto* retract = std::get_if<Retract>(&step))
-        for (const Point p : retract->wipe) out.add({p.x, p.y, layer.z});
-    }
+  for (std::size_t i = 0; i < job.plan.layers.size(); ++i) out.unite(digest_of(job, i).extents);
   return out;
 }
 
-Box first_layer_box(const PrintPlan& plan) {
-  Box box;
-  if (plan.layers.empty()) return box;
-  for (const auto& step : plan.layers.front().steps)
-    if (const auto* bead = std::get_if<Extrude>(&step))
-      for (const auto& j : bead->path) box.add(Box{j.at, j.at}.grown(j.width / 2));
-  return box;
+Box first_layer_box(const Job& job) {
+  return job.plan.layers.empty() ? Box{} : digest_of(job, 0).covered;
 }
 
 std::string duration(double seconds) {
@@ -76,7 +62,7 @@ std::string thumbnails(const Job& job) {
 
 /// Over all moves; along Z as the dialect means it.
 std::string extents_comments(const Job& job, bool of_print) {
-  auto box = extents_of(job.plan);
+  auto box = extents_of(job);
   if (box.empty()) return {};
   if (of_print) {
     box.least.z = job.plan.layers.front().z;

@@ -10,21 +10,19 @@ std::string top_comments(const Job& job);
 /// Everything after the last command: filament, time, and the settings as `; key = value`.
 std::string bottom_comments(const Job& job);
 
+/// Of a layer of the job: the one that it has, or made from the plan.
+LayerDigest digest_of(const Job& job, std::size_t layer);
+
 /// 1d 2h 3m 4s, without the zeros in front, as PrusaSlicer writes durations.
 std::string duration(double seconds);
 
 /// Where the nozzle goes, over all moves.
-struct Extents {
-  Point3 least{max_coord, max_coord, max_coord}, most{-max_coord, -max_coord, -max_coord};
-  bool empty() const { return least.x > most.x; }
-  void add(Point3 p);
-};
-Extents extents_of(const PrintPlan& plan);
+Extents extents_of(const Job& job);
 
 /// Z of the highest layer; 0 without layers.
 Um top_of(const PrintPlan& plan);
 
 /// What the beads of the first layer cover, their width included.
-Box first_layer_box(const PrintPlan& plan);
+Box first_layer_box(const Job& job);
 
 }  // namespace weft::gcode

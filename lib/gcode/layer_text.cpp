@@ -239,28 +239,4 @@ std::string layer_text(const LayerJob& job) {
   return LayerText(job).all();
 }
 
-void advance(MachineState& state, const Dialect& dialect, const LayerPlan& layer) {
-  double& travel_acceleration =
-      dialect.separate_travel_acceleration() ? state.travel_acceleration : state.print_acceleration;
-  for (const auto& step : layer.steps) {
-    if (const auto* bead = std::get_if<Extrude>(&step)) {
-      if (bead->path.size() < 2) continue;
-      state.at = place_of(*bead, bead->path.size() - 1, layer.z);
-      if (bead->acceleration_mm_s2 > 0) state.print_acceleration = bead->acceleration_mm_s2;
-    } else if (const auto* travel = std::get_if<Travel>(&step)) {
-      if (travel->path.empty()) continue;
-      state.at = travel->path.back();
-      if (travel->acceleration_mm_s2 > 0) travel_acceleration = travel->acceleration_mm_s2;
-    } else if (const auto* retract = std::get_if<Retract>(&step)) {
-      state.retracted = true;
-      if (!retract->wipe.empty() && state.at)
-        state.at = Point3{retract->wipe.back().x, retract->wipe.back().y, state.at->z};
-    } else if (std::holds_alternative<Prime>(step)) {
-      state.retracted = false;
-    } else if (const auto* fan = std::get_if<SetFan>(&step)) {
-      state.fan = fan->share;
-    }
-  }
-}
-
 }  // namespace weft::gcode

@@ -23,9 +23,6 @@ struct LayerJob {
 
 std::string layer_text(const LayerJob& job);
 
-/// The state of the machine after a layer that began in `state`.
-void advance(MachineState& state, const Dialect& dialect, const LayerPlan& layer);
-
 /// Speed as F says it: mm/min, rounded down so that no limit is exceeded.
 std::int64_t feed_of(double speed_mm_s);
 

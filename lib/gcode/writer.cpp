@@ -41,8 +41,7 @@ std::uint64_t seed_of(std::string_view text) {
 Writer::Writer(const Job& job, bool lenient)
     : job_(job),
       lenient_(lenient),
-      dialect_{job.settings.machine.firmware, job.settings.gcode.gcode_label_objects,
-               job.settings.gcode.gcode_comment_dialect},
+      dialect_(dialect_of(job.settings.machine, job.settings.gcode)),
       names_(label_names(job.plan.objects)) {
   const auto& layers = job.plan.layers;
   MachineState state;
@@ -50,7 +49,7 @@ Writer::Writer(const Job& job, bool lenient)
   for (std::size_t i = 0; i < layers.size(); ++i) {
     entries_.push_back(state);
     elapsed_s_.push_back(elapsed_s);
-    advance(state, dialect_, layers[i]);
+    advance(state, digest_of(job, i));
     elapsed_s += i < job.statistics.layer_s.size() ? job.statistics.layer_s[i] : 0;
   }
   entries_.push_back(state);

@@ -1,5 +1,6 @@
 #pragma once
 #include "gcode/dialect.h"
+#include "gcode/digest.h"
 #include "model/plan.h"
 #include "model/statistics.h"
 #include "settings/settings.h"
@@ -23,14 +24,8 @@ struct Job {
   std::string input_name;        ///< file name of the first model, without folder and extension; for placeholders
   std::vector<Thumbnail> thumbnails;
   std::string provenance{};  ///< comment lines for the end of the file: what it was made of
-};
-
-/// The machine as the commands up to some place have left it.
-struct MachineState {
-  std::optional<Point3> at;
-  double fan = -1;                                         ///< −1: not said yet
-  double print_acceleration = 0, travel_acceleration = 0;  ///< mm/s²; 0: not said yet
-  bool retracted = false;
+  /// Of the plan's layers, whose steps then may be missing but while `Writer::layer` writes them. Empty: they are made.
+  std::vector<LayerDigest> digests{};
 };
 
 /// The file in pieces, which put together in order are the whole: head, each layer, tail. Layers do not depend on each

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/hash.h"
+#include "gcode/digest.h"
 #include "gcode/writer.h"
 #include "pipeline/codec.h"
 #include "pipeline/give_back.h"
@@ -24,27 +25,22 @@ namespace weft {
 namespace {
 using namespace pipeline;
 
-/// The most bytes that the text of a plan may take, about: what is not used is address space, no memory.
-std::size_t room_for(const PrintPlan& plan) {
+/// The most bytes that the text may take, about: what is not used is address space, no memory.
+std::size_t room_for(const std::vector<gcode::LayerDigest>& layers) {
   std::size_t bytes = 1U << 16;
-  for (const auto& layer : plan.layers) {
-    bytes += 1024 + 96 * layer.steps.size();
-    for (const auto& step : layer.steps)
-      if (const auto* bead = std::get_if<Extrude>(&step)) bytes += 48 * bead->path.size();
-  }
+  for (const auto& layer : layers) bytes += layer.bytes;
   return bytes;
 }
 
-/// The text of the file, audited as it grows. What is said of the whole plan needs all of it; then each layer's steps are
-/// unpacked once more, to be written and let go of, so that plan and text are never both there as a whole.
+/// The text of the file, audited as it grows. Each layer's steps are unpacked to be written, and let go of: plan and text
+/// are never both there as a whole.
 void write_gcode(const gcode::Job& job, PrintPlan& plan, std::vector<std::string> packed, audit::Check& check, Report& report) {
   const Stopwatch stopwatch(report.timings_ms.gcode);
   const gcode::Writer writer(job);
-  check.reserve(room_for(plan));
+  check.reserve(room_for(job.digests));
   check.add(writer.head());
   const std::string tail = writer.tail();
   const auto let_go = [](auto& list) { std::exchange(list, {}); };  // not `list = {}`: that keeps its room
-  for (auto& layer : plan.layers) let_go(layer.steps);
   const auto write = [&](std::size_t i) {
     decode(packed[i], plan.layers[i]);
     let_go(packed[i]);
@@ -135,7 +131,7 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
   refuse_emptiness(job, box, layers);
   give_back_memory();
   begin("travel", 0.65);
-  auto [plan, packed, statistics] = plan_plate(job.settings, objects, std::move(layers), watch, report);
+  auto [plan, packed, digests, statistics] = plan_plate(job.settings, objects, std::move(layers), watch, report);
   note_statistics(statistics, report);
   report.layers = plan.layers.size();
   report.height_mm = plan.layers.empty() ? 0.0 : to_mm(plan.layers.back().z);
@@ -143,7 +139,7 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
   begin("G-code", 0.85);
   audit::Check check(job.settings.machine, job.settings.material, job.settings.audit, job.audit);
   write_gcode({job.settings, plan, statistics, std::filesystem::path(job.models.front()).stem().string(),
-               std::move(thumbnails), provenance_lines(report.models, job.placement)},
+               std::move(thumbnails), provenance_lines(report.models, job.placement), std::move(digests)},
               plan, std::move(packed), check, report);
   begin("audit", 0.95);
   auto passed = verdict_of(check, job, report);

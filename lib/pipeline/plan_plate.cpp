@@ -1,7 +1,7 @@
 #include "adhesion/adhesion.h"
+#include "gcode/digest.h"
 #include "motion/motion.h"
 #include "pipeline/codec.h"
-#include "pipeline/give_back.h"
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
 #include "tasks/parallel.h"
@@ -89,7 +89,9 @@ void add_adhesion(const Settings& settings, std::vector<travel::LayerInput>& lay
 
 /// A layer that is done with, until all are.
 struct PackedLayer {
-  std::string steps;  ///< of a LayerPlan (codec.h)
+  LayerPlan bare;      ///< without steps
+  std::string packed;  ///< with them
+  gcode::LayerDigest digest;
   Statistics statistics;
 };
 
@@ -122,7 +124,8 @@ std::vector<PackedLayer> plan_moves(const Settings& settings, std::vector<travel
       },
       [&](std::size_t i, Begun layer) {
         const auto planned = motion::plan_layer(rules, std::move(layer.plan), i, layer.start);
-        return PackedLayer{encode(planned.plan), planned.statistics};
+        const auto& plan = planned.plan;
+        return PackedLayer{{plan.z, plan.height}, encode(plan), gcode::digest_of(settings, plan), planned.statistics};
       });
   for (auto& notice : travel::notices_of(departures)) notices.push_back(std::move(notice));
   return packed;
@@ -161,16 +164,10 @@ PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject
   auto planned = plan_moves(settings, std::move(prepared), std::move(ordered), watch, plan.notices);
   for (auto& layer : planned) {
     out.statistics.append(layer.statistics);
-    out.packed.push_back(std::move(layer.steps));
+    plan.layers.push_back(std::move(layer.bare));
+    out.digests.push_back(std::move(layer.digest));
+    out.packed.push_back(std::move(layer.packed));
   }
-  // Unpacked they lie side by side; the pieces of a plan that lie scattered where beads were keep their room from the
-  // system.
-  give_back_memory();
-  plan.layers = tasks::parallel_map(count, [&](std::size_t i) {
-    LayerPlan layer;
-    decode(out.packed[i], layer);
-    return layer;
-  });
   return out;
 }
 

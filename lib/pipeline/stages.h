@@ -1,5 +1,6 @@
 #pragma once
 #include "core/polygon.h"
+#include "gcode/digest.h"
 #include "mesh/mesh.h"
 #include "model/layer.h"
 #include "model/plan.h"
@@ -35,10 +36,11 @@ using PrintedLayers = std::vector<PrintedLayer>;
 /// @param cache may be null
 PrintedLayers print_object(const Settings& settings, const PlacedObject& object, const Watch& watch, Report& report, StageCache* cache);
 
-/// A plan, and its layers once more as bytes (codec.h), which take a third of the memory.
+/// A plan of which each layer's steps wait as bytes (codec.h), which take a third of the memory.
 struct PlannedPlate {
-  PrintPlan plan;
-  std::vector<std::string> packed;  ///< one a layer
+  PrintPlan plan;                            ///< without steps
+  std::vector<std::string> packed;           ///< the layers, with them
+  std::vector<gcode::LayerDigest> digests;
   Statistics statistics;
 };
 

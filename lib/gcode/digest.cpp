@@ -1,0 +1,76 @@
+#include "gcode/digest.h"
+
+#include "gcode/dialect.h"
+
+#include <algorithm>
+
+namespace weft::gcode {
+namespace {
+
+void take_in(LayerDigest& out, const Extrude& bead, Um z) {
+  for (const auto& j : bead.path) {
+    out.extents.add({j.at.x, j.at.y, z});
+    out.covered.add(Box{j.at, j.at}.grown(j.width / 2));
+  }
+  out.bytes += 48 * bead.path.size();
+  if (bead.path.size() < 2) return;
+  out.at = place_of(bead, bead.path.size() - 1, z);
+  out.wiped_to.reset();
+  if (bead.acceleration_mm_s2 > 0) out.print_acceleration = bead.acceleration_mm_s2;
+}
+
+void take_in(LayerDigest& out, const Travel& travel, bool own_acceleration) {
+  for (const Point3 p : travel.path) out.extents.add(p);
+  if (travel.path.empty()) return;
+  out.at = travel.path.back();
+  out.wiped_to.reset();
+  if (travel.acceleration_mm_s2 > 0)
+    (own_acceleration ? out.travel_acceleration : out.print_acceleration) = travel.acceleration_mm_s2;
+}
+
+void take_in(LayerDigest& out, const Retract& retract, Um z) {
+  for (const Point p : retract.wipe) out.extents.add({p.x, p.y, z});
+  out.retracted = true;
+  if (!retract.wipe.empty()) out.wiped_to = retract.wipe.back();
+}
+
+}  // namespace
+
+void Extents::add(Point3 p) {
+  least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
+  most = {std::max(most.x, p.x), std::max(most.y, p.y), std::max(most.z, p.z)};
+}
+
+void Extents::unite(const Extents& other) {
+  if (!other.empty()) add(other.least), add(other.most);
+}
+
+LayerDigest digest_of(const Settings& settings, const LayerPlan& layer) {
+  const Dialect dialect = dialect_of(settings.machine, settings.gcode);
+  LayerDigest out;
+  out.bytes = 1024 + 96 * layer.steps.size();
+  for (const auto& step : layer.steps) {
+    if (const auto* bead = std::get_if<Extrude>(&step))
+      take_in(out, *bead, layer.z);
+    else if (const auto* travel = std::get_if<Travel>(&step))
+      take_in(out, *travel, dialect.separate_travel_acceleration());
+    else if (const auto* retract = std::get_if<Retract>(&step))
+      take_in(out, *retract, layer.z);
+    else if (std::holds_alternative<Prime>(step))
+      out.retracted = false;
+    else if (const auto* fan = std::get_if<SetFan>(&step))
+      out.fan = fan->share;
+  }
+  return out;
+}
+
+void advance(MachineState& state, const LayerDigest& layer) {
+  if (layer.at) state.at = layer.at;
+  if (layer.wiped_to && state.at) state.at = Point3{layer.wiped_to->x, layer.wiped_to->y, state.at->z};
+  if (layer.retracted) state.retracted = *layer.retracted;
+  if (layer.fan) state.fan = *layer.fan;
+  if (layer.print_acceleration > 0) state.print_acceleration = layer.print_acceleration;
+  if (layer.travel_acceleration > 0) state.travel_acceleration = layer.travel_acceleration;
+}
+
+}  // namespace weft::gcode

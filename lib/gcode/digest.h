@@ -1,0 +1,45 @@
+#pragma once
+#include "core/polygon.h"
+#include "model/plan.h"
+#include "settings/settings.h"
+
+#include <optional>
+
+/// What the rest of a file must know of a layer, so that its steps need not be there until they are written.
+namespace weft::gcode {
+
+/// The machine as the commands up to some place have left it.
+struct MachineState {
+  std::optional<Point3> at;
+  double fan = -1;                                         ///< −1: not said yet
+  double print_acceleration = 0, travel_acceleration = 0;  ///< mm/s²; 0: not said yet
+  bool retracted = false;
+};
+
+/// Where the nozzle goes.
+struct Extents {
+  Point3 least{max_coord, max_coord, max_coord}, most{-max_coord, -max_coord, -max_coord};
+  bool empty() const { return least.x > most.x; }
+  void add(Point3 p);
+  void unite(const Extents& other);
+};
+
+struct LayerDigest {
+  Extents extents;        ///< over all moves
+  Box covered;            ///< by its beads, their width included
+  std::size_t bytes = 0;  ///< of its text, at most about
+
+  // What it changes of the machine's state; where it says nothing: nothing.
+  std::optional<Point3> at;       ///< the end of its last bead or travel
+  std::optional<Point> wiped_to;  ///< after that, at the same height
+  std::optional<bool> retracted;
+  std::optional<double> fan;
+  double print_acceleration = 0, travel_acceleration = 0;  ///< mm/s²; 0: not said
+};
+
+LayerDigest digest_of(const Settings& settings, const LayerPlan& layer);
+
+/// The state of the machine after a layer that began in `state`.
+void advance(MachineState& state, const LayerDigest& layer);
+
+}  // namespace weft::gcode
