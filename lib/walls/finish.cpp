@@ -14,34 +14,47 @@ constexpr double even_inside = 0.5;     // of the width: an end inside that tape
 constexpr double any_taper = 1.0;       // … no end tapers more
 constexpr double width_step_um = 10.0;  // a segment is printed at one width: no more difference over it than this
 
-/// True when b lies on the way from a to c.
-bool on_the_way(const Vertex& a, const Vertex& b, const Vertex& c) {
-  const double dx = c.at.x - a.at.x, dy = c.at.y - a.at.y, d2 = dx * dx + dy * dy;
-  if (d2 < 1e-6) return false;
-  const double t = ((b.at.x - a.at.x) * dx + (b.at.y - a.at.y) * dy) / d2;
-  if (t < 0 || t > 1) return false;
-  const double off = std::abs(dx * (b.at.y - a.at.y) - dy * (b.at.x - a.at.x)) / std::sqrt(d2);
-  return off <= straight_um && std::abs(a.width + t * (c.width - a.width) - b.width) <= even_um;
-}
+/// The way from one vertex straight to another.
+class Chord {
+ public:
+  Chord(const Vertex& a, const Vertex& c)
+      : a_(a),
+        dx_(c.at.x - a.at.x),
+        dy_(c.at.y - a.at.y),
+        length2_(dx_ * dx_ + dy_ * dy_),
+        off_most_(straight_um * std::sqrt(length2_)),
+        wider_(c.width - a.width) {}
+
+  /// Whether b lies on it.
+  bool holds(const Vertex& b) const {
+    if (length2_ < 1e-6) return false;
+    const double x = b.at.x - a_.at.x, y = b.at.y - a_.at.y, along = x * dx_ + y * dy_;
+    if (along < 0 || along > length2_ || std::abs(dx_ * y - dy_ * x) > off_most_) return false;
+    return std::abs(a_.width + along / length2_ * wider_ - b.width) <= even_um;
+  }
+
+ private:
+  const Vertex& a_;
+  double dx_, dy_, length2_, off_most_, wider_;
+};
 
 /// Leaves out what chords stand for. The ends stay.
 void thin_out(std::vector<Vertex>& path) {
   constexpr std::size_t most_skipped = 24;
   if (path.size() < 3) return;
-  std::vector<Vertex> out{path.front()};
-  std::size_t from = 0;
+  std::size_t from = 0, kept = 0;  // what is kept is put in front, never beyond `from`
   while (from + 1 < path.size()) {
     std::size_t to = from + 1;
-    while (to + 1 < path.size() && to - from < most_skipped) {
-      bool fits = true;
-      for (std::size_t i = from + 1; i <= to && fits; ++i) fits = on_the_way(path[from], path[i], path[to + 1]);
-      if (!fits) break;
-      ++to;
+    for (; to + 1 < path.size() && to - from < most_skipped; ++to) {
+      const Chord chord(path[from], path[to + 1]);
+      std::size_t i = to;  // the nearest to the new end lies off it first
+      while (i > from && chord.holds(path[i])) --i;
+      if (i > from) break;
     }
-    out.push_back(path[to]);
+    path[++kept] = path[to];
     from = to;
   }
-  path = std::move(out);
+  path.resize(kept + 1);
 }
 
 /// The first segment of an open bead reaches as far as any later bend may swell back: half the width there.

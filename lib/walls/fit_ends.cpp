@@ -43,13 +43,14 @@ class Walls {
 
   /// How long the end of a path lies under a wall of the inset.
   double length_under(const std::vector<Vertex>& path, int inset) {
-    look_near(path.back().at, (most_widths + 0.5) * widest_ + step_um);
+    look_near(path.back().at, under_share * widest_ / 2, inset);
+    if (depth_under(near_, path.back().at).depth <= 0) return 0;  // most ends: no wall is so near
+    look_near(path.back().at, (most_widths + 0.5) * widest_ + step_um, inset);
     double longest = 0;
     for (std::size_t from = 0, to = 0; from < near_.size(); from = to) {
       const std::uint32_t line = origins_[near_[from]].line;
       while (to < near_.size() && origins_[near_[to]].line == line) ++to;
-      if (lines_[line].inset == inset)
-        longest = std::max(longest, length_under(path, std::span(near_).subspan(from, to - from)));
+      longest = std::max(longest, length_under(path, std::span(near_).subspan(from, to - from)));
     }
     return longest;
   }
@@ -62,8 +63,7 @@ class Walls {
     while (back > 0 && distance(path[back].at, end.at) < end.width / 2) --back;
     const Place way = unit(path[back].at, end.at), n{-way.y, way.x};
     const double most = most_gap * end.width;
-    look_near(end.at, most + beside * end.width + widest_ / 2);
-    if (inset) std::erase_if(near_, [&](std::uint32_t s) { return lines_[origins_[s].line].inset != *inset; });
+    look_near(end.at, most + beside * end.width + widest_ / 2, inset);
     if (near_.empty()) return 0;
     const auto gap = [&](double aside) {
       const Place from{end.at.x + aside * n.x, end.at.y + aside * n.y};
@@ -87,10 +87,12 @@ class Walls {
   };
   static Point lattice(Place p) { return {rounded(p.x), rounded(p.y)}; }
 
-  void look_near(Place p, double reach_um) {
+  /// Finds the segments of all walls, or of those of an inset.
+  void look_near(Place p, double reach_um, std::optional<int> inset) {
     const Point at = lattice(p);
     const Um reach = rounded(reach_um) + 2;
     index_.near({{at.x - reach, at.y - reach}, {at.x + reach, at.y + reach}}, near_);
+    if (inset) std::erase_if(near_, [&](std::uint32_t s) { return lines_[origins_[s].line].inset != *inset; });
   }
 
   /// Negative when beside it.
