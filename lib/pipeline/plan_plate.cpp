@@ -152,11 +152,20 @@ PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject
   }
   for (auto& notice : travel::check(settings.travel, settings.retraction)) plan.notices.push_back(std::move(notice));
 
-  auto prepared = tasks::parallel_map(count, [&](std::size_t i) {
-    stop_if_cancelled(watch);
-    return travel::prepare_order(settings.travel, std::move(inputs[i]));
-  });
-  const auto linked = travel::link(settings.travel, prepared);
+  std::vector<travel::Prepared> prepared;
+  prepared.reserve(count);
+  travel::Linker linker(settings.travel);
+  tasks::parallel_in_order(
+      count,
+      [&](std::size_t i) {
+        stop_if_cancelled(watch);
+        return travel::prepare_order(settings.travel, std::move(inputs[i]));
+      },
+      [&](std::size_t i, travel::Prepared layer) {
+        prepared.push_back(std::move(layer));
+        linker.add(prepared[i], i > 0 ? &prepared[i - 1] : nullptr);
+      });
+  const auto linked = linker.linked();
   auto ordered = tasks::parallel_map(count, [&](std::size_t i) {
     stop_if_cancelled(watch);
     return travel::order(settings.travel, prepared[i], linked[i]);

@@ -84,50 +84,54 @@ std::vector<Passage> passages_of(PathOrder kind, const std::vector<Point>& place
 
 }  // namespace
 
-std::vector<std::vector<std::uint32_t>> chain_blocks(PathOrder kind, std::span<const BlockPlaces> layers) {
-  std::vector<std::vector<Passage>> passages(layers.size());
-  std::vector<Point> exits;      // of the passages of the last layer that has any
-  std::vector<double> costs{0};  // beside exits; one without a place before the first layer
-  std::vector<std::size_t> owner;
-  for (std::size_t i = 0; i < layers.size(); ++i) {
-    const auto& layer = layers[i];
-    if (layer.places.empty()) continue;
-    auto& here = passages[i];
-    if (kind == PathOrder::nearest || layer.places.size() > most_blocks) {
-      // From where the best way so far ends.
-      const std::size_t best = static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) - costs.begin());
-      const auto from = layer.before ? layer.before : exits.empty() ? std::nullopt : std::optional(exits[best]);
-      Passage only;
-      only.order = tour_of(kind, layer.places, {from, std::nullopt});
-      here.push_back(std::move(only));
-    } else {
-      here = passages_of(kind, layer.places, exits);
-    }
-    for (auto& p : here) {
-      const Point entry = layer.places[p.order.front()];
-      p.whole = std::numeric_limits<double>::infinity();
-      for (std::size_t k = 0; k < costs.size(); ++k) {
-        double way = 0;
-        if (layer.before)
-          way = (exits.empty() ? 0.0 : distance(exits[k], *layer.before)) + distance(*layer.before, entry);
-        else if (!exits.empty())
-          way = distance(exits[k], entry);
-        if (way > same_block_um) way += other_block_um;
-        if (costs[k] + way + p.length < p.whole) p.whole = costs[k] + way + p.length, p.came = k;
-      }
-    }
-    exits.clear(), costs.clear();
-    for (const auto& p : here) exits.push_back(layer.places[p.order.back()]), costs.push_back(p.whole);
-    owner.push_back(i);
+/// Of one layer; none where it has no blocks.
+struct BlockChain::Passages {
+  std::vector<Passage> all;
+};
+
+BlockChain::BlockChain(PathOrder order) : kind_(order) {}
+BlockChain::~BlockChain() = default;
+
+void BlockChain::add(BlockPlaces layer) {
+  auto& here = layers_.emplace_back().all;
+  if (layer.places.empty()) return;
+  if (kind_ == PathOrder::nearest || layer.places.size() > most_blocks) {
+    // From where the best way so far ends.
+    const auto best = static_cast<std::size_t>(std::min_element(costs_.begin(), costs_.end()) - costs_.begin());
+    const auto from = layer.before ? layer.before : exits_.empty() ? std::nullopt : std::optional(exits_[best]);
+    Passage only;
+    only.order = tour_of(kind_, layer.places, {from, std::nullopt});
+    here.push_back(std::move(only));
+  } else {
+    here = passages_of(kind_, layer.places, exits_);
   }
-  std::vector<std::vector<std::uint32_t>> orders(layers.size());
-  if (owner.empty()) return orders;
-  std::size_t at = static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) - costs.begin());
-  for (std::size_t k = owner.size(); k-- > 0;) {
-    auto& chosen = passages[owner[k]][at];
-    orders[owner[k]] = std::move(chosen.order);
+  for (auto& p : here) {
+    const Point entry = layer.places[p.order.front()];
+    p.whole = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < costs_.size(); ++k) {
+      double way = 0;
+      if (layer.before)
+        way = (exits_.empty() ? 0.0 : distance(exits_[k], *layer.before)) + distance(*layer.before, entry);
+      else if (!exits_.empty())
+        way = distance(exits_[k], entry);
+      if (way > same_block_um) way += other_block_um;
+      if (costs_[k] + way + p.length < p.whole) p.whole = costs_[k] + way + p.length, p.came = k;
+    }
+  }
+  exits_.clear(), costs_.clear();
+  for (const auto& p : here) exits_.push_back(layer.places[p.order.back()]), costs_.push_back(p.whole);
+}
+
+std::vector<std::vector<std::uint32_t>> BlockChain::orders() {
+  std::vector<std::vector<std::uint32_t>> orders(layers_.size());
+  auto at = static_cast<std::size_t>(std::min_element(costs_.begin(), costs_.end()) - costs_.begin());
+  for (std::size_t i = layers_.size(); i-- > 0;) {
+    if (layers_[i].all.empty()) continue;
+    auto& chosen = layers_[i].all[at];
+    orders[i] = std::move(chosen.order);
     at = chosen.came;
   }
+  layers_.clear(), exits_.clear(), costs_ = {0};
   return orders;
 }
 

@@ -19,7 +19,24 @@ struct BlockPlaces {
 /// A layer is entered at one of a few blocks and left at one of a few, with the shortest order between; which ones is
 /// chosen for all layers at once by dynamic programming, so that a layer ends where the next may well begin. Layers of
 /// many blocks are ordered one after the other.
-/// Post: for each layer a permutation of its places. Cost: O(layers), a few tours each.
-std::vector<std::vector<std::uint32_t>> chain_blocks(PathOrder order, std::span<const BlockPlaces> layers);
+class BlockChain {
+ public:
+  explicit BlockChain(PathOrder order);
+  ~BlockChain();
+  BlockChain(const BlockChain&) = delete;
+  BlockChain& operator=(const BlockChain&) = delete;
+
+  /// The next layer. Cost: a few tours.
+  void add(BlockPlaces layer);
+  /// For each layer a permutation of its places. Post: there are no layers.
+  std::vector<std::vector<std::uint32_t>> orders();
+
+ private:
+  struct Passages;
+  PathOrder kind_;
+  std::vector<Passages> layers_;
+  std::vector<Point> exits_;      // of the passages of the last layer that has any
+  std::vector<double> costs_{0};  // beside exits_; one without a place before the first layer
+};
 
 }  // namespace weft::travel

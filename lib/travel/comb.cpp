@@ -9,13 +9,21 @@
 namespace weft::travel {
 namespace {
 
-/// The point moved outwards, to the right of the way from `before` to `after`, by about `by_um` from both edges.
-Point moved_right(Point before, Point p, Point after, double by_um) {
-  const double ax = static_cast<double>(p.x) - before.x, ay = static_cast<double>(p.y) - before.y;
-  const double bx = static_cast<double>(after.x) - p.x, by = static_cast<double>(after.y) - p.y;
-  const double la = std::hypot(ax, ay), lb = std::hypot(bx, by);
-  if (la == 0 || lb == 0) return p;
-  const double nx = ay / la + by / lb, ny = -ax / la - bx / lb;  // sum of the unit normals to the right
+/// Direction of a->b, of length 1; no direction where they are one.
+struct Direction {
+  double x = 0, y = 0;
+  bool none = true;
+};
+Direction direction(Point a, Point b) {
+  const double x = static_cast<double>(b.x) - a.x, y = static_cast<double>(b.y) - a.y, length = distance(a, b);
+  if (length == 0) return {};
+  return {x / length, y / length, false};
+}
+
+/// The point moved outwards, to the right of the way that comes and goes so, by about `by_um` from both edges.
+Point moved_right(const Direction& comes, Point p, const Direction& goes, double by_um) {
+  if (comes.none || goes.none) return p;
+  const double nx = comes.y + goes.y, ny = -comes.x - goes.x;  // sum of the unit normals to the right
   const double n2 = nx * nx + ny * ny;
   const double scale = 2.0 * by_um / std::max(n2, 0.5);  // a miter, bounded at sharp corners
   return {rounded(p.x + nx * scale), rounded(p.y + ny * scale)};
@@ -88,9 +96,14 @@ void Comb::add_ring(const Ring& ring, bool is_hole, std::uint32_t part) {
 void Comb::build_index() {
   if (points_.empty()) return;
   moved_.resize(points_.size());
-  for (const auto& ring : rings_)
-    for (std::uint32_t i = ring.begin; i < ring.end; ++i)
-      moved_[i] = moved_right(points_[i == ring.begin ? ring.end - 1 : i - 1], points_[i], points_[next(i)], slack_um);
+  for (const auto& ring : rings_) {
+    Direction comes = direction(points_[ring.end - 1], points_[ring.begin]);
+    for (std::uint32_t i = ring.begin; i < ring.end; ++i) {
+      const Direction goes = direction(points_[i], points_[next(i)]);
+      moved_[i] = moved_right(comes, points_[i], goes, slack_um);
+      comes = goes;
+    }
+  }
   box_ = box_of(moved_);
   const double w = box_.size().x + 1.0, h = box_.size().y + 1.0;
   cell_ = std::max<std::int64_t>(500,

@@ -50,31 +50,42 @@ bool starts_with_adhesion(const Prepared& layer) {
 
 }  // namespace
 
-std::vector<Linked> link(const TravelSettings& settings, std::span<const Prepared> layers) {
-  std::vector<Linked> linked(layers.size());
-  std::vector<BlockPlaces> blocks(layers.size());
-  std::vector<Point> below;
-  for (std::size_t i = 0; i < layers.size(); ++i) {
-    linked[i].seams = choose_seams(settings, layers[i], i > 0 ? &layers[i - 1].outline : nullptr, below);
-    linked[i].places = places_of(layers[i], linked[i].seams);
-    const bool adhesion = starts_with_adhesion(layers[i]);
-    if (adhesion) blocks[i].before = linked[i].places[0];
-    blocks[i].places.assign(linked[i].places.begin() + (adhesion ? 1 : 0), linked[i].places.end());
-  }
-  const auto orders = chain_blocks(settings.path_order, blocks);
+Linker::Linker(const TravelSettings& settings)
+    : settings_(settings), chain_(std::make_unique<BlockChain>(settings.path_order)) {}
+Linker::~Linker() = default;
+
+void Linker::add(const Prepared& layer, const Prepared* below) {
+  Linked& out = linked_.emplace_back();
+  out.seams = choose_seams(settings_, layer, below ? &below->outline : nullptr, seams_below_);
+  out.places = places_of(layer, out.seams);
+  const bool adhesion = starts_with_adhesion(layer);
+  BlockPlaces blocks;
+  if (adhesion) blocks.before = out.places[0], out.block_order.push_back(0);
+  blocks.places.assign(out.places.begin() + (adhesion ? 1 : 0), out.places.end());
+  chain_->add(std::move(blocks));
+}
+
+std::vector<Linked> Linker::linked() {
+  const auto orders = chain_->orders();
   std::optional<Point> at;
-  for (std::size_t i = 0; i < layers.size(); ++i) {
-    Linked& out = linked[i];
+  for (std::size_t i = 0; i < linked_.size(); ++i) {
+    Linked& out = linked_[i];
     out.from = at;
-    if (starts_with_adhesion(layers[i])) out.block_order.push_back(0);
     const auto skip = static_cast<std::uint32_t>(out.block_order.size());
     for (const std::uint32_t b : orders[i]) out.block_order.push_back(b + skip);
     if (out.block_order.empty()) continue;
     out.begin = out.places[out.block_order.front()];
     at = out.places[out.block_order.back()];
   }
-  for (std::size_t i = layers.size(); i-- > 1;) linked[i - 1].next = linked[i].begin ? linked[i].begin : linked[i].next;
-  return linked;
+  for (std::size_t i = linked_.size(); i-- > 1;)
+    linked_[i - 1].next = linked_[i].begin ? linked_[i].begin : linked_[i].next;
+  return std::move(linked_);
+}
+
+std::vector<Linked> link(const TravelSettings& settings, std::span<const Prepared> layers) {
+  Linker linker(settings);
+  for (std::size_t i = 0; i < layers.size(); ++i) linker.add(layers[i], i > 0 ? &layers[i - 1] : nullptr);
+  return linker.linked();
 }
 
 }  // namespace weft::travel

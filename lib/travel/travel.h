@@ -6,6 +6,7 @@
 #include "travel/seam.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -13,12 +14,14 @@
 /// From the beads of a layer to the steps that print them: order, seams, and the ways between.
 ///
 ///   prepare  each layer on its own       seam candidates, comb boundary
-///   link     once, over all layers       seams that line up, the order of the parts
+///   link     one layer after the other   seams that line up, the order of the parts
 ///   order    each layer on its own       the order of the beads
 ///   route    each layer on its own       combed ways, retractions
 ///
 /// Every function is pure; only `link` is sequential, and it is cheap.
 namespace weft::travel {
+
+class BlockChain;
 
 /// One copy of one object on one layer, in plate coordinates.
 struct ObjectLayer {
@@ -131,8 +134,28 @@ void prepare_ways(const TravelSettings& settings, Prepared& layer);
 /// Both.
 Prepared prepare(const TravelSettings& settings, LayerInput input);
 
-/// Chooses seams from layer to layer, and the order of the parts of all layers together. Sequential; cost: linear in
-/// the vertices of outer walls, and a few tours of the parts a layer.
+/// Chooses seams from layer to layer, and the order of the parts of all layers together. Sequential, and layers can be
+/// prepared meanwhile; cost: linear in the vertices of outer walls, and a few tours of the parts a layer.
+class Linker {
+ public:
+  explicit Linker(const TravelSettings& settings);
+  ~Linker();
+  Linker(const Linker&) = delete;
+  Linker& operator=(const Linker&) = delete;
+
+  /// The next layer, and the one that was added before it; neither is needed any more then.
+  void add(const Prepared& layer, const Prepared* below);
+  /// What all layers have agreed on. Post: there are none.
+  std::vector<Linked> linked();
+
+ private:
+  const TravelSettings& settings_;
+  std::unique_ptr<BlockChain> chain_;
+  std::vector<Point> seams_below_;
+  std::vector<Linked> linked_;
+};
+
+/// The same for layers that are all there.
 std::vector<Linked> link(const TravelSettings& settings, std::span<const Prepared> layers);
 
 /// The order of all beads of a layer.
