@@ -10,11 +10,13 @@ namespace weft::mesh {
 namespace {
 
 struct Shell {
-  std::size_t triangles = 0, turned = 0;  ///< turned: those whose `turn` says so
+  std::size_t triangles = 0, turned = 0, open_edges = 0;
   bool closed = true, one_sided = false, invert = false;
   Box3 box;
   double six_um3 = 0;  ///< signed volume, as turned but not inverted
   double facing() const { return invert ? -six_um3 : six_um3; }
+  /// A triangle alone, or a strip, has no inside: what it and the middle of its box enclose says nothing.
+  bool scrap() const { return open_edges >= triangles; }
 };
 
 /// What the triangles of each shell give together: add(part, t) for the triangles of a block, merge(shell, part) block by
@@ -44,7 +46,11 @@ void sum_by_shell(const ShellForest& shells, std::size_t triangles, Add add, Mer
 std::vector<Shell> shells_of(const Mesh& mesh, Adjacency& adjacency) {
   std::vector<Shell> all(adjacency.shells.number_shells());
   const ShellForest& shells = adjacency.shells;
-  for (const std::uint32_t t : adjacency.open) all[shells.shell(t)].closed = false;
+  for (const std::uint32_t t : adjacency.open) {
+    Shell& shell = all[shells.shell(t)];
+    shell.closed = false;
+    ++shell.open_edges;
+  }
   for (const std::uint32_t t : adjacency.one_sided) all[shells.shell(t)].one_sided = true;
   struct Part {
     std::size_t triangles = 0, turned = 0;
@@ -127,7 +133,7 @@ void decide(std::vector<Shell>& shells) {
     shell.invert = 2 * shell.turned > shell.triangles;
     const std::size_t minority = std::min(shell.turned, shell.triangles - shell.turned);
     if (shell.closed && 4 * minority > shell.triangles) shell.invert = shell.six_um3 < 0;
-    six_um3 += shell.facing();
+    if (!shell.scrap()) six_um3 += shell.facing();
   }
   if (six_um3 < 0)
     for (Shell& shell : shells) shell.invert = !shell.one_sided && !shell.invert;

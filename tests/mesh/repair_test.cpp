@@ -168,6 +168,19 @@ TEST_CASE("mesh: a part that is inside out beside one that is not is turned roun
   }
 }
 
+TEST_CASE("mesh: triangles that meet nowhere are left as they are", "[mesh][repair]") {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<float> off(-0.05F, 0.05F);
+  for (const bool inside_out : {false, true}) {
+    Facets scraps = in_quarters(in_quarters(inside_out ? reversed(cube) : cube));
+    for (Facet& facet : scraps)
+      for (Corner& corner : facet) corner = {corner.x + off(random), corner.y + off(random), corner.z + off(random)};
+    const auto repairs = repaired(scraps).repairs;
+    CHECK(repairs.shells == scraps.size());
+    CHECK(repairs.inverted_shells == 0);
+  }
+}
+
 TEST_CASE("mesh: holes and crowded edges are counted and left", "[mesh][repair]") {
   Facets facets = cube;
   facets.pop_back();
