@@ -19,15 +19,16 @@ class Cone {
  public:
   Cone(Point anchor, double bound) : anchor_(anchor), bound_(bound) {}
 
-  /// Whether the chord from the anchor to p passes every point seen so far within the bound.
-  bool admits(Point p) const {
+  enum class Verdict {
+    passes,       ///< the chord from the anchor to p passes every point seen so far within the bound
+    ends_short,   ///< it would, but for a point seen that lies beyond its end
+    leaves_some,  ///< it does not
+  };
+  Verdict of(Point p) const {
     const double x = static_cast<double>(p.x) - anchor_.x, y = static_cast<double>(p.y) - anchor_.y;
-    if (x * x + y * y < farthest2_) return false;  // it would end short of a point seen
-    if (!bounded_) return true;
-    return right_x_ * y - right_y_ * x >= 0 && left_x_ * y - left_y_ * x <= 0 &&
-           (right_x_ + left_x_) * x + (right_y_ + left_y_) * y > 0;
+    if (!holds(x, y)) return Verdict::leaves_some;
+    return x * x + y * y < farthest2_ ? Verdict::ends_short : Verdict::passes;
   }
-
   /// Narrows the cone so that chords keep within the bound of p.
   void see(Point p) {
     const double x = static_cast<double>(p.x) - anchor_.x, y = static_cast<double>(p.y) - anchor_.y;
@@ -43,6 +44,12 @@ class Cone {
   }
 
  private:
+  bool holds(double x, double y) const {
+    if (!bounded_) return true;
+    return right_x_ * y - right_y_ * x >= 0 && left_x_ * y - left_y_ * x <= 0 &&
+           (right_x_ + left_x_) * x + (right_y_ + left_y_) * y > 0;
+  }
+
   Point anchor_;
   double bound_;
   double farthest2_ = 0;
@@ -86,14 +93,21 @@ void drop_collinear_of_line(Polyline& line) {
 
 Polyline simplified_line(std::span<const Point> line, Um bound) {
   if (line.size() < 3 || bound <= 0) return {line.begin(), line.end()};
+  // Where a line steps back, as at a gap that was closed, the chord goes on to the first point beyond, if that is not far.
+  constexpr std::size_t most_short = 8;
   Polyline out{line[0]};
   Cone cone(line[0], bound);
-  for (std::size_t i = 1; i < line.size(); ++i) {
-    if (!cone.admits(line[i])) {
-      out.push_back(line[i - 1]);
-      cone = Cone(line[i - 1], bound);
+  std::size_t end = 0;  // of the chord, as far as it is known
+  for (std::size_t i = 1; end + 1 < line.size();) {
+    const auto verdict = i < line.size() ? cone.of(line[i]) : Cone::Verdict::leaves_some;
+    if (verdict == Cone::Verdict::passes) end = i;
+    if (verdict == Cone::Verdict::passes || (verdict == Cone::Verdict::ends_short && i - end <= most_short)) {
+      cone.see(line[i++]);
+      continue;
     }
-    cone.see(line[i]);
+    out.push_back(line[end]);
+    cone = Cone(line[end], bound);
+    i = end + 1;
   }
   out.push_back(line.back());
   return out;

@@ -53,6 +53,20 @@ TEST_CASE("geometry: a fine circle keeps its shape with few points") {
   CHECK(static_cast<double>(double_area(simple)) == Approx(static_cast<double>(double_area(circle))).epsilon(0.002));
 }
 
+TEST_CASE("geometry: a circle of pieces that overlap a little has as few points as one of pieces that meet") {
+  const auto at = [](double i) {
+    const double angle = i * 2 * std::numbers::pi / 700;
+    return Point{rounded(30'000 * std::cos(angle)), rounded(30'000 * std::sin(angle))};
+  };
+  Ring meeting, overlapping;
+  for (int i = 0; i < 700; ++i) {
+    meeting.push_back(at(i));
+    overlapping.push_back(at(i - 0.01));  // 3 µm back
+    overlapping.push_back(at(i + 1));
+  }
+  CHECK(simplified(overlapping, 13).size() <= simplified(meeting, 13).size() + 10);
+}
+
 TEST_CASE("geometry: a ring smaller than the bound does not collapse") {
   const Ring tiny{{0, 0}, {5, 0}, {5, 5}, {2, 6}, {0, 5}};
   CHECK(simplified(tiny, 100) == tiny);
