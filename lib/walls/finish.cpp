@@ -58,8 +58,8 @@ void thin_out(std::vector<Vertex>& path) {
 }
 
 /// The first segment of an open bead reaches as far as any later bend may swell back: half the width there.
-/// An end that tapers by more than `most_uneven` of its width stays as it is.
-void steady_start(std::vector<Vertex>& path, double most_uneven) {
+/// An end that tapers by more than `most_uneven` of its width or `most_um` stays as it is.
+void steady_start(std::vector<Vertex>& path, double most_uneven, double most_um) {
   std::size_t last = 0;
   double along = 0, there = 0;  // to where the loop is; to `last`
   double area = 0, area_there = 0;
@@ -72,7 +72,7 @@ void steady_start(std::vector<Vertex>& path, double most_uneven) {
   if (last == 0) return;
   const auto [thin, thick] = std::minmax_element(path.begin(), path.begin() + static_cast<long>(last) + 2,
                                                  [](const Vertex& a, const Vertex& b) { return a.width < b.width; });
-  if (thick->width - thin->width > most_uneven * thick->width) return;
+  if (thick->width - thin->width > std::min(most_uneven * thick->width, most_um)) return;
   const Vertex from = path[last], next = path[last + 1];
   const double length = distance(from.at, next.at), reach = std::max(from.width, next.width) / 2;
   const double t = std::clamp((reach - there) / std::max(1.0, length), 0.0, 1.0);
@@ -135,15 +135,17 @@ std::vector<std::vector<Vertex>> thick_stretches(const std::vector<Vertex>& path
   return out;
 }
 
-void emit(const std::vector<Vertex>& path, bool closed, int inset, const FinishOptions& o, Beads& out) {
+}  // namespace
+
+void append_bead(const Line& line, const FinishOptions& o, Beads& out) {
   Bead bead;
-  bead.role = inset == 0 ? Role::outer_wall : Role::inner_wall;
-  bead.closed = closed;
-  bead.inset = static_cast<std::uint16_t>(inset);
+  bead.role = line.inset == 0 ? Role::outer_wall : Role::inner_wall;
+  bead.closed = line.closed;
+  bead.inset = static_cast<std::uint16_t>(line.inset);
   bead.part = o.part;
-  const double stable = inset == 0 ? o.stable_outer : o.stable_inner;
-  bead.path.reserve(path.size());
-  for (const Vertex& v : path) {
+  const double stable = line.inset == 0 ? o.stable_outer : o.stable_inner;
+  bead.path.reserve(line.path.size());
+  for (const Vertex& v : line.path) {
     Junction j{{o.origin.x + rounded(v.at.x), o.origin.y + rounded(v.at.y)},
                rounded(std::clamp(v.width, 1.0, o.most_width)),
                1.F};
@@ -154,14 +156,12 @@ void emit(const std::vector<Vertex>& path, bool closed, int inset, const FinishO
     if (!bead.path.empty() && bead.path.back().at == j.at) continue;
     bead.path.push_back(j);
   }
-  if (closed && bead.path.size() > 2 && bead.path.front().at == bead.path.back().at) bead.path.pop_back();
-  if (closed && bead.path.size() < 3) bead.closed = false;
+  if (bead.closed && bead.path.size() > 2 && bead.path.front().at == bead.path.back().at) bead.path.pop_back();
+  if (bead.closed && bead.path.size() < 3) bead.closed = false;
   if (bead.path.size() >= 2) out.push_back(std::move(bead));
 }
 
-}  // namespace
-
-void finish(Line line, const FinishOptions& o, Beads& out, double& dropped_mm) {
+void finish(Line line, const FinishOptions& o, std::vector<Line>& out, double& dropped_mm) {
   if (line.path.size() < 2) return;
   if (line.closed) line.path.push_back(line.path.front());
   const bool all_thick =
@@ -170,7 +170,7 @@ void finish(Line line, const FinishOptions& o, Beads& out, double& dropped_mm) {
     thin_out(line.path);
     limit_steps(line.path);
     line.path.pop_back();
-    emit(line.path, true, line.inset, o, out);
+    out.push_back(std::move(line));
     return;
   }
   const double whole = length_of(line.path);
@@ -188,15 +188,16 @@ void finish(Line line, const FinishOptions& o, Beads& out, double& dropped_mm) {
     keep_within(stretch, o.most_width);
     thin_out(stretch);
     limit_steps(stretch);
-    steady_start(stretch, any_taper);
+    const double most_um = line.inset == 0 ? o.even_taper : 1e9;
+    steady_start(stretch, any_taper, most_um);
     // Travel may begin there, too. A single bead that goes on into a thicker part keeps its steps: evened, they would
     // reach beyond the outline.
     if (line.inset > 0 || !last_meets) {
       std::reverse(stretch.begin(), stretch.end());
-      steady_start(stretch, line.inset == 0 ? any_taper : even_inside);
+      steady_start(stretch, line.inset == 0 ? any_taper : even_inside, most_um);
       std::reverse(stretch.begin(), stretch.end());
     }
-    emit(stretch, false, line.inset, o, out);
+    out.push_back({std::move(stretch), false, line.inset});
   }
   dropped_mm += (whole - kept) / 1000;
 }

@@ -15,10 +15,14 @@ struct FinishOptions {
   double stable_outer = 200, stable_inner = 200;  ///< narrowest planned width, µm
   double most_width = 1e9;                        ///< no bead is wider, µm
   double least_flow = 0.05, most_flow = 1;
+  double even_taper = 1e9;  ///< an end of inset 0 that tapers by more keeps its steps, µm
 };
 
-/// Appends the beads of a line; `dropped_mm` grows by the length that was left out.
-void finish(Line line, const FinishOptions& options, Beads& out, double& dropped_mm);
+/// Appends what is laid of a line, in the direction in which it is; `dropped_mm` grows by the length that was left out.
+void finish(Line line, const FinishOptions& options, std::vector<Line>& out, double& dropped_mm);
+
+/// Appends the bead of a finished line, on the lattice; none if its points are one.
+void append_bead(const Line& line, const FinishOptions& options, Beads& out);
 
 /// Puts the beads of one part in printing order.
 void put_in_order(Beads& beads, WallOrder order);

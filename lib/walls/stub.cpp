@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace weft::walls {
 namespace {
@@ -10,7 +12,10 @@ using Vertex = Line::Vertex;
 
 constexpr std::size_t most_edges = 12;  // so many of a ring's longest edges are tried as directions
 constexpr int looks = 16;               // chords by which directions are compared
-constexpr double alike = 1e-3;          // shares that differ by less are equal: then the longer way is taken
+constexpr std::size_t most_sides = 8;   // … and two by two as sides
+constexpr double straight_um = 0.2;     // off its neighbours' chord: a corner; edges alike in length to that are equal
+constexpr double straight = 2e-3;       // … or a turn of more, its sine
+constexpr double least_turn_cos = 0.5;  // between the directions in which a ring runs along the two sides of a bead
 constexpr double breadth_malus = 0.25;  // of the share, for a bead as broad as long
 constexpr double step_um = 40;
 constexpr double before_end_um = 4;  // there the width of an end is measured: an edge need not be quite square
@@ -35,13 +40,15 @@ Shape shape_of(const std::vector<Place>& ring) {
   return shape;
 }
 
-/// A line through a ring: how far it lies inside, and how much room there is beside it.
+/// A line through a ring: where it lies inside for longest, and how much room there is beside it.
 class Cut {
  public:
   Cut(const std::vector<Place>& ring, Place through, Place way) : ring_(ring), o_(through), u_(way) {
-    double behind = -1e18, ahead = 1e18;
-    each_crossing(0, u_, [&](double t) { t < 0 ? behind = std::max(behind, t) : ahead = std::min(ahead, t); });
-    from = behind < -1e17 ? 0 : behind, to = ahead > 1e17 ? 0 : ahead;
+    std::vector<double> at;
+    each_crossing(0, u_, [&](double t) { at.push_back(t); });
+    std::sort(at.begin(), at.end());
+    for (std::size_t i = 1; i < at.size(); i += 2)
+      if (at[i] - at[i - 1] > to - from) from = at[i - 1], to = at[i];
   }
   double from = 0, to = 0;
 
@@ -54,21 +61,23 @@ class Cut {
     return left > 1e17 || right > 1e17 ? Room{} : Room{left, right};
   }
 
-  /// Share of the area that a bead of even sides covers.
-  double covered(double area) const {
+  /// The area that a bead of even sides covers.
+  double covered() const {
     double sum = 0;
     for (int i = 0; i < looks; ++i) {
       const Room room = beside(from + (i + 0.5) * (to - from) / looks);
       sum += 2 * std::min(room.left, room.right);
     }
-    return sum * (to - from) / looks / area;
+    return sum * (to - from) / looks;
   }
+
+  Place at(double x) const { return {o_.x + x * u_.x, o_.y + x * u_.y}; }
 
  private:
   /// Where the ring crosses the line through the place x on this one, in direction v.
   template <class F>
   void each_crossing(double x, Place v, F f) const {
-    const Place p{o_.x + x * u_.x, o_.y + x * u_.y};
+    const Place p = at(x);
     for (std::size_t i = 0; i < ring_.size(); ++i) {
       if (const auto t = meets(p, v, ring_[i], ring_[i + 1 < ring_.size() ? i + 1 : 0])) f(*t);
     }
@@ -78,37 +87,74 @@ class Cut {
   Place o_, u_;
 };
 
-/// Directions of the longest edges, and square to them.
-std::vector<Place> directions(const std::vector<Place>& ring) {
-  std::vector<std::pair<double, Place>> edges;
+struct Edge {
+  double length = 0;
+  Place a, way;
+};
+
+/// A ring without what lies on the way between its neighbours: ribs of an axis cut its edges.
+std::vector<Place> corners_of(const std::vector<Place>& ring) {
+  std::vector<Place> points, out;
+  for (const Place p : ring)
+    if (points.empty() || (distance(points.back(), p) > straight_um && distance(points.front(), p) > straight_um))
+      points.push_back(p);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Place before = points[i > 0 ? i - 1 : points.size() - 1], after = points[i + 1 < points.size() ? i + 1 : 0];
+    const Place u = unit(before, points[i]), v = unit(points[i], after);
+    if (std::abs(cross(before, after, points[i])) > straight_um * distance(before, after) ||
+        std::abs(cross(u, v)) > straight || u.x * v.x + u.y * v.y < 0)
+      out.push_back(points[i]);
+  }
+  return out;
+}
+
+std::vector<Edge> longest_edges(const std::vector<Place>& ring, std::size_t most) {
+  std::vector<Edge> out;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Place a = ring[i], b = ring[i + 1 < ring.size() ? i + 1 : 0];
-    edges.push_back({distance(a, b), unit(a, b)});
+    out.push_back({distance(a, b), a, unit(a, b)});
   }
-  std::stable_sort(edges.begin(), edges.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  if (edges.size() > most_edges) edges.resize(most_edges);
-  std::vector<Place> out;
-  for (const auto& [length, way] : edges) out.insert(out.end(), {way, {-way.y, way.x}});
+  std::stable_sort(out.begin(), out.end(), [](const Edge& a, const Edge& b) { return a.length > b.length; });
+  while (most < out.size() && out[most].length > out[most - 1].length - straight_um) ++most;  // none before its equal
+  if (out.size() > most) out.resize(most);
+  return out;
+}
+
+/// Lines that a bead may follow: half-way between two edges, along an edge, and square to one.
+std::vector<std::pair<Place, Place>> lines_through(const std::vector<Place>& ring, Place centre) {
+  std::vector<std::pair<Place, Place>> out;
+  for (const Edge& e : longest_edges(ring, most_edges))
+    out.insert(out.end(), {{centre, e.way}, {centre, {-e.way.y, e.way.x}}});
+  const auto sides = longest_edges(ring, most_sides);
+  for (std::size_t i = 0; i < sides.size(); ++i)
+    for (std::size_t j = i + 1; j < sides.size(); ++j) {
+      const Place u = sides[i].way, v = sides[j].way;
+      if (u.x * v.x + u.y * v.y > least_turn_cos) continue;
+      const Place way = unit(v, u), n{-way.y, way.x};
+      const double a = cross(u, {centre.x - sides[i].a.x, centre.y - sides[i].a.y}),
+                   b = cross(v, {centre.x - sides[j].a.x, centre.y - sides[j].a.y});
+      const double shift = (b - a) / (cross(u, n) - cross(v, n));  // there it is as far from one as from the other
+      out.push_back({{centre.x + shift * n.x, centre.y + shift * n.y}, way});
+    }
   return out;
 }
 
 }  // namespace
 
-std::vector<Vertex> stub_bead(const std::vector<Place>& ring) {
+std::vector<Vertex> stub_bead(const std::vector<Place>& outline) {
+  const auto ring = corners_of(outline);
   if (ring.size() < 3) return {};
   const Shape shape = shape_of(ring);
   if (shape.area < 1) return {};
-  Place best{1, 0};
-  double best_share = -1e18, best_length = 0;
-  for (const Place way : directions(ring)) {
-    const Cut cut(ring, shape.centre, way);
-    const double length = cut.to - cut.from;
-    const double share = cut.covered(shape.area) - breadth_malus * shape.area / std::max(1.0, length * length);
-    const bool same = std::abs(share - best_share) <= alike, same_length = std::abs(length - best_length) <= 1;
-    if (same ? (same_length ? std::abs(way.x) > std::abs(best.x) + alike : length > best_length) : share > best_share)
-      best = way, best_share = share, best_length = length;
+  std::optional<Cut> best;
+  double best_share = -1e18;
+  for (const auto& [through, way] : lines_through(ring, shape.centre)) {
+    const Cut cut(ring, through, way);
+    const double length = std::max(1.0, cut.to - cut.from);
+    const double share = cut.covered() / shape.area - breadth_malus * shape.area / (length * length);
+    if (share > best_share) best.emplace(cut), best_share = share;
   }
-  const Cut cut(ring, shape.centre, best);
+  const Cut& cut = *best;
   const double length = cut.to - cut.from;
   if (length < 4 * before_end_um) return {};
   const int pieces = std::clamp(static_cast<int>(std::ceil(length / step_um)), 1, 200);
@@ -116,7 +162,7 @@ std::vector<Vertex> stub_bead(const std::vector<Place>& ring) {
   for (int i = 0; i <= pieces; ++i) {
     const double x = cut.from + length * i / pieces;
     const auto room = cut.beside(std::clamp(x, cut.from + before_end_um, cut.to - before_end_um));
-    path.push_back({{shape.centre.x + x * best.x, shape.centre.y + x * best.y}, std::max(1.0, room.left + room.right)});
+    path.push_back({cut.at(x), std::max(1.0, room.left + room.right)});
   }
   const double scale = shape.area / area_of(path);
   for (Vertex& v : path) v.width *= scale;

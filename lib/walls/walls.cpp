@@ -6,6 +6,7 @@
 #include "model/flow.h"
 #include "walls/finish.h"
 #include "walls/fit_ends.h"
+#include "walls/keep_inside.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +22,8 @@ namespace {
 
 constexpr double corner_deg = 45;  // walls are led into the tip of a sharper corner
 constexpr double chord_um = 4;     // how far a chord may stand off a bead that bends around a corner
+
+constexpr double thin_taper_um = 20;  // of a thin part's bead, over half its width, may be evened at its ends
 
 void add_rings(const Regions& at, Um width, std::uint16_t inset, std::uint32_t part, Beads& out) {
   auto add = [&](const Ring& ring) {
@@ -76,19 +79,29 @@ struct Part {
 void keep_volume(const Region& region, Um widest, Part& part) {
   constexpr double most = 0.05;        // beyond, something was left out on purpose
   constexpr double tolerated = 0.002;  // so much stays where it is: evenness of the walls is worth more
+  constexpr Um single_wider = 4;       // has the outline on both sides
   const double wanted = area_mm2(region) - area_mm2(part.inside);
+  std::vector<Um> widest_of;                 // each junction, once any is to be wider
   for (int round = 0; round < 4; ++round) {  // again, for beads that are as wide as they may be do not take their share
     double laid = 0;
     for (const Bead& bead : part.beads) laid += volume_mm3(bead, 1_mm);
     if (laid <= 0 || std::abs(wanted / laid - 1) <= tolerated) return;
     const double ratio = wanted / laid;
     const double scale = std::clamp(ratio > 1 ? ratio - tolerated : ratio + tolerated, 1 - most, 1 + most);
+    if (widest_of.empty())
+      for (const Bead& bead : part.beads) {
+        const bool single = bead.inset == 0 && !bead.closed;
+        for (const Junction& j : bead.path)
+          widest_of.push_back(single ? std::min(widest, j.width + single_wider) : widest);
+      }
+    std::size_t i = 0;
     for (Bead& bead : part.beads)
       for (Junction& j : bead.path) {
+        const Um widest_here = widest_of[i++];
         if (j.flow < 1.F)
           j.flow = std::min(1.F, static_cast<float>(j.flow * scale));
         else
-          j.width = std::min(widest, rounded(j.width * scale));
+          j.width = std::min(widest_here, rounded(j.width * scale));
       }
   }
 }
@@ -133,9 +146,16 @@ Part build_part(const WallSettings& settings, const Widths& widths, const Region
   finishing.most_flow = settings.max_flow_ratio / 100;
   auto pairs = trace_pairs(skeleton, laying), middles = trace_middles(skeleton, laying);
   fit_ends(middles, pairs);
+  // Of a part that is hardly wider than a bead both sides of every bead are its outline.
+  const bool thin =
+      pairs.empty() && std::none_of(middles.begin(), middles.end(), [](const Line& l) { return l.closed; });
+  if (thin) finishing.even_taper = thin_taper_um;
+  std::vector<Line> finished;
   for (auto* lines : {&pairs, &middles})
-    for (Line& line : *lines) finish(std::move(line), finishing, out.beads, out.dropped_mm);
+    for (Line& line : *lines) finish(std::move(line), finishing, finished, out.dropped_mm);
   out.inside = rest_of(skeleton, laying, axis.origin);
+  if (thin) keep_inside(region, finishing, finished);
+  for (const Line& line : finished) append_bead(line, finishing, out.beads);
   keep_volume(region, rounded(widths.most), out);
   return out;
 }

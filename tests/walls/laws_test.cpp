@@ -106,29 +106,31 @@ TEST_CASE("walls: on 1,000 random polygons beads and inside together have the ar
   CHECK(mean / count < 0.0025);
 }
 
-TEST_CASE("walls: closed walls stay within 0.015 mm of the part, single beads within 0.01 mm but in one of eight",
+TEST_CASE("walls: beads stay within 0.01 mm of a part that is hardly wider than one, of others but in one of 25",
           "[walls][law]") {
-  // Not the law one would wish for: a part hardly wider than a bead gets one bead, of its volume, and where it is not
-  // alike on both sides of that bead a corner of the band lies outside. Measured over 1,000 of these: 114, at most
-  // 182 µm. To be within 0.01 mm always, a part would need beads of a few hundredths of a millimetre in its corners.
+  // Measured over 1,000 of these: 78 have none but single beads, which stay within 0.01 mm. Of the others, 34
+  // have an arm whose bead reaches further, by at most 92 µm, where it ends at an edge that is not square to it or
+  // meets the walls of the rest; and 2 a closed wall, by at most 15 µm.
   std::mt19937 random(20'240'601);
-  int count = 0, astray = 0;
+  int count = 0, thin = 0, astray = 0;
   for (int i = 0; i < 1000; ++i) {
     const Regions regions = geometry::regions_from_rings(std::vector<Ring>{random_ring(random)});
     const auto walls = walls_of(regions);
+    const bool all_open = std::none_of(walls.beads.begin(), walls.beads.end(), [](const Bead& b) { return b.closed; });
     bool outside_open = false;
     for (const Bead& bead : walls.beads) {
       const double most = footprint_outside(regions, bead);
       CAPTURE(i, most);
-      if (bead.closed) CHECK(most <= 15);
+      CHECK(most <= (all_open ? 10 : bead.closed ? 15 : 95));
       outside_open = outside_open || (!bead.closed && most > 10);
-      CHECK(most <= 200);
     }
     ++count;
+    thin += all_open ? 1 : 0;
     astray += outside_open ? 1 : 0;
   }
-  CAPTURE(astray, count);
-  CHECK(astray <= count / 8);
+  CAPTURE(astray, thin, count);
+  CHECK(thin > 50);
+  CHECK(astray <= count / 25);
 }
 
 TEST_CASE("walls: no bead of a random polygon is wider than max_wall_line_width", "[walls][law]") {
@@ -141,7 +143,7 @@ TEST_CASE("walls: no bead of a random polygon is wider than max_wall_line_width"
 }
 
 TEST_CASE("walls: the mirror image of a part gets the mirror image of its beads", "[walls][law]") {
-  // Measured over 1,000 of these: one differs by more than 5 µm, where two directions of a short bead are equally good.
+  // Measured over 1,000 of these: one differs by more than 5 µm, by a short bead in a corner that is cut differently.
   std::mt19937 random(20'240'601);
   int count = 0, off = 0;
   for (int i = 0; i < 1000; ++i) {

@@ -1,0 +1,36 @@
+#include "walls/room.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft::walls {
+namespace {
+constexpr double end_um = 4;
+}
+
+Place Room::on_piece(Point p, Place a, Place way) const {
+  const double x = static_cast<double>(p.x - origin_.x) - a.x, y = static_cast<double>(p.y - origin_.y) - a.y;
+  return {x * way.x + y * way.y, y * way.x - x * way.y};
+}
+
+double Room::beside(Place a, Place b, double most, bool first, bool last) {
+  const double length = distance(a, b), end = std::min(end_um, length / 4);
+  const double from = first ? end : 0, to = last ? length - end : length;
+  const Place way = unit(a, b), middle = lerp(a, b, 0.5);
+  const double reach = std::hypot(most, length / 2) + 2;
+  const auto lattice = [&](double x, double y) { return Point{origin_.x + rounded(x), origin_.y + rounded(y)}; };
+  index_.near({lattice(middle.x - reach, middle.y - reach), lattice(middle.x + reach, middle.y + reach)}, near_);
+  double room = most;
+  for (const std::uint32_t i : near_) {
+    const auto& s = index_.segments()[i];
+    Place p = on_piece(s.a, a, way), q = on_piece(s.b, a, way);
+    if (p.x > q.x) std::swap(p, q);
+    if (q.x <= from || p.x >= to) continue;
+    const auto at = [&](double x) { return p.y + (x - p.x) / (q.x - p.x) * (q.y - p.y); };
+    const double y = p.x < from ? at(from) : p.y, z = q.x > to ? at(to) : q.y;
+    room = std::min(room, (y < 0) != (z < 0) ? 0 : std::min(std::abs(y), std::abs(z)));
+  }
+  return room;
+}
+
+}  // namespace weft::walls

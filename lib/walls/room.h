@@ -1,0 +1,29 @@
+#pragma once
+#include "core/polygon.h"
+#include "geometry/spatial_index.h"
+#include "walls/place.h"
+
+#include <cstdint>
+#include <vector>
+
+/// Private to walls: how wide a bead may be where it lies.
+namespace weft::walls {
+
+class Room {
+ public:
+  /// `origin` is that of the places asked about.
+  Room(const Region& region, Point origin) : origin_(origin), index_(Regions{region}) {}
+
+  /// Half the width at which the band of a piece from a to b reaches the outline on either side; no more than `most`,
+  /// µm. At a piece's first (last) end, if it is an end of the bead, what is not quite square is no lack of room.
+  double beside(Place a, Place b, double most, bool first, bool last);
+
+ private:
+  Place on_piece(Point p, Place a, Place way) const;
+
+  Point origin_;
+  geometry::SegmentIndex index_;
+  std::vector<std::uint32_t> near_;
+};
+
+}  // namespace weft::walls

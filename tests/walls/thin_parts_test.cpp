@@ -1,0 +1,71 @@
+#include "geometry/boolean.h"
+#include "walls/shapes.h"
+#include "walls/stub.h"
+#include "walls/walls.h"
+
+#include <catch2/catch.hpp>
+
+using namespace weft;
+using namespace weft::test;
+
+namespace {
+
+/// Where the pieces of a bead lie, each as wide as it is on average.
+Regions bands_of(const Beads& beads) {
+  std::vector<Ring> rings;
+  for (const Bead& bead : beads)
+    for (std::size_t k = 1; k < bead.path.size(); ++k) {
+      const Junction &a = bead.path[k - 1], &b = bead.path[k];
+      const double dx = b.at.x - a.at.x, dy = b.at.y - a.at.y, length = std::hypot(dx, dy),
+                   half = (a.width + b.width) / 4.0;
+      const Point n{rounded(-half * dy / length), rounded(half * dx / length)};
+      rings.push_back({a.at - n, b.at - n, b.at + n, a.at + n});
+    }
+  return geometry::regions_from_rings(rings);
+}
+
+}  // namespace
+
+TEST_CASE("walls: a triangle hardly larger than a bead keeps its volume and little of it lies beside it", "[walls]") {
+  // 2.2 % on average; one bead as wide as the triangle on both sides together laid 5.1 % beside it.
+  WallSettings settings;
+  settings.flow_compensation = false;
+  double beside = 0;
+  int count = 0;
+  for (const Um size : {500, 600, 700, 800})
+    for (const Um lean : {-200, 0, 150, 500}) {
+      CAPTURE(size, lean);
+      const Regions part{{{{0, 0}, {size, 0}, {size / 2 + lean, size}}, {}}};
+      const auto walls = built(part, settings);
+      const double area = area_mm2(part);
+      const Regions bands = bands_of(walls.beads);
+      CHECK(bead_area_mm2(walls) == Approx(area).epsilon(0.005));
+      beside += (area_mm2(bands) - area_mm2(geometry::intersect(part, bands))) / area;
+      ++count;
+    }
+  CHECK(beside / count < 0.025);
+}
+
+TEST_CASE("walls: where no bead is too short, corners of a thin part get beads of their own", "[walls]") {
+  // A bead along a triangle and one in the corner that it does not reach.
+  WallSettings settings;
+  settings.flow_compensation = false;
+  settings.min_feature_size = 1;
+  settings.min_wall_length = 0;
+  const Regions part{{{{0, 0}, {600, 0}, {800, 600}}, {}}};
+  const auto walls = built(part, settings);
+  CHECK(walls.beads.size() > 1);
+  const Regions bands = bands_of(walls.beads);
+  CHECK(area_mm2(bands) - area_mm2(geometry::intersect(part, bands)) < 0.005 * area_mm2(part));
+}
+
+TEST_CASE("walls: a short bead lies half-way between the sides of a part, not along one of them", "[walls]") {
+  // 1 mm long, 0.3 mm wide at one end and 0.6 mm at the other, with no edge in the bead's direction.
+  const std::vector<walls::Place> ring{{0, 100}, {1000, 0}, {1100, 600}, {50, 400}};
+  const auto path = walls::stub_bead(ring);
+  REQUIRE(path.size() > 2);
+  const auto& a = path.front().at;
+  const auto& b = path.back().at;
+  const double way = std::atan2(b.y - a.y, b.x - a.x), lower = std::atan2(-100, 1000), upper = std::atan2(200, 1050);
+  CHECK(std::abs(std::remainder(way - (lower + upper) / 2, std::numbers::pi)) < 0.01);
+}
