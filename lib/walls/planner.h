@@ -74,9 +74,10 @@ class Planner {
   double wide_bead() const { return std::min(w_.most, 1.7 * std::min(w_.inner, w_.outer)); }
 
   // small places where thick arms meet
-  /// Where four arms or more of equal beads meet and their walls alone would become too wide, but there is no room for
+  /// Where four or five arms of equal beads meet and their walls alone would become too wide, but there is no room for
   /// a wall that turns back: the walls go on as wide as they come, and a bead in the middle fills what they leave.
   void pass_junctions();
+  bool is_climb(std::uint32_t e) const { return steep_[e] && s_.length(e) > one_place; }
   /// Whether steep ways lead up from a node, or down, but not both: it does not lie on a slope, nor in the flat.
   bool steep_around(std::uint32_t node) const;
   /// The place around a node that no steep way leads up from, if it is small, with the steep ways down from it.
@@ -111,6 +112,9 @@ class Planner {
   static constexpr std::uint32_t none = ~0U;
   static constexpr double outer_spread =
       1.25;  // of its width: an outer wall alone on its side grows to this in a taper
+  static constexpr std::size_t fewest_arms = 4, most_arms = 5;  // of three the walls fill it; of six much stays bare
+  static constexpr double one_place =
+      10;  // so near lie the nodes where more than three parts meet: corners are rounded
   static constexpr double longest_summit =
       2.5;  // of a bead's width: bars of two beads that cross at 45° meet in two places so far apart
   static constexpr double same_um = 1e-3;     // lengths that differ by less are equal

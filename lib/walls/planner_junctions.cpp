@@ -9,7 +9,8 @@ void Planner::pass_junctions() {
   std::vector<std::uint32_t> nodes, edges;
   std::vector<std::vector<std::uint32_t>> arms;
   for (std::uint32_t n = 0; n < any_.size(); ++n) {
-    if (!steep_around(n) || !summit(n, nodes, edges, arms) || arms.size() < 4) continue;
+    if (!steep_around(n) || !summit(n, nodes, edges, arms)) continue;
+    if (arms.size() < fewest_arms || arms.size() > most_arms) continue;
     double walls = 0, room = 0;  // half the thickness that the walls fill, and that there is
     for (auto& arm : arms) {
       down_to_level(arm);
@@ -31,7 +32,7 @@ void Planner::pass_junctions() {
 bool Planner::steep_around(std::uint32_t node) const {
   bool up = false, down = false;
   for_each_leaving(any_[node], [&](std::uint32_t h) {
-    if (!steep_[h / 2] || (!core_[h / 2] && !mouth_[h / 2])) return;
+    if (!is_climb(h / 2) || (!core_[h / 2] && !mouth_[h / 2])) return;
     (s_.end(h).clearance < s_.start(h).clearance ? down : up) = true;
   });
   return up != down;
@@ -48,12 +49,12 @@ bool Planner::summit(std::uint32_t node, std::vector<std::uint32_t>& nodes, std:
     for_each_leaving(any_[nodes[i]], [&](std::uint32_t h) {
       const std::uint32_t e = h / 2;
       if ((!core_[e] && !mouth_[e]) || std::find(edges.begin(), edges.end(), e) != edges.end()) return;
-      if (steep_[e] && s_.end(h).clearance < s_.start(h).clearance) {
+      if (is_climb(e) && s_.end(h).clearance < s_.start(h).clearance) {
         arms.push_back({h});
         down = true;
         return;
       }
-      up = up || steep_[e];
+      up = up || is_climb(e);
       edges.push_back(e);
       length += s_.length(e);
       if (std::find(nodes.begin(), nodes.end(), s_.to(h)) == nodes.end()) nodes.push_back(s_.to(h));

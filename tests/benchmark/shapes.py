@@ -139,6 +139,16 @@ def crossing(arms, width, length, phase):
     return [[out]]
 
 
+def crossed_bars(width, degrees, phase=.3):
+    """Two bars 10 mm long that cross at an angle."""
+    half, angle, out = width / 2, math.radians(degrees), []
+    for arm in range(4):
+        a, turn = phase + arm // 2 * math.pi + arm % 2 * angle, angle if arm % 2 == 0 else math.pi - angle
+        for along, aside in ((5000, -half), (5000, half), (half / math.tan(turn / 2), half)):
+            out.append((along * math.cos(a) - aside * math.sin(a), along * math.sin(a) + aside * math.cos(a)))
+    return [[out]]
+
+
 def holes(radius, count, gap, seed):
     """A disc with round holes thrown in at random, at least `gap` apart: necks of every width."""
     rng, placed = random.Random(seed), []
@@ -184,7 +194,8 @@ def generated():
         "holes": holes(9000, 30, 150, 3), "holesfine": holes(7000, 26, 60, 8),
         "T": [[[(0, 0), (8000, 0), (8000, 900), (4450, 900), (4450, 8000), (3550, 8000), (3550, 900), (0, 900)]]],
         "taperedT": [[[(0, 0), (9000, 0), (9000, 350), (4900, 1100), (4550, 8000), (4350, 8000), (3800, 1100), (0, 700)]]],
-        "X": turned(crossing(4, 600, 5000, 0), 45), "X1000": crossing(4, 1000, 5000, .3),
+        "X": turned(crossing(4, 600, 5000, 0), 45), "X1000": crossing(4, 1000, 5000, .3), "X1800": crossing(4, 1800, 5000, .3),
+        "X1000_50": crossed_bars(1000, 50), "X1000_70": crossed_bars(1000, 70), "star5x1000": crossing(5, 1000, 5000, .3),
         "Y": crossing(3, 600, 5000, .2), "Y1100": crossing(3, 1100, 5000, 1),
         "blob": [[blob]], "disc": [[ring(0, 0, 5000)]], "square20": [[box(0, 0, 20000, 20000)]],
         "square17": turned([[box(0, 0, 3700, 3700)]], 17), "rect": turned([[box(0, 0, 9000, 2050)]], 31),
