@@ -107,7 +107,7 @@ TEST_CASE("walls: where arms of two beads cross, the walls pass and beads betwee
       const Region cross = crossed_bars(width, degrees, turn);
       const WallLayer walls = filled({cross});
       CHECK(std::count_if(walls.beads.begin(), walls.beads.end(), [](const Bead& b) { return b.closed; }) == 1);
-      CHECK(bare_share(cross, walls, {{-800, -800}, {800, 800}}, 13) < 0.025);
+      CHECK(bare_share(cross, walls, {{-800, -800}, {800, 800}}, 13) < 0.005);
       CHECK(bead_area_mm2(walls) == Approx(area_mm2(cross)).epsilon(0.003));
     }
   }
