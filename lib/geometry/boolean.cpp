@@ -4,6 +4,8 @@
 #include "geometry/nesting.h"
 #include "geometry/simplify.h"
 
+#include <utility>
+
 namespace weft::geometry {
 namespace {
 using clipper::FineRing;
@@ -68,6 +70,15 @@ Regions intersect(const Regions& a, const Regions& b) {
 
 Regions subtract(const Regions& from, const Regions& what) {
   return run(Operation::subtract, from, what);
+}
+Cut cut(const Regions& what, const Regions& by) {
+  Box box = box_of(what);
+  if (!box.overlaps(box_of(by))) return {{}, subtract(what, by)};
+  box.add(box_of(by));
+  const Point origin = box.centre();
+  constexpr Operation both[] = {Operation::intersect, Operation::subtract};
+  auto sides = clipper::run(both, WindingRule::nonzero, fine(what, origin), fine(by, origin), origin);
+  return {std::move(sides[0]), std::move(sides[1])};
 }
 Regions exclusive_or(const Regions& a, const Regions& b) {
   return run(Operation::exclusive_or, a, b);

@@ -23,6 +23,12 @@ Regions unite(const Regions& a, const Regions& b);
 Regions intersect(const Regions& a, const Regions& b);
 /// What of `from` is not in `what`.
 Regions subtract(const Regions& from, const Regions& what);
+/// Both sides of a cut, at less than the cost of both: the regions of intersect(what, by) and of subtract(what, by),
+/// which may come in another order where corners are equally low.
+struct Cut {
+  Regions inside, outside;
+};
+Cut cut(const Regions& what, const Regions& by);
 Regions exclusive_or(const Regions& a, const Regions& b);
 
 /// All rings of the regions, outers before their holes.

@@ -144,38 +144,44 @@ class Heaps {
   std::vector<std::size_t> ends_;
 };
 
-/// Outers counter-clockwise, holes clockwise. Not as Clipper's tree: the time to build that grows with the square of
-/// the number of crossings.
-std::vector<Ring> swept_at_once(Operation operation, WindingRule rule, const FineRings& subject, const FineRings& clip,
-                                Point origin) {
+/// What each of several operations leaves of one input. Outers counter-clockwise, holes clockwise.
+using Results = std::vector<std::vector<Ring>>;
+
+/// Not as Clipper's tree: the time to build that grows with the square of the number of crossings.
+Results swept_at_once(std::span<const Operation> operations, WindingRule rule, const FineRings& subject,
+                      const FineRings& clip, Point origin) {
   // Clipper gives up when rounding contradicts its sweep order: very rare, and another grid has other roundings.
   for (const std::int64_t coarser : {1, 3, 16, 160}) {
     try {
       ClipperLib::Clipper sweep;
       const bool any_subject = add(sweep, subject, ClipperLib::ptSubject, coarser);
       const bool any_clip = add(sweep, clip, ClipperLib::ptClip, coarser);
-      if (!any_subject && !any_clip) return {};
+      if (!any_subject && !any_clip) return Results(operations.size());
+      Results out;
       ClipperLib::Paths contours;
-      if (sweep.Execute(type_of(operation), contours, fill_of(rule), fill_of(rule)))
-        return settled(contours, coarser, origin);
+      for (const auto operation : operations)
+        if (sweep.Execute(type_of(operation), contours, fill_of(rule), fill_of(rule)))
+          out.push_back(settled(contours, coarser, origin));
+      if (out.size() == operations.size()) return out;
     } catch (const ClipperLib::clipperException&) {
     }
   }
   throw std::logic_error("geometry: a polygon Boolean failed on every grid");
 }
 
-std::vector<Ring> swept(Operation operation, WindingRule rule, const FineRings& subject, const FineRings& clip,
-                        Point origin) {
+Results swept(std::span<const Operation> operations, WindingRule rule, const FineRings& subject, const FineRings& clip,
+              Point origin) {
   constexpr std::size_t many = 256;
-  if (subject.size() + clip.size() <= many) return swept_at_once(operation, rule, subject, clip, origin);
+  if (subject.size() + clip.size() <= many) return swept_at_once(operations, rule, subject, clip, origin);
   const Heaps heaps(subject, clip);
-  std::vector<Ring> out;
+  Results out(operations.size());
   FineRings subjects, clips;
   for (std::size_t i = 0; i < heaps.size(); ++i) {
     subjects.clear(), clips.clear();
     for (const auto& item : heaps[i]) (item.clip ? clips : subjects).push_back(*item.ring);
-    auto rings = swept_at_once(operation, rule, subjects, clips, origin);
-    std::move(rings.begin(), rings.end(), std::back_inserter(out));
+    auto parts = swept_at_once(operations, rule, subjects, clips, origin);
+    for (std::size_t k = 0; k < out.size(); ++k)
+      std::move(parts[k].begin(), parts[k].end(), std::back_inserter(out[k]));
   }
   return out;
 }
@@ -215,10 +221,9 @@ FineRings split(const SegmentIndex& index, const std::vector<std::pair<std::uint
   }
   return out;
 }
-}  // namespace
 
-Regions run(Operation operation, WindingRule rule, const FineRings& subject, const FineRings& clip, Point origin) {
-  std::vector<Ring> rings = swept(operation, rule, subject, clip, origin);
+/// The regions of an operation's result.
+Regions tidied(std::vector<Ring> rings, Point origin) {
   // Rounding to whole microns can push a corner through an edge close by. Then both get a corner where they cross, and
   // what that turned over is united away. Nearly always once is enough.
   constexpr int most_rounds = 4;
@@ -226,8 +231,21 @@ Regions run(Operation operation, WindingRule rule, const FineRings& subject, con
     const SegmentIndex index(rings);
     const auto pairs = index.crossing_pairs();
     if (pairs.empty() || round == most_rounds) return nested_by_orientation(rings, index);
-    rings = swept(Operation::unite, WindingRule::positive, split(index, pairs, origin), {}, origin);
+    constexpr Operation unite[] = {Operation::unite};
+    rings = std::move(swept(unite, WindingRule::positive, split(index, pairs, origin), {}, origin).front());
   }
+}
+}  // namespace
+
+std::vector<Regions> run(std::span<const Operation> operations, WindingRule rule, const FineRings& subject,
+                         const FineRings& clip, Point origin) {
+  std::vector<Regions> out;
+  for (auto& rings : swept(operations, rule, subject, clip, origin)) out.push_back(tidied(std::move(rings), origin));
+  return out;
+}
+
+Regions run(Operation operation, WindingRule rule, const FineRings& subject, const FineRings& clip, Point origin) {
+  return std::move(run(std::span(&operation, 1), rule, subject, clip, origin).front());
 }
 
 }  // namespace weft::geometry::clipper

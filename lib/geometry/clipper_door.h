@@ -3,6 +3,7 @@
 #include "geometry/boolean.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 /// The only door to Clipper; private to geometry/. Works on a grid of `steps` to the micron around an origin of the
@@ -23,5 +24,9 @@ enum class Operation { unite, intersect, subtract, exclusive_or };
 
 /// Post: regions as core/polygon.h says, no collinear vertices, none below tolerances::sliver_area_um2.
 Regions run(Operation operation, WindingRule rule, const FineRings& subject, const FineRings& clip, Point origin);
+
+/// The same for several operations on one input, in their order: it is read once.
+std::vector<Regions> run(std::span<const Operation> operations, WindingRule rule, const FineRings& subject,
+                         const FineRings& clip, Point origin);
 
 }  // namespace weft::geometry::clipper

@@ -291,12 +291,20 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> SegmentIndex::crossing_pair
   std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
   for (std::size_t k = 0; k + 1 < starts_.size(); ++k) {
     const auto here = cell(k);
-    for (std::size_t x = 0; x < here.size(); ++x)
+    for (std::size_t x = 0; x + 1 < here.size(); ++x) {
+      const Segment s = segments_[here[x]];
+      const auto [left, right] = std::minmax(s.a.x, s.b.x);
+      const auto [bottom, top] = std::minmax(s.a.y, s.b.y);
       for (std::size_t y = x + 1; y < here.size(); ++y) {
-        const Segment &s = segments_[here[x]], &t = segments_[here[y]];
-        if (segments_touch(s.a, s.b, t.a, t.b) && segments_cross(s.a, s.b, t.a, t.b))
-          out.emplace_back(here[x], here[y]);
+        const Segment& t = segments_[here[y]];
+        // Boxes that only touch: what crosses there would be two parallels.
+        if (std::max(t.a.x, t.b.x) <= left || std::min(t.a.x, t.b.x) >= right || std::max(t.a.y, t.b.y) <= bottom ||
+            std::min(t.a.y, t.b.y) >= top) {
+          continue;
+        }
+        if (segments_cross(s.a, s.b, t.a, t.b)) out.emplace_back(here[x], here[y]);
       }
+    }
   }
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());  // they met in several cells

@@ -8,8 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 namespace weft::infill {
 namespace {
@@ -188,10 +190,9 @@ void cut_apart(const Regions& mixed, std::span<const Kind> kinds, const Mask& in
       areas.insert(areas.end(), rest.begin(), rest.end());
       break;
     }
-    const Regions rough = rough_outline(*present[k]->cells, inside);
-    const Regions cut = geometry::intersect(rest, rough);
-    rest = geometry::subtract(rest, rough);
-    areas.insert(areas.end(), cut.begin(), cut.end());
+    auto cut = geometry::cut(rest, rough_outline(*present[k]->cells, inside));
+    rest = std::move(cut.outside);
+    std::move(cut.inside.begin(), cut.inside.end(), std::back_inserter(areas));
   }
 }
 

@@ -25,6 +25,26 @@ TEST_CASE("geometry: areas obey inclusion and exclusion, on seeded stars", "[law
   }
 }
 
+TEST_CASE("geometry: both sides of a cut are what intersecting and subtracting give", "[law]") {
+  shapes::Dice dice(9);
+  const auto check = [](const Regions& what, const Regions& by) {
+    const Cut sides = cut(what, by);
+    CHECK(exclusive_or(sides.inside, intersect(what, by)).empty());
+    CHECK(exclusive_or(sides.outside, subtract(what, by)).empty());
+  };
+  for (int i = 0; i < 60; ++i) {
+    const Point at{dice.between(-20000, 20000), dice.between(-6000, 6000)};  // some apart
+    check({{shapes::star(dice, {0, 0}, 9000, dice.between(3, 50)), {}}},
+          {{shapes::star(dice, at, 9000, dice.between(3, 50)), {}}});
+  }
+  Regions many;  // more than are swept at once
+  for (Um x = 0; x < 20; ++x)
+    for (Um y = 0; y < 20; ++y) many.push_back(rectangle({x * 3000, y * 3000}, {x * 3000 + 2000, y * 3000 + 2000}));
+  check(many, {{shapes::star(dice, {30000, 30000}, 25000, 30), {}}});
+  check({}, many);
+  check(many, {});
+}
+
 TEST_CASE("geometry: outers come back counter-clockwise, holes clockwise, islands as regions of their own") {
   const Regions plate{rectangle({0, 0}, {30000, 30000})};
   const Regions ring = subtract(plate, {rectangle({5000, 5000}, {25000, 25000})});
