@@ -67,7 +67,7 @@ void for_each_in_order(std::size_t count, std::size_t places, const Steps& steps
   if (count > 0) tbb::parallel_pipeline(places, filters);
 }
 std::size_t most_in_flight() {
-  return 4 * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  return 2 * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
 }
 
 struct Beside::State {

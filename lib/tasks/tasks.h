@@ -20,7 +20,7 @@ struct Steps {
 /// what has so many: i − places is done with it.
 /// @throws what `take` throws, then nothing more is taken. Pre: the others do not throw; places > 0 unless count is 0
 void for_each_in_order(std::size_t count, std::size_t places, const Steps& steps);
-/// Places that keep all threads at work.
+/// Places that keep all threads at work: for each one that is worked on and one that waits for its turn.
 std::size_t most_in_flight();
 
 /// Work that is done beside one's own.
