@@ -175,7 +175,7 @@ bool Comb::visit_edges(Point a, Point b, const Visit& visit) const {
 bool Comb::sees(Point a, Point b, IgnoredRings ignored) const {
   if (a == b) return true;
   return !visit_edges(
-      a, b, [&](std::uint32_t e) { return !ignored.has(ring_of_[e]) && cross(a, b, moved_[e], moved_[next(e)]); });
+      a, b, [&](std::uint32_t e) { return cross(a, b, moved_[e], moved_[next(e)]) && !ignored.has(ring_of_[e]); });
 }
 
 std::uint32_t Comb::part_of(Point p) const {

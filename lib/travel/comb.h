@@ -70,8 +70,8 @@ class Comb {
     bool hole = false;
   };
   std::uint32_t next(std::uint32_t edge) const {
-    const auto& ring = rings_[ring_of_[edge]];
-    return edge + 1 == ring.end ? ring.begin : edge + 1;
+    const bool last = edge + 1 == ring_of_.size() || ring_of_[edge + 1] != ring_of_[edge];
+    return last ? rings_[ring_of_[edge]].begin : edge + 1;
   }
 
   std::vector<Point> points_;  ///< of all rings; edge i leads from point i to point next(i), the inside on its left

@@ -39,7 +39,7 @@ Vec direction(const std::vector<Junction>& path, std::size_t i, bool forward) {
   std::size_t k = i;
   double gone = 0;
   for (std::size_t steps = 1; steps < n; ++steps) {
-    const std::size_t next = forward ? (k + 1) % n : (k + n - 1) % n;
+    const std::size_t next = forward ? (k + 1 < n ? k + 1 : 0) : (k > 0 ? k : n) - 1;
     const double step = distance(path[k].at, path[next].at);
     if (gone + step >= reach_um) {
       const Point p = lerp(path[k].at, path[next].at, step > 0 ? (reach_um - gone) / step : 0.0);
@@ -144,7 +144,7 @@ std::vector<Corner> corners_of(const Bead& bead, SeamCorner kind, bool material_
   if (kind == SeamCorner::none || bead.path.size() < 3) return corners;
   for (std::size_t i = 0; i < bead.path.size(); ++i) {
     const std::size_t n = bead.path.size();
-    const Point a = bead.path[(i + n - 1) % n].at, b = bead.path[i].at, c = bead.path[(i + 1) % n].at;
+    const Point a = bead.path[(i > 0 ? i : n) - 1].at, b = bead.path[i].at, c = bead.path[i + 1 < n ? i + 1 : 0].at;
     // A turn within the half millimetre needs a turn here: most junctions of a curve are passed over cheaply.
     const double local = std::abs(static_cast<double>(orient(a, b, c)));
     if (local < 0.05 * distance(a, b) * distance(b, c) && dot(b - a, c - b) > 0) continue;
@@ -164,7 +164,7 @@ Start nearest_start(const Bead& bead, Point p, Um snap) {
   double best2 = std::numeric_limits<double>::infinity(), best_t = 0;
   const std::size_t n = bead.path.size();
   for (std::size_t i = 0; i < n; ++i) {
-    const Point a = bead.path[i].at, b = bead.path[(i + 1) % n].at;
+    const Point a = bead.path[i].at, b = bead.path[i + 1 < n ? i + 1 : 0].at;
     const double ux = static_cast<double>(b.x) - a.x, uy = static_cast<double>(b.y) - a.y;
     const double px = static_cast<double>(p.x) - a.x, py = static_cast<double>(p.y) - a.y;
     const double length2 = ux * ux + uy * uy;
