@@ -4,6 +4,7 @@
 #include "core/hash.h"
 #include "mesh/file_bytes.h"
 #include "mesh/formats.h"
+#include "tasks/tasks.h"
 
 #include <cmath>
 #include <cstring>
@@ -99,8 +100,11 @@ Loaded loaded_from(Contents contents, Format format, const std::string& path_as_
 Loaded read(std::string_view bytes, const std::string& path_as_typed, const ReadOptions& options) {
   const Source source{without_byte_order_mark(bytes), path_as_typed, options.scale};
   const Reader reader = reader_for(source);
+  std::string hash;
+  tasks::Beside beside([&] { hash = sha256(bytes); });
   auto loaded = loaded_from(reader.read(source), reader.format, path_as_typed);
-  loaded.sha256 = sha256(bytes);
+  beside.wait();
+  loaded.sha256 = std::move(hash);
   return loaded;
 }
 

@@ -1,7 +1,10 @@
 #include "core/error.h"
 #include "mesh/formats.h"
 #include "mesh/text.h"
-#include "mesh/weld.h"
+#include "mesh/weld_parts.h"
+
+#include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -10,40 +13,49 @@
 namespace weft::mesh {
 namespace {
 
+/// Reads a text, or a part of one that begins or ends between two facets.
 class AsciiStl {
  public:
-  explicit AsciiStl(const Source& source)
-      : source_(source), words_(source.bytes), weld_(source.bytes.size() / (2 * typical_facet_bytes) + 16) {}
+  AsciiStl(const Source& source, std::string_view text, Weld& weld) : source_(source), words_(text), weld_(weld) {}
 
-  Body read() {
-    Body body;
-    bool inside = false;
+  /// @param inside whether the text begins within a solid
+  /// @param name   that of the first solid that has one, if it is still empty
+  /// @return whether it ends within a solid
+  bool read(bool inside, std::vector<Triangle>& triangles, std::string& name) {
     for (std::string_view word = words_.next(); !word.empty(); word = words_.next()) {
       if (same_word(word, "facet") && inside) {
-        facet(body.mesh.triangles);
+        facet(triangles);
       } else if (same_word(word, "solid") && !inside) {
-        const std::string_view name = words_.rest_of_line();
-        if (body.name.empty()) body.name = name;
+        const std::string_view rest = rest_of_line();
+        if (name.empty()) name = rest;
         inside = true;
       } else if (same_word(word, "endsolid") || same_word(word, "end")) {
-        words_.rest_of_line();
+        rest_of_line();
         inside = false;
       } else if (same_word(word, "color") || !inside) {
-        words_.rest_of_line();  // extensions of some programs, and remarks between solids
+        rest_of_line();  // extensions of some programs, and remarks between solids
       } else {
         if (words_.at_end()) break;  // cut off in the middle of the word
         refuse(fmt::format("expected 'facet' or 'endsolid', found {}", quoted(word)));
       }
     }
-    if (inside)
-      refuse(fmt::format("the file ends without 'endsolid', after {} triangles", body.mesh.triangles.size()),
-             "it was cut off: copy or export it again");
-    body.mesh.vertices = weld_.take_vertices();
-    return body;
+    return inside;
+  }
+
+  /// Whether the text ends in a line that was read as a whole: of a part that may be longer.
+  bool ends_in_a_line() const { return ends_in_a_line_; }
+
+  [[noreturn]] void refuse_missing_end(std::size_t triangles) const {
+    refuse(fmt::format("the file ends without 'endsolid', after {} triangles", triangles),
+           "it was cut off: copy or export it again");
   }
 
  private:
-  static constexpr std::size_t typical_facet_bytes = 250;
+  std::string_view rest_of_line() {
+    const std::string_view rest = words_.rest_of_line();
+    ends_in_a_line_ = words_.at_end();
+    return rest;
+  }
 
   void facet(std::vector<Triangle>& triangles) {
     triangle_ = triangles.size() + 1;
@@ -95,9 +107,61 @@ class AsciiStl {
 
   const Source& source_;
   Words words_;
-  Weld weld_;
+  Weld& weld_;
+  bool ends_in_a_line_ = false;
   std::size_t triangle_ = 0;
 };
+
+constexpr std::size_t typical_facet_bytes = 250, least_facet_bytes = 70;
+
+/// Where the first facet ends that does so behind a place; the end of the text when none does.
+std::size_t facet_end(std::string_view text, std::size_t from) {
+  constexpr std::string_view keyword = "endfacet";
+  while ((from = text.find_first_of("eE", from)) < text.size()) {
+    const std::string_view word = text.substr(from, keyword.size());
+    from += 1;
+    if (same_word(word, keyword)) return from - 1 + keyword.size();
+  }
+  return text.size();
+}
+
+/// The text in parts, side by side; nothing when one is not just as it would be read in its turn: then it says nothing of
+/// what is wrong, which may have begun before.
+std::optional<Body> read_in_parts(const Source& source) {
+  constexpr std::size_t part_bytes = 1 << 19;
+  const std::string_view text = source.bytes;
+  PartReader reader;
+  reader.parts = std::max(text.size() / part_bytes, std::size_t{1});
+  reader.most_triangles = text.size() / least_facet_bytes;
+  reader.expected_vertices = text.size() / (2 * typical_facet_bytes) + 16;
+  const auto begin_of = [&](std::size_t i) { return i == 0 ? 0 : facet_end(text, i * part_bytes); };
+  std::vector<std::string> names(reader.parts);
+  reader.read = [&](std::size_t i, std::size_t, Part& part) {
+    const bool last = i + 1 == reader.parts;
+    const std::size_t begin = begin_of(i), end = last ? text.size() : begin_of(i + 1);
+    AsciiStl facets(source, text.substr(begin, end - begin), part.weld);
+    const bool inside = facets.read(i > 0, part.triangles, names[i]);
+    if (inside == last || (!last && facets.ends_in_a_line())) facets.refuse_missing_end(part.triangles.size());
+  };
+  try {
+    Body body;
+    body.mesh = welded(reader);
+    const auto named = std::find_if(names.begin(), names.end(), [](const std::string& name) { return !name.empty(); });
+    if (named != names.end()) body.name = *named;
+    return body;
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+Body read_as_a_whole(const Source& source) {
+  Weld weld(source.bytes.size() / (2 * typical_facet_bytes) + 16);
+  AsciiStl facets(source, source.bytes, weld);
+  Body body;
+  if (facets.read(false, body.mesh.triangles, body.name)) facets.refuse_missing_end(body.mesh.triangles.size());
+  body.mesh.vertices = weld.take_vertices();
+  return body;
+}
 
 }  // namespace
 
@@ -107,7 +171,8 @@ bool is_ascii_stl(std::string_view text) {
 
 Contents read_ascii_stl(const Source& source) {
   Contents contents;
-  contents.bodies.push_back(AsciiStl(source).read());
+  auto body = read_in_parts(source);
+  contents.bodies.push_back(body ? std::move(*body) : read_as_a_whole(source));
   return contents;
 }
 

@@ -1,3 +1,4 @@
+#include "core/hash.h"
 #include "corpus.h"
 #include "mesh/file_bytes.h"
 #include "mesh/fixtures.h"
@@ -81,6 +82,35 @@ TEST_CASE("mesh: the solids of an ASCII STL become shells of one object named by
   CHECK(loaded.objects[0].name == "left half");
   CHECK(loaded.triangles_in_file == 24);
   CHECK(volume_mm3(loaded.objects[0].mesh) == Approx(9000));
+}
+
+TEST_CASE("mesh: a long ASCII STL is the same model in parts as in one piece, whatever its lines hold", "[mesh][law]") {
+  const Facets facets = row_of_boxes(750);
+  const Mesh expected = read(binary_stl(facets)).objects[0].mesh;
+  const std::string name = GENERATE("part", "endfacet", "x endfacet facet", "");
+  const std::size_t of_each = GENERATE(9'000U, 1'700U, 7U);  // facets of a solid
+  std::string text;
+  for (std::size_t from = 0; from < facets.size(); from += of_each) {
+    const auto to = std::min(from + of_each, facets.size());
+    text += ascii_stl(Facets(facets.begin() + static_cast<std::ptrdiff_t>(from), facets.begin() + static_cast<std::ptrdiff_t>(to)), name);
+    text += "a remark, endfacet\n";
+  }
+  REQUIRE(text.size() > 3 << 19);
+  for (const unsigned threads : {1U, 8U}) {
+    const tasks::ThreadLimit limit(threads);
+    const Loaded loaded = read(text);
+    CHECK((loaded.objects[0].mesh == expected));
+    CHECK(loaded.objects[0].name == name);
+    CHECK(loaded.sha256 == sha256(text));
+  }
+}
+
+TEST_CASE("mesh: what is wrong far into an ASCII STL is told with its triangle and line", "[mesh]") {
+  std::string text = ascii_stl(row_of_boxes(750));
+  text.replace(text.rfind("vertex"), 6, "vortex");
+  CHECK_THAT(refusal(text), Contains("part:62999: triangle 9000: expected 'vertex', found 'vortex'"));
+  CHECK_THAT(refusal(text.substr(0, text.size() / 2)), Contains("the file ends in the middle of triangle 4531"));
+  CHECK_THAT(refusal(text.substr(0, text.find("endfacet", 1 << 20) + 8)), Contains("ends without 'endsolid'"));
 }
 
 TEST_CASE("mesh: ASCII numbers may have signs, exponents and no digit before the point", "[mesh]") {
