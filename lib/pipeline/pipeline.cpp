@@ -34,7 +34,8 @@ std::size_t room_for(const std::vector<gcode::LayerDigest>& layers) {
 
 /// The text of the file, audited as it grows. Each layer's steps are unpacked to be written, and let go of: plan and text
 /// are never both there as a whole.
-void write_gcode(const gcode::Job& job, PrintPlan& plan, std::vector<std::string> packed, audit::Check& check, Report& report) {
+void write_gcode(const gcode::Job& job, PrintPlan& plan, std::vector<std::string> packed, audit::Check& check, const Watch& watch,
+                 Report& report) {
   const Stopwatch stopwatch(report.timings_ms.gcode);
   const gcode::Writer writer(job);
   check.reserve(room_for(job.digests));
@@ -42,6 +43,7 @@ void write_gcode(const gcode::Job& job, PrintPlan& plan, std::vector<std::string
   const std::string tail = writer.tail();
   const auto let_go = [](auto& list) { std::exchange(list, {}); };  // not `list = {}`: that keeps its room
   const auto write = [&](std::size_t i) {
+    stop_if_cancelled(watch);
     decode(packed[i], plan.layers[i]);
     let_go(packed[i]);
     auto block = writer.layer(i);
@@ -140,7 +142,7 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
   audit::Check check(job.settings.machine, job.settings.material, job.settings.audit, job.audit);
   write_gcode({job.settings, plan, statistics, std::filesystem::path(job.models.front()).stem().string(),
                std::move(thumbnails), provenance_lines(report.models, job.placement), std::move(digests)},
-              plan, std::move(packed), check, report);
+              plan, std::move(packed), check, watch, report);
   begin("audit", 0.95);
   auto passed = verdict_of(check, job, report);
   watch.progress("done", 1.0);

@@ -68,12 +68,13 @@ Walls build_walls(const Settings& settings, const Settings& first, const Cuts& c
 }
 
 /// What fills the inside of each layer. Layers are taken in runs, so that the skin's neighbours are looked at once a run.
-std::vector<infill::LayerAreas> find_areas(const Settings& settings, const Cuts& cuts, const Walls& walls) {
+std::vector<infill::LayerAreas> find_areas(const Settings& settings, const Cuts& cuts, const Walls& walls, const Watch& watch) {
   std::vector<infill::ShellLayer> seen(cuts.size());
   for (std::size_t i = 0; i < cuts.size(); ++i) seen[i] = {cuts[i].layer.z, cuts[i].layer.height, &cuts[i].layer.regions, &walls[i].inside};
   const infill::ShellObject object{seen, infill::box_of(seen), settings.machine.nozzle_diameter};
   constexpr std::size_t run = 8;
   auto runs = tasks::parallel_map((cuts.size() + run - 1) / run, [&](std::size_t r) {
+    stop_if_cancelled(watch);
     return infill::find_areas(settings.shells, settings.infill, object, r * run, std::min(run, cuts.size() - r * run));
   });
   std::vector<infill::LayerAreas> areas;
@@ -84,7 +85,7 @@ std::vector<infill::LayerAreas> find_areas(const Settings& settings, const Cuts&
 
 /// Shells and infill.
 Fills fill_object(const Settings& settings, const Settings& first, const Cuts& cuts, const Walls& walls, const Watch& watch) {
-  auto areas = find_areas(settings, cuts, walls);
+  auto areas = find_areas(settings, cuts, walls, watch);
   Box box;  // patterns hang on its centre, so they move with the object
   for (const auto& cut : cuts) box.add(box_of(cut.layer.regions));
   return tasks::parallel_map(cuts.size(), [&](std::size_t i) {
