@@ -177,27 +177,28 @@ void finish(Line line, const FinishOptions& o, std::vector<Line>& out, double& d
   double kept = 0;
   for (auto& stretch : thick_stretches(line.path, o.least_feature)) {
     const double length = length_of(stretch);
-    if (length < o.least_length) continue;
+    if (length < o.least_length || stretch.size() < 2) continue;
     kept += length;
+    bool first_meets = line.first_meets && distance(stretch.front().at, line.path.front().at) < 1;
     bool last_meets = line.last_meets && distance(stretch.back().at, line.path.back().at) < 1;
     // A bead begins at its thin end: what swells behind the nozzle there is least.
     if (stretch.front().width > stretch.back().width) {
-      last_meets = line.first_meets && distance(stretch.front().at, line.path.front().at) < 1;
+      std::swap(first_meets, last_meets);
       std::reverse(stretch.begin(), stretch.end());
     }
     keep_within(stretch, o.most_width);
     thin_out(stretch);
     limit_steps(stretch);
-    const double most_um = line.inset == 0 ? o.even_taper : 1e9;
-    steady_start(stretch, any_taper, most_um);
+    const auto most_um = [&](bool meets) { return line.inset == 0 && !meets ? o.even_taper : 1e9; };
+    steady_start(stretch, any_taper, most_um(first_meets));
     // Travel may begin there, too. A single bead that goes on into a thicker part keeps its steps: evened, they would
     // reach beyond the outline.
     if (line.inset > 0 || !last_meets) {
       std::reverse(stretch.begin(), stretch.end());
-      steady_start(stretch, line.inset == 0 ? any_taper : even_inside, most_um);
+      steady_start(stretch, line.inset == 0 ? any_taper : even_inside, most_um(last_meets));
       std::reverse(stretch.begin(), stretch.end());
     }
-    out.push_back({std::move(stretch), false, line.inset});
+    out.push_back({std::move(stretch), false, line.inset, first_meets, last_meets});
   }
   dropped_mm += (whole - kept) / 1000;
 }

@@ -15,7 +15,7 @@ struct FinishOptions {
   double stable_outer = 200, stable_inner = 200;  ///< narrowest planned width, µm
   double most_width = 1e9;                        ///< no bead is wider, µm
   double least_flow = 0.05, most_flow = 1;
-  double even_taper = 1e9;  ///< an end of inset 0 that tapers by more keeps its steps, µm
+  double even_taper = 20;  ///< an end of inset 0 that meets no wall keeps its steps if it tapers by more, µm
 };
 
 /// Appends what is laid of a line, in the direction in which it is; `dropped_mm` grows by the length that was left out.

@@ -23,10 +23,23 @@ constexpr double tolerated = 0.002;   // of the part's area may be missing
 constexpr double forgiven = 0.004;    // … when pockets are too small for beads: else the part's volume comes first
 constexpr double most_outside_um = 200;  // … at the cost of so much at most
 constexpr double least_pocket = 0.002;   // of the part's area: what is smaller gets no bead
+constexpr double tip_um = 100;           // an end so narrow meets nothing
+constexpr double trim_step_um = 5;       // an end gives way in such steps
+constexpr double most_trim = 0.1;        // … up to so much of its width
 constexpr int most_rounds = 3;           // so often what beads leave is looked for
 
 double half_width(const Vertex& a, const Vertex& b) {
   return (a.width + b.width) / 4;
+}
+
+bool single(const Line& line) {
+  return !line.closed && line.inset == 0;
+}
+
+/// What lies between other walls with both its ends is none: it is as wide as they leave room for.
+bool is_arm(const Line& line) {
+  const auto ends = [](bool meets, const Vertex& v) { return !meets || v.width < tip_um; };
+  return single(line) && (ends(line.first_meets, line.path.front()) || ends(line.last_meets, line.path.back()));
 }
 
 /// The lines of one part.
@@ -35,14 +48,16 @@ class Keeper {
   Keeper(const Region& region, const FinishOptions& options, std::vector<Line>& lines)
       : region_(region), o_(options), lines_(lines), room_(region, options.origin) {}
 
-  void run() {
+  /// `thin`: all lines are single beads.
+  void run(bool thin) {
     bool any = false;
     for (Line& line : lines_) {
-      if (fits(line.path)) continue;
+      if (!(thin || is_arm(line)) || fits(line.path)) continue;
       any = true;
+      if (!thin) trim_ends(line);
       keep(line.path);
     }
-    if (!any) return;
+    if (!any || !thin) return;  // beside walls it is not known what else is bare
     const double whole = 1e6 * area_mm2(region_);
     missing_ = whole;
     for (const Line& line : lines_) missing_ -= area_of(line.path);
@@ -60,6 +75,27 @@ class Keeper {
         return false;
     }
     return true;
+  }
+
+  void trim_ends(Line& line) {
+    if (!line.last_meets) trim_end(line.path);
+    std::reverse(line.path.begin(), line.path.end());
+    if (!line.first_meets) trim_end(line.path);
+    std::reverse(line.path.begin(), line.path.end());
+  }
+
+  /// An end that is not quite square to the outline stays as wide and gives way a little.
+  void trim_end(Path& path) {
+    for (double by = trim_step_um; by <= most_trim * path.back().width; by += trim_step_um) {
+      Path trimmed = path;
+      cut_end(trimmed, by);
+      if (trimmed.size() < 2) return;
+      const Vertex &a = trimmed[trimmed.size() - 2], &b = trimmed.back();
+      const double half = half_width(a, b);
+      if (room_.beside(a.at, b.at, half, false, true) + noticed_um < half) continue;
+      path = std::move(trimmed);
+      return;
+    }
   }
 
   void keep(Path& path) {
@@ -180,7 +216,9 @@ class Keeper {
 }  // namespace
 
 void keep_inside(const Region& region, const FinishOptions& options, std::vector<Line>& lines) {
-  if (!lines.empty()) Keeper(region, options, lines).run();
+  const bool thin = std::all_of(lines.begin(), lines.end(), single);
+  if (lines.empty() || (!thin && std::none_of(lines.begin(), lines.end(), is_arm))) return;
+  Keeper(region, options, lines).run(thin);
 }
 
 }  // namespace weft::walls

@@ -23,8 +23,6 @@ namespace {
 constexpr double corner_deg = 45;  // walls are led into the tip of a sharper corner
 constexpr double chord_um = 4;     // how far a chord may stand off a bead that bends around a corner
 
-constexpr double thin_taper_um = 20;  // of a thin part's bead, over half its width, may be evened at its ends
-
 void add_rings(const Regions& at, Um width, std::uint16_t inset, std::uint32_t part, Beads& out) {
   auto add = [&](const Ring& ring) {
     if (ring.size() < 3) return;
@@ -146,15 +144,11 @@ Part build_part(const WallSettings& settings, const Widths& widths, const Region
   finishing.most_flow = settings.max_flow_ratio / 100;
   auto pairs = trace_pairs(skeleton, laying), middles = trace_middles(skeleton, laying);
   fit_ends(middles, pairs);
-  // Of a part that is hardly wider than a bead both sides of every bead are its outline.
-  const bool thin =
-      pairs.empty() && std::none_of(middles.begin(), middles.end(), [](const Line& l) { return l.closed; });
-  if (thin) finishing.even_taper = thin_taper_um;
   std::vector<Line> finished;
   for (auto* lines : {&pairs, &middles})
     for (Line& line : *lines) finish(std::move(line), finishing, finished, out.dropped_mm);
   out.inside = rest_of(skeleton, laying, axis.origin);
-  if (thin) keep_inside(region, finishing, finished);
+  keep_inside(region, finishing, finished);
   for (const Line& line : finished) append_bead(line, finishing, out.beads);
   keep_volume(region, rounded(widths.most), out);
   return out;

@@ -106,31 +106,28 @@ TEST_CASE("walls: on 1,000 random polygons beads and inside together have the ar
   CHECK(mean / count < 0.0025);
 }
 
-TEST_CASE("walls: beads stay within 0.01 mm of a part that is hardly wider than one, of others but in one of 25",
-          "[walls][law]") {
-  // Measured over 1,000 of these: 78 have none but single beads, which stay within 0.01 mm. Of the others, 34
-  // have an arm whose bead reaches further, by at most 92 µm, where it ends at an edge that is not square to it or
-  // meets the walls of the rest; and 2 a closed wall, by at most 15 µm.
+TEST_CASE("walls: beads stay within 0.01 mm of the part", "[walls][law]") {
+  // Measured over 1,000 of these: 4 have one that reaches further, two closed walls by 13 and 15 µm, two single beads
+  // between walls by 11 µm. Of the 78 that have none but single beads, none.
   std::mt19937 random(20'240'601);
-  int count = 0, thin = 0, astray = 0;
+  int thin = 0, astray = 0;
   for (int i = 0; i < 1000; ++i) {
     const Regions regions = geometry::regions_from_rings(std::vector<Ring>{random_ring(random)});
     const auto walls = walls_of(regions);
     const bool all_open = std::none_of(walls.beads.begin(), walls.beads.end(), [](const Bead& b) { return b.closed; });
-    bool outside_open = false;
+    bool outside = false;
     for (const Bead& bead : walls.beads) {
       const double most = footprint_outside(regions, bead);
       CAPTURE(i, most);
-      CHECK(most <= (all_open ? 10 : bead.closed ? 15 : 95));
-      outside_open = outside_open || (!bead.closed && most > 10);
+      CHECK(most <= (all_open ? 10 : 15));
+      outside = outside || most > 10;
     }
-    ++count;
     thin += all_open ? 1 : 0;
-    astray += outside_open ? 1 : 0;
+    astray += outside ? 1 : 0;
   }
-  CAPTURE(astray, thin, count);
+  CAPTURE(astray, thin);
   CHECK(thin > 50);
-  CHECK(astray <= count / 25);
+  CHECK(astray <= 4);
 }
 
 TEST_CASE("walls: no bead of a random polygon is wider than max_wall_line_width", "[walls][law]") {
