@@ -20,8 +20,9 @@
 namespace weft::walls {
 namespace {
 
-constexpr double corner_deg = 45;  // walls are led into the tip of a sharper corner
-constexpr double chord_um = 4;     // how far a chord may stand off a bead that bends around a corner
+constexpr double corner_deg = 45;      // walls are led into the tip of a sharper corner
+constexpr double dab_share = 2.0 / 3;  // of the square of a bead's width: a smaller part is a dab
+constexpr double chord_um = 4;         // how far a chord may stand off a bead that bends around a corner
 
 void add_rings(const Regions& at, Um width, std::uint16_t inset, std::uint32_t part, Beads& out) {
   auto add = [&](const Ring& ring) {
@@ -74,10 +75,10 @@ struct Part {
 };
 
 /// What turns, tips and branches lay too much or too little is taken from all beads of the part: its volume is right.
-void keep_volume(const Region& region, Um widest, Part& part) {
+/// `single_wider`: so much wider a single bead may get, µm, which has the outline on both sides.
+void keep_volume(const Region& region, Um widest, Um single_wider, Part& part) {
   constexpr double most = 0.05;        // beyond, something was left out on purpose
   constexpr double tolerated = 0.002;  // so much stays where it is: evenness of the walls is worth more
-  constexpr Um single_wider = 4;       // has the outline on both sides
   const double wanted = area_mm2(region) - area_mm2(part.inside);
   std::vector<Um> widest_of;                 // each junction, once any is to be wider
   for (int round = 0; round < 4; ++round) {  // again, for beads that are as wide as they may be do not take their share
@@ -140,6 +141,9 @@ Part build_part(const WallSettings& settings, const Widths& widths, const Region
   finishing.stable_outer = std::max<double>(settings.min_output_width, widths.outer / 4);
   finishing.stable_inner = std::max<double>(settings.min_output_width, widths.inner / 4);
   finishing.most_width = widths.most;
+  // So small a part gets an even bead: what pieces of it would gain they would swell over each other.
+  const bool dab = 1e6 * area_mm2(region) < dab_share * widths.outer * widths.outer;
+  if (dab) finishing.even_taper = 1e9;
   finishing.least_flow = settings.min_flow_ratio / 100;
   finishing.most_flow = settings.max_flow_ratio / 100;
   auto pairs = trace_pairs(skeleton, laying), middles = trace_middles(skeleton, laying);
@@ -148,9 +152,9 @@ Part build_part(const WallSettings& settings, const Widths& widths, const Region
   for (auto* lines : {&pairs, &middles})
     for (Line& line : *lines) finish(std::move(line), finishing, finished, out.dropped_mm);
   out.inside = rest_of(skeleton, laying, axis.origin);
-  keep_inside(region, finishing, finished);
+  if (!dab) keep_inside(region, finishing, finished);
   for (const Line& line : finished) append_bead(line, finishing, out.beads);
-  keep_volume(region, rounded(widths.most), out);
+  keep_volume(region, rounded(widths.most), dab ? rounded(widths.outer) : 4, out);
   return out;
 }
 

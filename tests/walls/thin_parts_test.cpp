@@ -46,6 +46,17 @@ TEST_CASE("walls: a triangle hardly larger than a bead keeps its volume and litt
   CHECK(beside / count < 0.025);
 }
 
+TEST_CASE("walls: a part smaller than a dab of a bead gets one bead of its volume in few pieces", "[walls]") {
+  // In pieces as wide as the part is, nine of them, each would swell over those before it.
+  WallSettings settings;
+  settings.wall_line_width_0 = settings.wall_line_width_x = 0.45_mm;
+  const Regions part{{circle({0, 0}, 180, 24), {}}};
+  const auto walls = built(part, settings);
+  REQUIRE(walls.beads.size() == 1);
+  CHECK(walls.beads.front().path.size() <= 4);
+  CHECK(bead_area_mm2(walls) == Approx(area_mm2(part)).epsilon(0.005));
+}
+
 TEST_CASE("walls: where no bead is too short, corners of a thin part get beads of their own", "[walls]") {
   // A bead along a triangle and one in the corner that it does not reach.
   WallSettings settings;
