@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace weft::walls {
@@ -23,6 +24,11 @@ class Planner {
   struct Blend {
     Count other;
     double at_start = 0, at_end = 0;  ///< share of the other
+  };
+  /// A small place where arms meet.
+  struct Summit {
+    std::vector<std::uint32_t> nodes, edges;
+    std::vector<std::vector<std::uint32_t>> arms;  ///< halves of each steep way down, from the place on
   };
   /// A climb in which walls keep to the outline: half the thickness they fill, by the clearance.
   struct Passage {
@@ -77,16 +83,17 @@ class Planner {
   /// Where four or five arms of equal beads meet and their walls alone would become too wide, but there is no room for
   /// a wall that turns back: the walls go on as wide as they come, and a bead in the middle fills what they leave.
   void pass_junctions();
+  /// Steep, and longer than what rounding makes of one place.
   bool is_climb(std::uint32_t e) const { return steep_[e] && s_.length(e) > one_place; }
   /// Whether steep ways lead up from a node, or down, but not both: it does not lie on a slope, nor in the flat.
   bool steep_around(std::uint32_t node) const;
   /// The place around a node that no steep way leads up from, if it is small, with the steep ways down from it.
-  bool summit(std::uint32_t node, std::vector<std::uint32_t>& nodes, std::vector<std::uint32_t>& edges,
-              std::vector<std::vector<std::uint32_t>>& arms);
+  std::optional<Summit> summit_at(std::uint32_t node) const;
   /// Makes an arm end where it is level.
   void down_to_level(std::vector<std::uint32_t>& arm) const;
   /// Whether beyond each of them lies one stretch, all of the same even number of beads.
   bool alike(const std::vector<std::vector<std::uint32_t>>& arms, Count& count);
+  /// Makes an edge core of so many beads, along which the walls fill what the passage says.
   void pass(std::uint32_t e, Count count, Passage passage);
   bool passes(std::uint32_t e) const { return e < passage_.size() && passage_[e] != none; }
   /// Half the thickness that walls fill where the clearance is that; all of it but in a passage.

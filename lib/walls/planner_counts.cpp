@@ -14,6 +14,10 @@ std::uint32_t Planner::split(std::uint32_t e, double t) {
   core_.push_back(core_[e]);
   steep_.push_back(steep_[e]);
   mouth_.push_back(mouth_[e]);
+  if (passes(e)) {
+    passage_.resize(core_.size(), none);
+    passage_[f] = passage_[e];
+  }
   return f;
 }
 

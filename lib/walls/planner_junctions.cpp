@@ -6,10 +6,10 @@
 namespace weft::walls {
 
 void Planner::pass_junctions() {
-  std::vector<std::uint32_t> nodes, edges;
-  std::vector<std::vector<std::uint32_t>> arms;
   for (std::uint32_t n = 0; n < any_.size(); ++n) {
-    if (!steep_around(n) || !summit(n, nodes, edges, arms)) continue;
+    auto summit = steep_around(n) ? summit_at(n) : std::nullopt;
+    if (!summit) continue;
+    auto& [nodes, edges, arms] = *summit;
     if (arms.size() < fewest_arms || arms.size() > most_arms) continue;
     double walls = 0, room = 0;  // half the thickness that the walls fill, and that there is
     for (auto& arm : arms) {
@@ -25,7 +25,8 @@ void Planner::pass_junctions() {
       for (const std::uint32_t h : arm) pass(h / 2, count, {low, high, low, walls});
     }
     for (const std::uint32_t e : edges) pass(e, count, {0, room, walls, walls});
-    std::erase_if(peaks_, [&](std::uint32_t m) { return std::find(nodes.begin(), nodes.end(), m) != nodes.end(); });
+    const auto& passed = nodes;
+    std::erase_if(peaks_, [&](std::uint32_t m) { return std::find(passed.begin(), passed.end(), m) != passed.end(); });
   }
 }
 
@@ -38,19 +39,19 @@ bool Planner::steep_around(std::uint32_t node) const {
   return up != down;
 }
 
-bool Planner::summit(std::uint32_t node, std::vector<std::uint32_t>& nodes, std::vector<std::uint32_t>& edges,
-                     std::vector<std::vector<std::uint32_t>>& arms) {
+std::optional<Planner::Summit> Planner::summit_at(std::uint32_t node) const {
+  Summit out;
+  auto& nodes = out.nodes;
+  auto& edges = out.edges;
   double length = 0;
-  nodes.assign(1, node);
-  edges.clear();
-  arms.clear();
+  nodes.push_back(node);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     bool up = false, down = false;
     for_each_leaving(any_[nodes[i]], [&](std::uint32_t h) {
       const std::uint32_t e = h / 2;
       if ((!core_[e] && !mouth_[e]) || std::find(edges.begin(), edges.end(), e) != edges.end()) return;
       if (is_climb(e) && s_.end(h).clearance < s_.start(h).clearance) {
-        arms.push_back({h});
+        out.arms.push_back({h});
         down = true;
         return;
       }
@@ -59,9 +60,9 @@ bool Planner::summit(std::uint32_t node, std::vector<std::uint32_t>& nodes, std:
       length += s_.length(e);
       if (std::find(nodes.begin(), nodes.end(), s_.to(h)) == nodes.end()) nodes.push_back(s_.to(h));
     });
-    if ((up && down) || length >= longest_summit * w_.inner) return false;  // on a slope, or wide
+    if ((up && down) || length >= longest_summit * w_.inner) return {};  // on a slope, or wide
   }
-  return true;
+  return out;
 }
 
 void Planner::down_to_level(std::vector<std::uint32_t>& arm) const {

@@ -80,8 +80,7 @@ void Planner::set_core_bounds(std::uint32_t e) {
   span.core = true;
   span.pairs = shape.pairs;
   span.open = is_open(w_, shape);
-  span.middle = shape.middle && !span.open && count_[e].beads() > 0;
-  span.middle = span.middle || passes(e);
+  span.middle = passes(e) || (shape.middle && !span.open && count_[e].beads() > 0);
   span.at_start = bounds_at(count_[e], blend.other, blended ? blend.at_start : 0, walled(e, s_.start(2 * e).clearance));
   span.at_end = bounds_at(count_[e], blend.other, blended ? blend.at_end : 0, walled(e, s_.end(2 * e).clearance));
 }

@@ -12,7 +12,7 @@ struct Pocket {
   double area = 0;          ///< µm²
 };
 
-/// Largest first; slivers are none. Open lines only.
+/// Largest first; slivers thinner than 2 µm are none. Pre: open lines, whose places count from `origin`, µm.
 std::vector<Pocket> pockets_of(const Region& region, Point origin, const std::vector<Line>& lines);
 
 }  // namespace weft::walls

@@ -9,6 +9,7 @@
 /// Private to walls: how wide a bead may be where it lies.
 namespace weft::walls {
 
+/// Thread: one at a time.
 class Room {
  public:
   /// `origin` is that of the places asked about.

@@ -21,6 +21,7 @@ namespace weft::walls {
 namespace {
 
 constexpr double corner_deg = 45;      // walls are led into the tip of a sharper corner
+constexpr Um single_gain = 4;          // so much a single bead may gain: it has the outline on both sides
 constexpr double dab_share = 2.0 / 3;  // of the square of a bead's width: a smaller part is a dab
 constexpr double chord_um = 4;         // how far a chord may stand off a bead that bends around a corner
 
@@ -154,7 +155,7 @@ Part build_part(const WallSettings& settings, const Widths& widths, const Region
   out.inside = rest_of(skeleton, laying, axis.origin);
   if (!dab) keep_inside(region, finishing, finished);
   for (const Line& line : finished) append_bead(line, finishing, out.beads);
-  keep_volume(region, rounded(widths.most), dab ? rounded(widths.outer) : 4, out);
+  keep_volume(region, rounded(widths.most), dab ? rounded(widths.outer) : single_gain, out);
   return out;
 }
 

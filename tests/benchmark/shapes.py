@@ -127,25 +127,13 @@ def gear(teeth=24):
     return [[out, ring(0, 0, 6500, 100)]]
 
 
-def crossing(arms, width, length, phase):
-    """Arms of one width from one middle: 3 make a Y, 4 an X."""
-    half, out = width / 2, []
-    for k in range(arms):
-        a, b = phase + 2 * math.pi * k / arms, phase + 2 * math.pi * (k + 1) / arms
-        u, n = (math.cos(a), math.sin(a)), (-math.sin(a), math.cos(a))
-        out += [(length * u[0] - half * n[0], length * u[1] - half * n[1]), (length * u[0] + half * n[0], length * u[1] + half * n[1])]
-        m, r = (a + b) / 2, half / math.sin(math.pi / arms)
-        out.append((r * math.cos(m), r * math.sin(m)))
-    return [[out]]
-
-
-def crossed_bars(width, degrees, phase=.3):
-    """Two bars 10 mm long that cross at an angle."""
-    half, angle, out = width / 2, math.radians(degrees), []
-    for arm in range(4):
-        a, turn = phase + arm // 2 * math.pi + arm % 2 * angle, angle if arm % 2 == 0 else math.pi - angle
-        for along, aside in ((5000, -half), (5000, half), (half / math.tan(turn / 2), half)):
+def crossing(degrees, width, length, phase):
+    """Arms of one width from one middle: `degrees` from each to the next."""
+    half, a, out = width / 2, phase, []
+    for turn in map(math.radians, degrees):
+        for along, aside in ((length, -half), (length, half), (half / math.tan(turn / 2), half)):
             out.append((along * math.cos(a) - aside * math.sin(a), along * math.sin(a) + aside * math.cos(a)))
+        a += turn
     return [[out]]
 
 
@@ -194,9 +182,9 @@ def generated():
         "holes": holes(9000, 30, 150, 3), "holesfine": holes(7000, 26, 60, 8),
         "T": [[[(0, 0), (8000, 0), (8000, 900), (4450, 900), (4450, 8000), (3550, 8000), (3550, 900), (0, 900)]]],
         "taperedT": [[[(0, 0), (9000, 0), (9000, 350), (4900, 1100), (4550, 8000), (4350, 8000), (3800, 1100), (0, 700)]]],
-        "X": turned(crossing(4, 600, 5000, 0), 45), "X1000": crossing(4, 1000, 5000, .3), "X1800": crossing(4, 1800, 5000, .3),
-        "X1000_50": crossed_bars(1000, 50), "X1000_70": crossed_bars(1000, 70), "star5x1000": crossing(5, 1000, 5000, .3),
-        "Y": crossing(3, 600, 5000, .2), "Y1100": crossing(3, 1100, 5000, 1),
+        "X": turned(crossing([90] * 4, 600, 5000, 0), 45), "X1000": crossing([90] * 4, 1000, 5000, .3), "X1800": crossing([90] * 4, 1800, 5000, .3),
+        "X1000_50": crossing([50, 130] * 2, 1000, 5000, .3), "X1000_70": crossing([70, 110] * 2, 1000, 5000, .3), "star5x1000": crossing([72] * 5, 1000, 5000, .3),
+        "Y": crossing([120] * 3, 600, 5000, .2), "Y1100": crossing([120] * 3, 1100, 5000, 1),
         "blob": [[blob]], "disc": [[ring(0, 0, 5000)]], "square20": [[box(0, 0, 20000, 20000)]],
         "square17": turned([[box(0, 0, 3700, 3700)]], 17), "rect": turned([[box(0, 0, 9000, 2050)]], 31),
         "hexagon": [[ring(0, 0, 700, 6)]], "pillar": [[ring(0, 0, 300, 40)]],

@@ -55,20 +55,22 @@ Region star(int arms, double inner_share) {
   return {ring, {}};
 }
 
-/// Two bars 8 mm long that cross in their middles at an angle, turned by `turn` radians.
-Region crossed_bars(double width, double degrees, double turn) {
-  const double half = width / 2, between = degrees * std::numbers::pi / 180;
+/// Arms of one width, 4 mm long, from one middle: the angle from each to the next, in degrees; the first at `turn`
+/// radians.
+Region crossing(double width, double turn, const std::vector<double>& degrees) {
+  const double half = width / 2;
+  double way = turn;
   Ring ring;
-  const auto add = [&](double way, double along, double aside) {
+  const auto add = [&](double along, double aside) {
     ring.push_back({rounded(along * std::cos(way) - aside * std::sin(way)),
                     rounded(along * std::sin(way) + aside * std::cos(way))});
   };
-  for (int arm = 0; arm < 4; ++arm) {
-    const double way = turn + arm / 2 * std::numbers::pi + arm % 2 * between;
-    const double next = arm % 2 == 0 ? between : std::numbers::pi - between;  // to the next arm
-    add(way, 4000, -half);
-    add(way, 4000, half);
-    add(way, half / std::tan(next / 2), half);
+  for (const double d : degrees) {
+    const double next = d * std::numbers::pi / 180;
+    add(4000, -half);
+    add(4000, half);
+    add(half / std::tan(next / 2), half);
+    way += next;
   }
   return {ring, {}};
 }
@@ -104,7 +106,7 @@ TEST_CASE("walls: where arms of two beads cross, the walls pass and beads betwee
   for (const double turn : {0.0, 0.3}) {
     for (const auto& [width, degrees] : {std::pair{1000.0, 90.0}, {1100.0, 90.0}, {1000.0, 50.0}}) {
       CAPTURE(turn, width, degrees);
-      const Region cross = crossed_bars(width, degrees, turn);
+      const Region cross = crossing(width, turn, {degrees, 180 - degrees, degrees, 180 - degrees});
       const WallLayer walls = filled({cross});
       CHECK(std::count_if(walls.beads.begin(), walls.beads.end(), [](const Bead& b) { return b.closed; }) == 1);
       CHECK(bare_share(cross, walls, {{-800, -800}, {800, 800}}, 13) < 0.005);
@@ -116,16 +118,10 @@ TEST_CASE("walls: where arms of two beads cross, the walls pass and beads betwee
 TEST_CASE("walls: a crossing is one although the lattice parts the places where its arms meet", "[walls]") {
   // Five arms meet in three places some microns apart. With a second wall around the middle their bands were 0.4 %
   // larger than the part.
-  Ring ring;
-  const double half = 500, between = 2 * std::numbers::pi / 5;
-  for (int arm = 0; arm < 5; ++arm) {
-    const double c = std::cos(0.3 + arm * between), s = std::sin(0.3 + arm * between);
-    for (const auto& [along, aside] : {std::pair{4000.0, -half}, {4000.0, half}, {half / std::tan(between / 2), half}})
-      ring.push_back({rounded(along * c - aside * s), rounded(along * s + aside * c)});
-  }
-  const WallLayer walls = filled({{ring, {}}});
+  const Region cross = crossing(1000, 0.3, std::vector<double>(5, 72));
+  const WallLayer walls = filled({cross});
   CHECK(std::count_if(walls.beads.begin(), walls.beads.end(), [](const Bead& b) { return b.closed; }) == 1);
-  CHECK(bare_share({ring, {}}, walls, {{-800, -800}, {800, 800}}, 13) < 0.004);
+  CHECK(bare_share(cross, walls, {{-800, -800}, {800, 800}}, 13) < 0.004);
 }
 
 TEST_CASE("walls: a bead goes straight on to an end that is not quite square", "[walls]") {

@@ -106,7 +106,7 @@ TEST_CASE("walls: on 1,000 random polygons beads and inside together have the ar
   CHECK(mean / count < 0.0025);
 }
 
-TEST_CASE("walls: beads stay within 0.01 mm of the part", "[walls][law]") {
+TEST_CASE("walls: beads stay within 0.01 mm of the part, but in 4 of 1,000", "[walls][law]") {
   // Measured over 1,000 of these: 4 have one that reaches further, two closed walls by 13 and 15 µm, two single beads
   // between walls by 11 µm. Of the 78 that have none but single beads, none.
   std::mt19937 random(20'240'601);

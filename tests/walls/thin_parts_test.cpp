@@ -46,8 +46,8 @@ TEST_CASE("walls: a triangle hardly larger than a bead keeps its volume and litt
   CHECK(beside / count < 0.025);
 }
 
-TEST_CASE("walls: a part smaller than a dab of a bead gets one bead of its volume in few pieces", "[walls]") {
-  // In pieces as wide as the part is, nine of them, each would swell over those before it.
+TEST_CASE("walls: a part smaller than a dab gets one bead of its volume in few pieces", "[walls]") {
+  // In pieces as wide as the part is, 16 junctions of them, each would swell over those before it.
   WallSettings settings;
   settings.wall_line_width_0 = settings.wall_line_width_x = 0.45_mm;
   const Regions part{{circle({0, 0}, 180, 24), {}}};
