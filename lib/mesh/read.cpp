@@ -100,8 +100,10 @@ Loaded loaded_from(Contents contents, Format format, const std::string& path_as_
 Loaded read(std::string_view bytes, const std::string& path_as_typed, const ReadOptions& options) {
   const Source source{without_byte_order_mark(bytes), path_as_typed, options.scale};
   const Reader reader = reader_for(source);
-  std::string hash;
-  tasks::Beside beside([&] { hash = sha256(bytes); });
+  std::string hash = options.sha256;
+  tasks::Beside beside([&] {
+    if (hash.empty()) hash = sha256(bytes);
+  });
   auto loaded = loaded_from(reader.read(source), reader.format, path_as_typed);
   beside.wait();
   loaded.sha256 = std::move(hash);
@@ -113,7 +115,7 @@ Loaded read_file(const std::string& path_as_typed, const ReadOptions& options) {
   char bytes[128];
   const std::string_view front(bytes, file.regular() ? file.front(bytes, sizeof bytes) : 0);
   if (!is_binary_stl(front, file.size()) || without_byte_order_mark(front) != front)
-    return read(FileBytes(file).view(), path_as_typed, options);
+    return read(FileBytes(file).view(), path_as_typed, {.scale = options.scale});
   Sha256 hash;  // of the largest files, which are not needed as a whole
   auto contents = read_binary_stl(file, path_as_typed, options.scale, [&](std::string_view block) { hash.add(block); });
   auto loaded = loaded_from(std::move(contents), Format::stl_binary, path_as_typed);

@@ -33,6 +33,8 @@ struct ReadOptions {
   /// Multiplies every coordinate. Belongs here and not to the placement: a part drawn in metres or inches would
   /// lose its detail if it met the lattice before it is scaled. Pre: finite, > 0.
   double scale = 1.0;
+  /// Of the bytes, from who knows it; empty: it is found out. Of a file it is not asked.
+  std::string sha256{};
 };
 
 /// The model in `bytes`. Its format is told by its content, never by its name.

@@ -41,8 +41,9 @@ void note_model(const mesh::Loaded& model, Report& report) {
 mesh::Loaded read_model(const std::string& path, double scale, StageCache* cache) {
   if (!cache) return mesh::read_file(path, {.scale = scale});
   const mesh::FileBytes file(path);
-  return cached(cache, [&] { return StageKey("read", 1).with(path).with(sha256(file.view())).with(scale); },
-                [&] { return mesh::read(file.view(), path, {.scale = scale}); }).take();
+  const auto hash = sha256(file.view());
+  return cached(cache, [&] { return StageKey("read", 1).with(path).with(hash).with(scale); },
+                [&] { return mesh::read(file.view(), path, {.scale = scale, .sha256 = hash}); }).take();
 }
 
 }  // namespace
