@@ -17,7 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::atomic<bool> interrupted = false;
-/// The first signal has running jobs stop between layers; the second ends the program at once.
+/// The first signal has running jobs stop; the second ends the program at once.
 extern "C" void note_batch_interrupt(int signal) {
   interrupted = true;
   std::signal(signal, SIG_DFL);

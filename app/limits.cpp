@@ -41,9 +41,17 @@ Limits::~Limits() {
 }
 
 bool Limits::reached() const {
-  const auto elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  if (timeout_s_ > 0 && elapsed > timeout_s_) note(Reached::timeout);
-  if (max_memory_mb_ > 0 && static_cast<double>(jobs::resident_bytes()) > 1e6 * max_memory_mb_) note(Reached::memory);
+  if (reached_first != Reached::nothing) return true;
+  const auto now = Clock::now();
+  if (timeout_s_ > 0 && std::chrono::duration<double>(now - begin_).count() > timeout_s_) note(Reached::timeout);
+  if (max_memory_mb_ > 0) {
+    constexpr auto often = std::chrono::duration_cast<Clock::duration>(std::chrono::milliseconds(10)).count();
+    const auto at = now.time_since_epoch().count();
+    auto due = next_look_.load();
+    if (at >= due && next_look_.compare_exchange_strong(due, at + often) &&
+        static_cast<double>(jobs::resident_bytes()) > 1e6 * max_memory_mb_)
+      note(Reached::memory);
+  }
   return reached_first != Reached::nothing;
 }
 
@@ -89,7 +97,7 @@ void Watchdog::dismiss() {
 
 void Watchdog::watch() {
   using namespace std::chrono_literals;
-  constexpr std::chrono::milliseconds often = 50ms, patience = 1s;  // a layer takes milliseconds, unless it is one of those
+  constexpr std::chrono::milliseconds often = 50ms, patience = 1s;
   std::unique_lock lock(mutex_);
   while (!limits_.reached())
     if (changed_.wait_for(lock, often, [&] { return dismissed_; })) return;

@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <functional>
@@ -23,18 +24,20 @@ class Limits {
   Limits(const Limits&) = delete;
   Limits& operator=(const Limits&) = delete;
 
-  /// Should the work end? Cheap enough to ask for every layer, from any thread.
+  /// Should the work end? Cheap enough to ask every 10 µs, from any thread: memory is looked at every 10 ms.
   bool reached() const;
   /// What was reached, as the error that ends the job: status 130, nothing is written.
   Error error() const;
 
  private:
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin_ = Clock::now();
+  mutable std::atomic<Clock::rep> next_look_ = 0;  ///< at memory
   double timeout_s_, max_memory_mb_;
 };
 
-/// Ends the program where a limit was reached and the work does not end by itself soon after: it is asked between layers,
-/// and a layer may hold a million islands.
+/// Ends the program where a limit was reached and the work does not end by itself soon after: it asks every few
+/// milliseconds, but what a library does in one go, or a disk that does not answer, it cannot ask in.
 class Watchdog {
  public:
   /// @param last_words says why, from the watchdog's thread, with what the report knew; then the status is 130

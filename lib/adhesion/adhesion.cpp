@@ -2,6 +2,7 @@
 
 #include "adhesion/loops.h"
 #include "core/convex_hull.h"
+#include "core/stop.h"
 #include "geometry/offset.h"
 #include "model/flow.h"
 
@@ -89,6 +90,7 @@ void add_brim(const AdhesionSettings& settings, const PlateLayer& first, Um nomi
   for (const Region& group : groups) boxes.push_back(box_of(group.outer));
   std::vector<std::vector<const BrimLoop*>> of_group(groups.size() + 1);
   for (const BrimLoop& loop : loops) {
+    stop_if_asked();
     const Point p = loop.line.front();
     std::size_t g = 0;
     while (g < groups.size() && !(boxes[g].contains(p) && side_of(groups[g].outer, p) != Side::outside)) ++g;

@@ -1,5 +1,6 @@
 #include "adhesion/loops.h"
 
+#include "core/stop.h"
 #include "geometry/boolean.h"
 #include "geometry/clip_lines.h"
 #include "geometry/offset.h"
@@ -29,6 +30,7 @@ std::vector<Regions> filled_by_depth(const Regions& outlines) {
   std::vector<Box> boxes;
   for (const Region& r : outlines) boxes.push_back(box_of(r.outer));
   for (std::size_t i = 0; i < outlines.size(); ++i) {
+    stop_if_asked();
     std::size_t depth = 0;
     for (std::size_t j = 0; j < outlines.size(); ++j) {
       if (i == j || outlines[j].holes.empty() || !boxes[j].contains(boxes[i].min) || !boxes[j].contains(boxes[i].max))

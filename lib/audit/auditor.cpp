@@ -1,5 +1,7 @@
 #include "audit/auditor.h"
 
+#include "core/stop.h"
+
 #include <cmath>
 #include <numbers>
 
@@ -56,7 +58,11 @@ Auditor::Auditor(const MachineSettings& machine, const MaterialSettings& materia
       unmarked_(audit.audit_max_findings, volumes_.tolerance_mm, keep_marks) {}
 
 void Auditor::feed(std::string_view bytes) {
-  lines_.feed(bytes, [&](const Lines::Line& l) { line(l); });
+  StopNowAndThen stop(256);
+  lines_.feed(bytes, [&](const Lines::Line& l) {
+    stop.step();
+    line(l);
+  });
 }
 
 Report Auditor::finish() {

@@ -1,5 +1,8 @@
 #include "core/hash.h"
 
+#include "core/stop.h"
+
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -15,7 +18,12 @@ Sha256::Sha256() : context_(std::make_unique<Context>()) {
 Sha256::~Sha256() = default;
 
 void Sha256::add(std::string_view bytes) {
-  sha256_update(context_.get(), bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()));
+  constexpr std::size_t piece = 1 << 20;  // some milliseconds
+  for (; !bytes.empty(); bytes.remove_prefix(std::min(bytes.size(), piece))) {
+    const auto next = bytes.substr(0, piece);
+    stop_if_asked();
+    sha256_update(context_.get(), next.size(), reinterpret_cast<const std::uint8_t*>(next.data()));
+  }
 }
 
 std::string Sha256::digest() {

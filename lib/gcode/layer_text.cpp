@@ -1,5 +1,6 @@
 #include "gcode/layer_text.h"
 
+#include "core/stop.h"
 #include "model/flow.h"
 
 #include <algorithm>
@@ -42,7 +43,9 @@ class LayerText {
   std::string all() && {
     head();
     bool arrived = job_.after_layer.empty();
+    StopNowAndThen stop(16);
     for (const auto& step : job_.plan.steps) {
+      stop.step();
       if (!arrived && std::holds_alternative<Extrude>(step)) {
         custom(job_.after_layer);
         arrived = true;

@@ -1,5 +1,6 @@
 #include "gcode/writer.h"
 
+#include "core/stop.h"
 #include "gcode/custom_code.h"
 #include "gcode/header.h"
 #include "gcode/layer_text.h"
@@ -70,6 +71,7 @@ void Writer::expand_custom_code() {
   const auto& layers = job_.plan.layers;
   before_layer_.resize(layers.size()), after_layer_.resize(layers.size());
   for (std::size_t i = 0; i < layers.size(); ++i) {
+    stop_if_asked();
     const bool next_object = i > 0 && layers[i].z < layers[i - 1].z;  // one object after the other
     if (g.before_layer_gcode.empty() && g.layer_gcode.empty() && !next_object) continue;
     set_layer(variables, i, layers[i].z);

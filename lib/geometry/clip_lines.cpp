@@ -1,5 +1,7 @@
 #include "geometry/clip_lines.h"
 
+#include "core/stop.h"
+
 namespace weft::geometry {
 namespace {
 
@@ -76,7 +78,11 @@ class Walk {
 std::vector<Piece> clip_lines(std::span<const Polyline> lines, const SegmentIndex& outlines, Keep keep) {
   std::vector<Piece> out;
   Walk walk(outlines, keep, out);
-  for (std::size_t i = 0; i < lines.size(); ++i) walk.along(lines[i], i);
+  StopNowAndThen stop(16);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    stop.step();
+    walk.along(lines[i], i);
+  }
   return out;
 }
 

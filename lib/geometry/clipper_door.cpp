@@ -1,5 +1,6 @@
 #include "geometry/clipper_door.h"
 
+#include "core/stop.h"
 #include "geometry/nesting.h"
 #include "geometry/simplify.h"
 #include "geometry/spatial_index.h"
@@ -124,6 +125,7 @@ class Heaps {
   void cut(std::size_t begin, std::size_t end, bool across, int depth, bool stuck) {
     if (begin == end) return;
     if (end - begin <= small || depth == deepest) return ends_.push_back(end);
+    stop_if_asked();
     const auto low = [&](const Item& i) { return across ? i.box.min.x : i.box.min.y; };
     const auto high = [&](const Item& i) { return across ? i.box.max.x : i.box.max.y; };
     std::stable_sort(items_.begin() + static_cast<std::ptrdiff_t>(begin),
@@ -152,6 +154,7 @@ Results swept_at_once(std::span<const Operation> operations, WindingRule rule, c
                       const FineRings& clip, Point origin) {
   // Clipper gives up when rounding contradicts its sweep order: very rare, and another grid has other roundings.
   for (const std::int64_t coarser : {1, 3, 16, 160}) {
+    stop_if_asked();
     try {
       ClipperLib::Clipper sweep;
       const bool any_subject = add(sweep, subject, ClipperLib::ptSubject, coarser);

@@ -1,5 +1,6 @@
 #include "geometry/medial_axis.h"
 
+#include "core/stop.h"
 #include "geometry/medial_axis_outline.h"
 #include "geometry/segment_graph.h"
 
@@ -166,7 +167,9 @@ Diagram diagram_of(const detail::Outline& outline) {
   std::uint32_t count = 0;
   for (auto f = graph.all_faces_begin(); f != graph.all_faces_end(); ++f) f->number = count++;
   out.vertices.resize(count);
+  StopNowAndThen stop(64);
   for (auto f = graph.all_faces_begin(); f != graph.all_faces_end(); ++f) {
+    stop.step();
     Vortex& v = out.vertices[f->number];
     v.half_edge.fill(none);
     for (int i = 0; i < 3; ++i) {

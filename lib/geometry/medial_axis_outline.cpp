@@ -1,5 +1,7 @@
 #include "geometry/medial_axis_outline.h"
 
+#include "core/stop.h"
+
 #include <algorithm>
 
 #include <polyclipping/clipper.hpp>
@@ -117,7 +119,9 @@ bool proven_simple(const Outline& outline) {
   }
   std::sort(entries.begin(), entries.end(), [](const Entry& l, const Entry& r) { return l.x0 < r.x0; });
   std::vector<const Entry*> active;
+  StopNowAndThen stop(64);
   for (const Entry& entry : entries) {
+    stop.step();
     std::size_t kept = 0;
     for (const Entry* other : active) {
       if (other->x1 < entry.x0) continue;
@@ -141,6 +145,7 @@ GridRings united(const GridRings& rings) {
     subject.push_back(std::move(path));
   }
   GridRings out;
+  stop_if_asked();
   clipper.StrictlySimple(true);
   clipper.AddPaths(subject, ClipperLib::ptSubject, true);
   if (!clipper.Execute(ClipperLib::ctUnion, solution, ClipperLib::pftNonZero, ClipperLib::pftNonZero)) return out;

@@ -1,5 +1,6 @@
 #include "geometry/nesting.h"
 
+#include "core/stop.h"
 #include "core/tolerances.h"
 
 #include <algorithm>
@@ -56,7 +57,9 @@ void ask_neighbours(std::span<const Ring> rings, const SegmentIndex& index, std:
     if (!places[r].sliver()) leftmost.emplace_back(*std::min_element(rings[r].begin(), rings[r].end()), r);
   std::sort(leftmost.begin(), leftmost.end());
   std::vector<SegmentIndex::RingWinding> windings;
+  StopNowAndThen stop(16);
   for (const auto& [p, r] : leftmost) {
+    stop.step();
     const auto met = index.first_left_of(p);
     if (met == SegmentIndex::none) continue;
     const auto left = met == SegmentIndex::unsure ? r : index.origin(met).region;
@@ -82,8 +85,10 @@ std::vector<Place> places_of(std::span<const Ring> rings, const SegmentIndex& in
     return places;
   }
   std::vector<SegmentIndex::RingWinding> windings;
-  for (std::size_t r = 0; r < rings.size(); ++r)
+  for (std::size_t r = 0; r < rings.size(); ++r) {
+    stop_if_asked();
     if (!places[r].sliver()) look_around(r, rings[r], index, windings, places[r]);
+  }
   return places;
 }
 
@@ -96,7 +101,9 @@ Regions assembled(std::span<const Ring> rings, const std::vector<Place>& places)
     out.push_back({rings[r], {}});
     if (places[r].double_area < 0) std::reverse(out.back().outer.begin(), out.back().outer.end());
   }
+  StopNowAndThen stop(64);
   for (std::size_t r = 0; r < rings.size(); ++r) {
+    stop.step();
     if (places[r].kind != Place::Kind::hole) continue;
     // The innermost outer around it: up to there all is solid.
     std::optional<std::uint32_t> parent;

@@ -1,5 +1,6 @@
 #include "geometry/offset.h"
 
+#include "core/stop.h"
 #include "geometry/clipper_door.h"
 #include "geometry/simplify.h"
 
@@ -128,7 +129,9 @@ Regions offset(const Regions& regions, const OffsetOptions& options) {
   if (box.empty()) return {};
   Pen pen(options, box.centre());
   clipper::FineRings curves;
+  StopNowAndThen stop(64);
   const auto draw = [&](Ring ring) {
+    stop.step();
     drop_collinear(ring);
     if (ring.size() >= 3) curves.push_back(pen.draw(ring));
   };

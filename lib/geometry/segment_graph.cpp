@@ -1,5 +1,7 @@
 #include "geometry/segment_graph.h"
 
+#include "core/stop.h"
+
 #include <limits>
 
 namespace weft::geometry::detail {
@@ -75,7 +77,9 @@ void SegmentGraph::build(const std::vector<Point>& points,
 
   std::vector<Vertex> vertices(points.size());
   Vertex near;
+  StopNowAndThen stop(8);
   for (const std::size_t i : order) {
+    stop.step();
     const auto number = static_cast<std::uint32_t>(i);
     const Point& p = points[i];
     const Query query{{p.x(), p.y(), p.x(), p.y(), number, number, false},
@@ -86,6 +90,7 @@ void SegmentGraph::build(const std::vector<Point>& points,
     vertices[i] = near;
   }
   for (const auto& [a, b] : segments) {
+    stop.step();
     const Point &p = points[a], &q = points[b];
     const Storage_site_2 stored = st_.construct_storage_site_2_object()(handles[a], handles[b]);
     const Query query{{p.x(), p.y(), q.x(), q.y(), a, b, true}, stored, stored.site()};
@@ -145,7 +150,9 @@ SegmentGraph::Vertex SegmentGraph::replace_entered(Face start, const Query& quer
   link(edges[0], edges[1]), link(edges[1], edges[2]), link(edges[2], edges[0]);
   front_ = edges[0];
   open_.assign(1, start);
+  StopNowAndThen stop(32);  // a long edge may enter most of the graph
   while (!open_.empty()) {
+    stop.step();
     const Face f = open_.back();
     open_.pop_back();
     if (f->tds_data().is_in_conflict()) continue;

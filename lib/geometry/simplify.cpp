@@ -1,5 +1,6 @@
 #include "geometry/simplify.h"
 
+#include "core/stop.h"
 #include "geometry/spatial_index.h"
 
 #include <algorithm>
@@ -132,6 +133,7 @@ Ring simplified(const Ring& ring, Um bound) {
 Regions simplified(const Regions& regions, Um bound) {
   Regions out = regions;
   for (auto& region : out) {
+    stop_if_asked();
     region.outer = simplified(region.outer, bound);
     for (auto& hole : region.holes) hole = simplified(hole, bound);
   }

@@ -1,5 +1,7 @@
 #include "geometry/spatial_index.h"
 
+#include "core/stop.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -93,12 +95,18 @@ void SegmentIndex::build() {
   columns_ = column(box_.max.x) + 1;
   rows_ = row(box_.max.y) + 1;
   starts_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
-  for (const auto& s : segments_) for_each_cell(s, [&](std::size_t cell) { ++starts_[cell]; });
+  StopNowAndThen stop(256);
+  for (const auto& s : segments_) {
+    stop.step();
+    for_each_cell(s, [&](std::size_t cell) { ++starts_[cell]; });
+  }
   std::uint32_t sum = 0;
   for (auto& start : starts_) start = sum += start;  // ends, which filling from behind turns into starts
   entries_.resize(sum);
-  for (std::size_t i = segments_.size(); i-- > 0;)
+  for (std::size_t i = segments_.size(); i-- > 0;) {
+    stop.step();
     for_each_cell(segments_[i], [&](std::size_t cell) { entries_[--starts_[cell]] = static_cast<std::uint32_t>(i); });
+  }
 }
 
 std::optional<SegmentIndex::Nearest> SegmentIndex::nearest(Point p, double limit_um) const {
@@ -289,9 +297,11 @@ bool SegmentIndex::neighbours(std::uint32_t i, std::uint32_t j) const {
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> SegmentIndex::crossing_pairs() const {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
+  StopNowAndThen stop(256);
   for (std::size_t k = 0; k + 1 < starts_.size(); ++k) {
     const auto here = cell(k);
     for (std::size_t x = 0; x + 1 < here.size(); ++x) {
+      stop.step();
       const Segment s = segments_[here[x]];
       const auto [left, right] = std::minmax(s.a.x, s.b.x);
       const auto [bottom, top] = std::minmax(s.a.y, s.b.y);
@@ -312,9 +322,11 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> SegmentIndex::crossing_pair
 }
 
 bool SegmentIndex::simple() const {
+  StopNowAndThen stop(256);
   for (std::size_t k = 0; k + 1 < starts_.size(); ++k) {
     const auto here = cell(k);
     for (std::size_t x = 0; x < here.size(); ++x) {
+      stop.step();
       const Segment s = segments_[here[x]];
       if (s.a == s.b) return false;
       for (std::size_t y = x + 1; y < here.size(); ++y) {

@@ -1,5 +1,6 @@
 #include "infill/bridges.h"
 
+#include "core/stop.h"
 #include "infill/scan.h"
 
 #include <algorithm>
@@ -45,6 +46,7 @@ std::optional<double> bridge_angle_rad(const Region& gap, const Mask& below) {
   std::vector<Hanging> found;
   double best_share = 0;
   for (int d = 0; d < directions; ++d) {
+    stop_if_asked();
     found.push_back(hanging(gap, below, d * std::numbers::pi / directions));
     best_share = std::max(best_share, found.back().resting_share);
   }

@@ -1,5 +1,7 @@
 #include "infill/fit_sides.h"
 
+#include "core/stop.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -45,7 +47,9 @@ SideFit::SideFit(const Outline& outline, const LineSet& lines, std::span<const I
   for (std::size_t k = 1; k < first.size(); ++k) first[k] += first[k - 1];
 
   const auto n = static_cast<std::uint32_t>(outline.points().size());
+  StopNowAndThen stop(64);
   for (std::uint32_t e = 0; e < n; ++e) {
+    stop.step();
     Turned a = outline.points()[e], b = outline.points()[outline.next(e)];
     if (!along(a, b) || a.x == b.x) continue;
     const bool ceiling = b.x < a.x;  // the inside is to the left

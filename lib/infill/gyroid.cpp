@@ -1,5 +1,7 @@
 #include "infill/gyroid.h"
 
+#include "core/stop.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -55,6 +57,7 @@ std::vector<std::vector<Turned>> gyroid_curves(const Span2& area, double period,
     const auto from = static_cast<long>(std::floor((across(area.min) - greatest) / turn));
     const auto to = static_cast<long>(std::ceil((across(area.max) - least) / turn));
     for (long k = from; k <= to; ++k) {
+      stop_if_asked();
       std::vector<Turned>& curve = curves.emplace_back();
       curve.reserve(values.size());
       for (long i = first; i <= last; ++i) {

@@ -1,5 +1,6 @@
 #include "infill/infill.h"
 
+#include "core/stop.h"
 #include "infill/solid.h"
 #include "infill/sparse.h"
 #include "model/flow.h"
@@ -84,6 +85,7 @@ FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const 
   const auto fill_all = [&](const Regions& regions, SolidStyle style, std::uint32_t part) {
     style.part = part;
     for (const Region& region : regions) {
+      stop_if_asked();
       style.sequence = ++sequence;
       if (style.role != Role::bridge)
         style.angle_rad = turn + (shells.skin_angle ? radians(*shells.skin_angle) : angle_along_walls(region));
@@ -98,7 +100,10 @@ FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const 
     if (infill.infill_sparse_density > 0) {
       SparseStyle style = sparse;
       style.part = areas.part;
-      for (const Region& region : areas.sparse) fill_sparse(region, style, layer.beads);
+      for (const Region& region : areas.sparse) {
+        stop_if_asked();
+        fill_sparse(region, style, layer.beads);
+      }
     }
     fill_all(areas.solid, solid, areas.part);
     fill_all(areas.top, top, areas.part);

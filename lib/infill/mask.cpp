@@ -1,5 +1,7 @@
 #include "infill/mask.h"
 
+#include "core/stop.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -113,7 +115,9 @@ Mask::Mask(const Grid& grid, std::span<const Region> regions) : Mask(grid) {
   const auto flip_ring = [&](const Ring& ring) {
     for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) flip_along(ring[j], ring[i]);
   };
+  StopNowAndThen stop(64);
   for (const Region& region : regions) {
+    stop.step();
     flip_ring(region.outer);
     for (const Ring& hole : region.holes) flip_ring(hole);
   }
@@ -194,6 +198,7 @@ bool Mask::meets(const Mask& other) const {
 }
 
 void Mask::grow(int cells) {
+  stop_if_asked();
   const auto is_set = [](Word w) { return w != 0; };
   const auto lowest = std::find_if(bits_.begin(), bits_.end(), is_set);
   if (cells <= 0 || lowest == bits_.end()) return;
@@ -235,6 +240,7 @@ Mask Mask::shrunk(int cells) const {
 }
 
 std::vector<Ring> Mask::outlines() const {
+  stop_if_asked();
   std::vector<Ring> rings;
   // Every ring has a lower edge: a set cell over one that is not set. Each is walked once, the area on its left.
   Mask lower = *this;

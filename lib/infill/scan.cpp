@@ -1,5 +1,7 @@
 #include "infill/scan.h"
 
+#include "core/stop.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -72,7 +74,9 @@ std::vector<Interval> Outline::cut(const LineSet& lines) const {
       crossings[fill[static_cast<std::size_t>(k)]++] = {a.x + slope * (lines.y(k) - a.y), i};
   }
   intervals.reserve(crossings.size() / 2);
+  StopNowAndThen stop(16);
   for (int k = 0; k < lines.count; ++k) {
+    stop.step();
     const auto from = crossings.begin() + start[static_cast<std::size_t>(k)];
     const auto to = crossings.begin() + start[static_cast<std::size_t>(k) + 1];
     std::sort(from, to, [](const Crossing& p, const Crossing& q) { return p.x != q.x ? p.x < q.x : p.edge < q.edge; });

@@ -1,5 +1,6 @@
 #include "infill/shells.h"
 
+#include "core/stop.h"
 #include "geometry/boolean.h"
 #include "geometry/simplify.h"
 #include "infill/bridges.h"
@@ -105,6 +106,7 @@ void find_bridges(const ShellSettings& settings, Kinds& kinds, const Mask& air, 
   std::vector<Ring> rings = gaps.outlines();
   for (Ring& ring : rings) ring = geometry::simplified(ring, grid.cell);
   for (const Region& gap : geometry::regions_from_rings(rings)) {
+    stop_if_asked();
     std::optional<double> angle = bridge_angle_rad(gap, below);
     if (!angle) continue;
     if (settings.bridge_angle) angle = *settings.bridge_angle * std::numbers::pi / 180;
@@ -213,6 +215,7 @@ std::vector<std::uint32_t> parts_of(const Regions& inside, const Regions& outlin
   std::vector<Box> boxes;
   for (const Region& region : outline) boxes.push_back(weft::box_of(region.outer));
   for (std::size_t i = 0; i < inside.size(); ++i) {
+    stop_if_asked();
     const Point p = inside[i].outer.front();
     const auto holds = [&](std::size_t part) {
       if (!boxes[part].contains(p) || side_of(outline[part].outer, p) == Side::outside) return false;
@@ -248,6 +251,7 @@ LayerAreas exact_areas(const ShellSettings& settings, const InfillSettings& infi
     all.push_back({&kinds.solid, &areas.solid});
     Regions mixed;
     for (; i < order.size() && parts[order[i]] == areas.part; ++i) {
+      stop_if_asked();
       const Region& region = (*layer.inside)[order[i]];
       const Mask cells(kinds.inside.grid().window(weft::box_of(region.outer), kinds.inside.grid().cell), {&region, 1});
       std::vector<const Kind*> present;
@@ -286,6 +290,7 @@ std::vector<LayerAreas> find_areas(const ShellSettings& settings, const InfillSe
   const Window window(object, run, within_reach);
   std::vector<LayerAreas> result;
   for (std::size_t i = run.from; i < run.to; ++i) {
+    stop_if_asked();
     if (object.layers[i].inside->empty()) {
       result.emplace_back();
       continue;

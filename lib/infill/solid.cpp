@@ -1,5 +1,6 @@
 #include "infill/solid.h"
 
+#include "core/stop.h"
 #include "infill/fit_sides.h"
 #include "infill/scan.h"
 
@@ -104,6 +105,7 @@ class Filler {
     for (std::uint32_t c = 0; c < chains.intervals.size(); ++c)
       if (chains.waits_for[c] == 0) ready.push_back(c);
     while (!ready.empty()) {
+      stop_if_asked();
       const std::size_t next = nearest(ready, chains);
       const std::uint32_t c = ready[next];
       ready.erase(ready.begin() + static_cast<std::ptrdiff_t>(next));

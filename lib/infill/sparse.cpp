@@ -1,5 +1,6 @@
 #include "infill/sparse.h"
 
+#include "core/stop.h"
 #include "geometry/offset.h"
 #include "geometry/simplify.h"
 #include "geometry/spatial_index.h"
@@ -87,7 +88,9 @@ class Web {
     const LineSet lines{first, spacing, static_cast<int>(std::floor((turned.greatest_y() - first) / spacing)) + 1};
     const std::vector<Interval> intervals = turned.cut(lines);
     const SideFit fit(turned, lines, intervals, style_.band);
+    StopNowAndThen stop(64);
     for (std::uint32_t k = 0; k < intervals.size(); ++k) {
+      stop.step();
       const Interval& i = intervals[k];
       const double y = lines.y(i.line);
       std::vector<Place> places{turn(i.from, y, angle_rad)};
@@ -107,6 +110,7 @@ class Web {
     const geometry::SegmentIndex edges(Regions{region});
     std::vector<geometry::SegmentIndex::Crossing> met;
     for (const Polyline& curve : curves) {
+      stop_if_asked();
       std::vector<Place> piece;
       End begin;
       for (std::size_t i = 1; i < curve.size(); ++i) {
@@ -210,11 +214,13 @@ class Web {
       if (ends_[a].edge != ends_[b].edge) return ends_[a].edge < ends_[b].edge;
       return ends_[a].along != ends_[b].along ? ends_[a].along < ends_[b].along : a < b;
     });
+    StopNowAndThen stop(64);
     for (std::size_t i = 0; i < order.size();) {
       std::size_t last = i;  // one past the ring
       const std::uint32_t ring = outline_.ring_of(ends_[order[i]].edge);
       while (last < order.size() && outline_.ring_of(ends_[order[last]].edge) == ring) ++last;
       for (std::size_t k = i; k < last; ++k) {
+        stop.step();
         const std::uint32_t a = order[k], b = order[k + 1 < last ? k + 1 : i];
         if (joint_[a] == nobody && joint_[b] == nobody) try_join(a, b, longest);
       }
@@ -291,7 +297,9 @@ class Web {
     for (const auto& [end, places] : arc_from_) arc[end] = &places;
     std::vector<std::vector<Place>> paths;
     std::vector<bool> done(lines_.size(), false);
+    StopNowAndThen stop(64);
     for (std::uint32_t start = 0; start < ends_.size(); ++start) {
+      stop.step();
       if (joint_[start] != nobody || done[start / 2]) continue;
       std::vector<Place> path;
       for (std::uint32_t e = start;;) {
@@ -374,6 +382,7 @@ void fill_gyroid(const Region& region, const SparseStyle& style, Beads& beads) {
   constexpr Um chord = 10;  // how far a simplified curve may stand off
   std::vector<Polyline> curves;
   for (const std::vector<Turned>& curve : gyroid_curves(area, period, style.z)) {
+    stop_if_asked();
     Polyline line;
     line.reserve(curve.size());
     for (const Turned t : curve) line.push_back(frame.back(t));

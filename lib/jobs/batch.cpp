@@ -180,7 +180,7 @@ class Run {
     watch_.progress(progress());
   }
 
-  /// Between two layers of a job: is it late, is memory short, is it time to tell how far things are?
+  /// Every few milliseconds of a job: is it late, is memory short, is it time to tell how far things are?
   void look_around(std::size_t i) {
     auto& running = *running_[i];
     if (options_.timeout_s > 0 && seconds_since(running.begin) > options_.timeout_s) {

@@ -41,7 +41,7 @@ struct Progress {
 struct BatchWatch {
   std::function<void(const Progress&)> progress = [](const Progress&) {};
   std::function<void(const JobLine&, Fate, const Outcome&)> ended = [](const JobLine&, Fate, const Outcome&) {};
-  std::function<bool()> interrupted = [] { return false; };  ///< asked between layers, from any thread
+  std::function<bool()> interrupted = [] { return false; };  ///< asked often, from any thread
 };
 
 struct BatchResult {

@@ -1,6 +1,7 @@
 #include "mesh/archive.h"
 
 #include "core/error.h"
+#include "core/stop.h"
 
 #include <algorithm>
 #include <cstring>
@@ -100,6 +101,7 @@ void Archive::read(const std::string& part, const std::function<void(std::string
   std::uint64_t size = 0;
   char buffer[1 << 16];
   while (const int got = unzReadCurrentFile(zip_->handle, buffer, sizeof buffer)) {
+    stop_if_asked();
     if (got < 0) throw damaged(where, reason_of(got));
     size += static_cast<std::uint64_t>(got), unpacked_ += static_cast<std::uint64_t>(got);
     if (unpacked_ > most_bytes || (unpacked_ > harmless_bytes && unpacked_ / most_growth > packed_))

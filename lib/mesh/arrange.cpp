@@ -2,6 +2,7 @@
 
 #include "core/convex_hull.h"
 #include "core/error.h"
+#include "core/stop.h"
 #include "mesh/fits.h"
 
 #include <algorithm>
@@ -77,12 +78,14 @@ std::vector<Point> cells_on(const Plate& plate, const Item& largest, Point pitch
   const Box box = box_of(plate.surface);
   const Um columns = box.size().x / pitch.x + 1, rows = box.size().y / pitch.y + 1;
   std::vector<Point> cells;
-  for (Um row = -rows; row <= rows; ++row)
+  for (Um row = -rows; row <= rows; ++row) {
+    stop_if_asked();
     for (Um column = -columns; column <= columns; ++column) {
       const Point at{middle.x + column * pitch.x + (odd_x ? 0 : pitch.x / 2),
                      middle.y + row * pitch.y + (odd_y ? 0 : pitch.y / 2)};
       if (box.contains(at) && stands_on(largest, at, plate)) cells.push_back(at);
     }
+  }
   std::stable_sort(cells.begin(), cells.end(),
                    [&](Point a, Point b) { return distance2(a, middle) < distance2(b, middle); });
   return cells;
@@ -124,6 +127,7 @@ Arrangement arrange(std::span<const Item> items, const Plate& plate, std::option
   double best_share = 0;
   std::int64_t first_row = -spacing;
   for (const std::size_t i : order) {
+    stop_if_asked();
     first_row += spacing + items[i].size.x;
     if (i != order.front() && first_row > bed.size().x) break;
     const Rows rows = rows_of(items, order, first_row, spacing);

@@ -1,7 +1,9 @@
 #include "mesh/file_bytes.h"
 
 #include "core/error.h"
+#include "core/stop.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -47,8 +49,10 @@ std::size_t InputFile::front(char* to, std::size_t most) const {
 
 std::size_t InputFile::read(char* to, std::size_t most) {
   std::size_t size = 0;
+  constexpr std::size_t piece = 1 << 24;  // some milliseconds, of what the system has in memory
   while (size < most) {
-    const ssize_t got = ::read(descriptor_, to + size, most - size);
+    stop_if_asked();
+    const ssize_t got = ::read(descriptor_, to + size, std::min(most - size, piece));
     if (got == 0) break;
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) throw unreadable(path_, errno);

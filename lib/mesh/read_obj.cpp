@@ -1,4 +1,5 @@
 #include "core/error.h"
+#include "core/stop.h"
 #include "mesh/face.h"
 #include "mesh/formats.h"
 #include "mesh/text.h"
@@ -21,7 +22,9 @@ class Obj {
 
   Body read() {
     Body body;
+    StopNowAndThen stop(256);
     for (std::string_view word = words_.next(); !word.empty(); word = words_.next()) {
+      stop.step();
       if (word == "v") {
         vertex();
       } else if (word == "f") {

@@ -1,4 +1,5 @@
 #include "core/error.h"
+#include "core/stop.h"
 #include "mesh/formats.h"
 #include "mesh/text.h"
 #include "mesh/weld_parts.h"
@@ -22,7 +23,9 @@ class AsciiStl {
   /// @param name   that of the first solid that has one, if it is still empty
   /// @return whether it ends within a solid
   bool read(bool inside, std::vector<Triangle>& triangles, std::string& name) {
+    StopNowAndThen stop(256);
     for (std::string_view word = words_.next(); !word.empty(); word = words_.next()) {
+      stop.step();
       if (same_word(word, "facet") && inside) {
         facet(triangles);
       } else if (same_word(word, "solid") && !inside) {

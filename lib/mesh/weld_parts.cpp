@@ -1,5 +1,6 @@
 #include "mesh/weld_parts.h"
 
+#include "core/stop.h"
 #include "tasks/tasks.h"
 
 #include <algorithm>
@@ -41,7 +42,7 @@ Mesh welded(const PartReader& reader) {
     Part& part = places[at].part;
     part.weld.clear();
     part.triangles.clear();
-    guarded(places[at], [&] { reader.read(i, at, part); });
+    guarded(places[at], [&] { stop_if_asked(), reader.read(i, at, part); });
   };
   const auto take = [&](std::size_t i) {
     Place& place = places[i % places.size()];

@@ -1,5 +1,6 @@
 #include "motion/kinematics.h"
 
+#include "core/stop.h"
 #include "motion/speeds.h"
 
 #include <algorithm>
@@ -169,7 +170,9 @@ void seconds_of(const MachineSettings& machine, const std::vector<Move>& moves, 
   for (std::size_t i = 0; i < n; ++i)
     speed[i] = moves[i].prints ? slowdown.of(moves[i].speed_mm_s) : moves[i].speed_mm_s;
   const Move rest;
+  StopNowAndThen stop(512);
   for (std::size_t i = 0; i <= n && n > 0; ++i) {
+    stop.step();
     const Move &in = i > 0 ? moves[i - 1] : rest, &out = i < n ? moves[i] : rest;
     const double v_in = in.length_mm > 0 ? speed[i - 1] : 1e9, v_out = out.length_mm > 0 ? speed[i] : 1e9;
     const double v = std::min(v_in, v_out);

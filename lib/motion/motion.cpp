@@ -1,5 +1,6 @@
 #include "motion/motion.h"
 
+#include "core/stop.h"
 #include "model/flow.h"
 #include "motion/cooling.h"
 #include "motion/kinematics.h"
@@ -70,7 +71,9 @@ void count_times(const LayerPlan& layer, const std::vector<Move>& moves, const s
 Statistics count(const Rules& rules, const LayerPlan& layer, std::optional<Point3> at) {
   Statistics s;
   std::int64_t primes = 0;
+  StopNowAndThen stop(64);
   for (const auto& step : layer.steps) {
+    stop.step();
     if (const auto* bead = std::get_if<Extrude>(&step)) {
       count_bead(*bead, s);
       at = place_of(*bead, bead->path.size() - 1, layer.z);

@@ -1,5 +1,6 @@
 #include "motion/speeds.h"
 
+#include "core/stop.h"
 #include "model/flow.h"
 #include "motion/resample.h"
 
@@ -215,7 +216,9 @@ void set_speeds(const Rules& rules, LayerPlan& layer, bool first_layer, std::opt
   std::vector<Step> steps;
   steps.reserve(layer.steps.size() + 8);
   auto at = start;
+  StopNowAndThen stop(16);
   for (auto& step : layer.steps) {
+    stop.step();
     if (auto* bead = std::get_if<Extrude>(&step)) {
       if (bead->path.size() < 2) continue;
       const Point3 first = place_of(*bead, 0, layer.z);

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/hash.h"
+#include "core/stop.h"
 #include "gcode/digest.h"
 #include "gcode/writer.h"
 #include "pipeline/codec.h"
@@ -34,8 +35,7 @@ std::size_t room_for(const std::vector<gcode::LayerDigest>& layers) {
 
 /// The text of the file, audited as it grows. Each layer's steps are unpacked to be written, and let go of: plan and text
 /// are never both there as a whole.
-void write_gcode(const gcode::Job& job, PrintPlan& plan, std::vector<std::string> packed, audit::Check& check, const Watch& watch,
-                 Report& report) {
+void write_gcode(const gcode::Job& job, PrintPlan& plan, std::vector<std::string> packed, audit::Check& check, Report& report) {
   const Stopwatch stopwatch(report.timings_ms.gcode);
   const gcode::Writer writer(job);
   check.reserve(room_for(job.digests));
@@ -43,7 +43,6 @@ void write_gcode(const gcode::Job& job, PrintPlan& plan, std::vector<std::string
   const std::string tail = writer.tail();
   const auto let_go = [](auto& list) { std::exchange(list, {}); };  // not `list = {}`: that keeps its room
   const auto write = [&](std::size_t i) {
-    stop_if_cancelled(watch);
     decode(packed[i], plan.layers[i]);
     let_go(packed[i]);
     auto block = writer.layer(i);
@@ -112,7 +111,7 @@ void refuse_emptiness(const Job& job, const Box3& box, const std::vector<Printed
 std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Report& report, StageCache* cache) {
   const Stopwatch stopwatch(report.timings_ms.total);
   const auto begin = [&](std::string_view stage, double share) {
-    stop_if_cancelled(watch);
+    stop_if_asked();
     watch.progress(stage, share);
   };
   report.settings_sha256 = sha256(as_text(job.settings));
@@ -133,7 +132,7 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
   refuse_emptiness(job, box, layers);
   give_back_memory();
   begin("travel", 0.65);
-  auto [plan, packed, digests, statistics] = plan_plate(job.settings, objects, std::move(layers), watch, report);
+  auto [plan, packed, digests, statistics] = plan_plate(job.settings, objects, std::move(layers), report);
   note_statistics(statistics, report);
   report.layers = plan.layers.size();
   report.height_mm = plan.layers.empty() ? 0.0 : to_mm(plan.layers.back().z);
@@ -142,7 +141,7 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
   audit::Check check(job.settings.machine, job.settings.material, job.settings.audit, job.audit);
   write_gcode({job.settings, plan, statistics, std::filesystem::path(job.models.front()).stem().string(),
                std::move(thumbnails), provenance_lines(report.models, job.placement), std::move(digests)},
-              plan, std::move(packed), check, watch, report);
+              plan, std::move(packed), check, report);
   begin("audit", 0.95);
   auto passed = verdict_of(check, job, report);
   watch.progress("done", 1.0);
@@ -153,7 +152,12 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
 
 std::optional<audit::Passed> run(const Job& job, const Watch& watch, Report& report, StageCache* cache) {
   const tasks::ThreadLimit limit(job.threads);
-  return run_stages(job, watch, report, cache);
+  const StopWhen stop_when(&watch.cancelled);
+  try {
+    return run_stages(job, watch, report, cache);
+  } catch (const Stopped&) {
+    throw Error{Error::Kind::interrupted, "interrupted", {}, "nothing was written"};
+  }
 }
 
 }  // namespace weft

@@ -36,7 +36,7 @@ struct Job {
 /// How a caller watches a job and stops it.
 struct Watch {
   std::function<void(std::string_view stage, double share)> progress = [](std::string_view, double) {};
-  std::function<bool()> cancelled = [] { return false; };  ///< asked between layers, from any thread
+  std::function<bool()> cancelled = [] { return false; };  ///< asked often, also within a layer, from any thread
 };
 
 /// The whole program: reads, places, slices, plans, writes and audits.

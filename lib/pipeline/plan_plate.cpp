@@ -97,7 +97,7 @@ struct PackedLayer {
 
 /// Ways, speeds and times. What a layer was made of is let go of as it goes.
 std::vector<PackedLayer> plan_moves(const Settings& settings, std::vector<travel::Prepared> prepared,
-                                    std::vector<travel::Ordered> ordered, const Watch& watch, Notices& notices) {
+                                    std::vector<travel::Ordered> ordered, Notices& notices) {
   const std::size_t count = prepared.size();
   std::vector<std::optional<Point>> from(count);
   for (std::size_t i = 1; i < count; ++i) from[i] = ordered[i - 1].end ? ordered[i - 1].end : from[i - 1];
@@ -111,7 +111,6 @@ std::vector<PackedLayer> plan_moves(const Settings& settings, std::vector<travel
   auto packed = tasks::parallel_linked(
       count,
       [&](std::size_t i) {
-        stop_if_cancelled(watch);
         auto layer = std::move(prepared[i]);
         travel::prepare_ways(settings.travel, layer);
         return travel::route(settings.travel, settings.retraction, layer, ordered[i], from[i]);
@@ -134,7 +133,7 @@ std::vector<PackedLayer> plan_moves(const Settings& settings, std::vector<travel
 }  // namespace
 
 PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects,
-                        std::vector<PrintedLayers> layers, const Watch& watch, Report& report) {
+                        std::vector<PrintedLayers> layers, Report& report) {
   const Stopwatch stopwatch(report.timings_ms.travel);
   std::size_t count = 0;
   for (const auto& object : layers) count = std::max(count, object.size());
@@ -158,7 +157,6 @@ PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject
   tasks::parallel_in_order(
       count,
       [&](std::size_t i) {
-        stop_if_cancelled(watch);
         return travel::prepare_order(settings.travel, std::move(inputs[i]));
       },
       [&](std::size_t i, travel::Prepared layer) {
@@ -167,10 +165,9 @@ PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject
       });
   const auto linked = linker.linked();
   auto ordered = tasks::parallel_map(count, [&](std::size_t i) {
-    stop_if_cancelled(watch);
     return travel::order(settings.travel, prepared[i], linked[i]);
   });
-  auto planned = plan_moves(settings, std::move(prepared), std::move(ordered), watch, plan.notices);
+  auto planned = plan_moves(settings, std::move(prepared), std::move(ordered), plan.notices);
   for (auto& layer : planned) {
     out.statistics.append(layer.statistics);
     plan.layers.push_back(std::move(layer.bare));

@@ -3,7 +3,6 @@
 #include "pipeline/stopwatch.h"
 #include "tasks/parallel.h"
 
-#include "core/error.h"
 #include "geometry/boolean.h"
 #include "infill/infill.h"
 #include "infill/shells.h"
@@ -41,10 +40,9 @@ using Cuts = std::vector<slice::Cut>;
 using Walls = std::vector<WallLayer>;
 using Fills = std::vector<FilledLayer>;
 
-Cuts slice_object(const Settings& settings, const PlacedObject& object, const Watch& watch) {
+Cuts slice_object(const Settings& settings, const PlacedObject& object) {
   const slice::Cutter cutter(object.mesh, slice::planes(settings.layers, box_of(object.mesh).max.z));
   return tasks::parallel_map(cutter.size(), [&](std::size_t i) {
-    stop_if_cancelled(watch);
     return cutter.cut(i, settings.layers.resolution);
   });
 }
@@ -58,9 +56,8 @@ Settings of_first_layer(Settings settings) {
   return settings;
 }
 
-Walls build_walls(const Settings& settings, const Settings& first, const Cuts& cuts, const Watch& watch) {
+Walls build_walls(const Settings& settings, const Settings& first, const Cuts& cuts) {
   return tasks::parallel_map(cuts.size(), [&](std::size_t i) {
-    stop_if_cancelled(watch);
     const Regions over_air = i > 0 ? geometry::subtract(cuts[i].layer.regions, cuts[i - 1].layer.regions) : Regions{};
     return walls::build((i == 0 ? first : settings).walls,
                         {.layer = cuts[i].layer, .index = i, .nozzle_diameter = settings.machine.nozzle_diameter, .over_air = &over_air});
@@ -68,13 +65,12 @@ Walls build_walls(const Settings& settings, const Settings& first, const Cuts& c
 }
 
 /// What fills the inside of each layer. Layers are taken in runs, so that the skin's neighbours are looked at once a run.
-std::vector<infill::LayerAreas> find_areas(const Settings& settings, const Cuts& cuts, const Walls& walls, const Watch& watch) {
+std::vector<infill::LayerAreas> find_areas(const Settings& settings, const Cuts& cuts, const Walls& walls) {
   std::vector<infill::ShellLayer> seen(cuts.size());
   for (std::size_t i = 0; i < cuts.size(); ++i) seen[i] = {cuts[i].layer.z, cuts[i].layer.height, &cuts[i].layer.regions, &walls[i].inside};
   const infill::ShellObject object{seen, infill::box_of(seen), settings.machine.nozzle_diameter};
   constexpr std::size_t run = 8;
   auto runs = tasks::parallel_map((cuts.size() + run - 1) / run, [&](std::size_t r) {
-    stop_if_cancelled(watch);
     return infill::find_areas(settings.shells, settings.infill, object, r * run, std::min(run, cuts.size() - r * run));
   });
   std::vector<infill::LayerAreas> areas;
@@ -84,12 +80,11 @@ std::vector<infill::LayerAreas> find_areas(const Settings& settings, const Cuts&
 }
 
 /// Shells and infill.
-Fills fill_object(const Settings& settings, const Settings& first, const Cuts& cuts, const Walls& walls, const Watch& watch) {
-  auto areas = find_areas(settings, cuts, walls, watch);
+Fills fill_object(const Settings& settings, const Settings& first, const Cuts& cuts, const Walls& walls) {
+  auto areas = find_areas(settings, cuts, walls);
   Box box;  // patterns hang on its centre, so they move with the object
   for (const auto& cut : cuts) box.add(box_of(cut.layer.regions));
   return tasks::parallel_map(cuts.size(), [&](std::size_t i) {
-    stop_if_cancelled(watch);
     const auto& layer = cuts[i].layer;
     const auto& s = i == 0 ? first : settings;
     auto filled = infill::fill(s.infill, s.shells, {.areas = areas[i], .index = i, .z = layer.z, .height = layer.height,
@@ -112,18 +107,18 @@ Fills fill_object(const Settings& settings, const Settings& first, const Cuts& c
 PrintedLayers print_object(const Settings& settings, const PlacedObject& object, const Watch& watch, Report& report, StageCache* cache) {
   std::optional<Stopwatch> stopwatch(std::in_place, report.timings_ms.slice);
   const auto sliced_by = [&] { return slice_key(settings, object.mesh); };
-  auto sliced = cached(cache, sliced_by, [&] { return slice_object(settings, object, watch); });
+  auto sliced = cached(cache, sliced_by, [&] { return slice_object(settings, object); });
   append(report.warnings, slice::notices_of(*sliced, object.name));
 
   watch.progress("walls", 0.15);
   stopwatch.emplace(report.timings_ms.walls);
   const auto walls_by = [&] { return walls_key(settings, sliced_by().hash()); };
   const auto first = of_first_layer(settings);  // a function of what the keys hold: all of layers, walls, shells and infill
-  auto walled = cached(cache, walls_by, [&] { return build_walls(settings, first, *sliced, watch); });
+  auto walled = cached(cache, walls_by, [&] { return build_walls(settings, first, *sliced); });
 
   watch.progress("infill", 0.5);
   stopwatch.emplace(report.timings_ms.infill);
-  auto filled = cached(cache, [&] { return fill_key(settings, walls_by().hash()); }, [&] { return fill_object(settings, first, *sliced, *walled, watch); });
+  auto filled = cached(cache, [&] { return fill_key(settings, walls_by().hash()); }, [&] { return fill_object(settings, first, *sliced, *walled); });
 
   auto cuts = std::move(sliced).take();
   auto walls = std::move(walled).take();
@@ -138,10 +133,6 @@ PrintedLayers print_object(const Settings& settings, const PlacedObject& object,
     append(report.warnings, std::move(fill.notices));
   }
   return out;
-}
-
-void stop_if_cancelled(const Watch& watch) {
-  if (watch.cancelled()) throw Error{Error::Kind::interrupted, "interrupted", {}, "nothing was written"};
 }
 
 }  // namespace weft::pipeline

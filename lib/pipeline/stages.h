@@ -45,10 +45,6 @@ struct PlannedPlate {
 };
 
 /// The whole plate as steps: copies put in their places, adhesion around them, order, seams and travels, speeds and times.
-PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects, std::vector<PrintedLayers> layers, const Watch& watch,
-                     Report& report);
-
-/// @throws Error{interrupted} when the watch says so
-void stop_if_cancelled(const Watch& watch);
+PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects, std::vector<PrintedLayers> layers, Report& report);
 
 }  // namespace weft::pipeline

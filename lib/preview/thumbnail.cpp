@@ -1,5 +1,7 @@
 #include "preview/thumbnail.h"
 
+#include "core/stop.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -180,8 +182,10 @@ std::vector<std::uint8_t> thumbnail(std::span<const Standing> meshes, PixelSize 
   Raster raster(size);
   const std::vector<Vec> corners = projected(meshes, camera, raster);
   const Vec* corner = corners.data();
+  StopNowAndThen stop(1024);
   for (const auto& [mesh, at] : meshes) {
     for (const Triangle& t : mesh->triangles) {
+      stop.step();
       const Vec a = corner[t[0]], b = corner[t[1]], c = corner[t[2]];
       if ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) >= 0) continue;  // turned away: y points down here
       const auto window = raster.window(a, b, c);

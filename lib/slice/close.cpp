@@ -1,3 +1,4 @@
+#include "core/stop.h"
 #include "core/tolerances.h"
 #include "geometry/spatial_index.h"
 #include "slice/stitch.h"
@@ -34,7 +35,9 @@ std::vector<std::size_t> successors(const std::vector<Polyline>& chains) {
       double distance_um = 0;
     };
     std::vector<Offer> best(heads.size());
+    StopNowAndThen stop(64);
     for (const std::size_t t : tails) {
+      stop.step();
       const auto nearest = index.nearest(chains[t].back());
       Offer& offer = best[nearest->segment];
       if (offer.tail == none || nearest->distance_um < offer.distance_um) offer = {t, nearest->distance_um};

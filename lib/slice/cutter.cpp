@@ -1,3 +1,4 @@
+#include "core/stop.h"
 #include "geometry/boolean.h"
 #include "geometry/simplify.h"
 #include "slice/slice.h"
@@ -47,7 +48,9 @@ Cutter::Cutter(const Mesh& mesh, std::vector<Plane> planes) : mesh_(&mesh), plan
     return std::minmax({at[t[0]], at[t[1]], at[t[2]]});
   };
   starts_.assign(planes_.size() + 1, 0);
+  StopNowAndThen stop(4096);
   for (const auto& triangle : mesh.triangles) {
+    stop.step();
     const auto [first, end] = range_of(triangle);
     for (std::uint32_t p = first; p < end; ++p) ++starts_[p];
   }
@@ -55,6 +58,7 @@ Cutter::Cutter(const Mesh& mesh, std::vector<Plane> planes) : mesh_(&mesh), plan
   for (auto& start : starts_) start = sum += start;  // ends, which filling from behind turns into starts
   triangles_.resize(sum);
   for (std::size_t t = mesh.triangles.size(); t-- > 0;) {
+    stop.step();
     const auto [first, end] = range_of(mesh.triangles[t]);
     for (std::uint32_t p = first; p < end; ++p) triangles_[--starts_[p]] = static_cast<std::uint32_t>(t);
   }
@@ -65,7 +69,11 @@ Cut Cutter::cut(std::size_t i, Um resolution) const {
   Cut out{{plane.z, plane.height, {}}, {}, {}};
   Chains chains = stitch(*mesh_, triangles_of(i), plane.below);
   if (!chains.open.empty()) close(chains, out.closed, out.bridged);
-  for (auto& ring : chains.rings) ring = geometry::simplified(ring, resolution);
+  StopNowAndThen stop(64);
+  for (auto& ring : chains.rings) {
+    stop.step();
+    ring = geometry::simplified(ring, resolution);
+  }
   out.layer.regions = geometry::regions_from_rings(chains.rings);
   return out;
 }

@@ -1,5 +1,7 @@
 #include "slice/stitch.h"
 
+#include "core/stop.h"
+
 #include <bit>
 #include <cmath>
 
@@ -101,7 +103,11 @@ Chains stitch(const Mesh& mesh, std::span<const std::uint32_t> triangles, Um bel
   const Links links(segments);
   std::vector<std::uint8_t> taken(segments.size(), 0);
   std::vector<std::uint32_t> next(segments.size());
-  for (std::size_t i = 0; i < segments.size(); ++i) next[i] = links.take(segments[i].out, taken);
+  StopNowAndThen stop(1024);
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    stop.step();
+    next[i] = links.take(segments[i].out, taken);
+  }
 
   const auto put = [&](Polyline& line, Edge edge) {
     const Point p = crossing(mesh.vertices[edge.below], mesh.vertices[edge.above], below);

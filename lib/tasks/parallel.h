@@ -1,4 +1,5 @@
 #pragma once
+#include "core/stop.h"
 #include "tasks/tasks.h"
 
 #include <algorithm>
@@ -24,7 +25,8 @@ std::vector<Out> taken_out(std::vector<std::optional<Out>>& results, const std::
   return out;
 }
 
-/// f(i) for i in [0, count), computed in any order, returned in index order. If calls throw, the error of the lowest index
+/// f(i) for i in [0, count), computed in any order, returned in index order; before each, as in all that follow, it is
+/// asked whether to stop. If calls throw, the error of the lowest index
 /// is rethrown: the number of threads changes neither the output nor the message.
 template <class F>
 auto parallel_map(std::size_t count, F f) {
@@ -33,6 +35,7 @@ auto parallel_map(std::size_t count, F f) {
   std::vector<std::exception_ptr> failed(count);
   for_each_index(count, [&](std::size_t i) {
     try {
+      stop_if_asked();
       slots[i].emplace(f(i));
     } catch (...) {
       failed[i] = std::current_exception();
@@ -55,6 +58,7 @@ void parallel_in_order(std::size_t count, F f, Take take) {
   const auto make = [&](std::size_t i) {
     Piece& piece = pieces[i % slots];
     try {
+      stop_if_asked();
       piece.out.emplace(f(i));
     } catch (...) {
       piece.failed = std::current_exception();
@@ -94,7 +98,7 @@ auto parallel_linked(std::size_t count, F f, Link link, G g) {
     }
   };
   const auto make = [&](std::size_t i) {
-    if (!broken) guarded(i, [&](Piece& piece) { piece.made.emplace(f(i)); });
+    if (!broken) guarded(i, [&](Piece& piece) { stop_if_asked(), piece.made.emplace(f(i)); });
   };
   const auto take = [&](std::size_t i) {
     if (failed[i]) broken = true;
@@ -104,7 +108,7 @@ auto parallel_linked(std::size_t count, F f, Link link, G g) {
   };
   const auto finish = [&](std::size_t i) {
     if (!pieces[i % slots].linked) return;
-    guarded(i, [&](Piece& piece) { results[i].emplace(g(i, std::move(*piece.linked))); });
+    guarded(i, [&](Piece& piece) { stop_if_asked(), results[i].emplace(g(i, std::move(*piece.linked))); });
     pieces[i % slots].linked.reset();
   };
   for_each_in_order(count, slots, {.make = make, .take = take, .finish = finish});

@@ -1,5 +1,6 @@
 #include "tasks/tasks.h"
 
+#include "core/stop.h"
 #include "tasks/hand_over.h"
 
 #include <optional>
@@ -15,23 +16,39 @@
 
 namespace weft::tasks {
 
+namespace {
+
+/// What a task has around its work.
+class Task {
+ public:
+  Task(HandOver& hand_over, const std::function<bool()>* whether) : handed_(hand_over), stop_when_(whether) {}
+
+ private:
+  HandOver::Task handed_;
+  StopWhen stop_when_;
+};
+
+}  // namespace
+
 void for_each_index(std::size_t count, const std::function<void(std::size_t)>& task) {
+  const auto* whether = StopWhen::current();
   HandOver hand_over;
   hand_over.begin();
   const HandOver::Wait waited(hand_over);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-    const HandOver::Task handed(hand_over);
+    const Task in_task(hand_over, whether);
     task(i);
   });
 }
 
 void for_each_in_order(std::size_t count, std::size_t places, const Steps& steps) {
+  const auto* whether = StopWhen::current();
   HandOver hand_over;
   std::vector<Baton> place(places);
   Baton turn_to_begin, turn_to_take;
   std::size_t next = 0;
-  const auto in_place = [&hand_over, &place, places](const std::function<void(std::size_t)>& step, std::size_t i) {
-    const HandOver::Task handed(hand_over);
+  const auto in_place = [&hand_over, &place, places, whether](const std::function<void(std::size_t)>& step, std::size_t i) {
+    const Task in_task(hand_over, whether);
     place[i % places].take();
     step(i);
     place[i % places].pass();
@@ -79,8 +96,8 @@ Beside::Beside(std::function<void()> work) : state_(std::make_unique<State>()) {
   State* state = state_.get();
   state->work = std::move(work);
   state->hand_over.begin();
-  state->group.run([state] {
-    const HandOver::Task handed(state->hand_over);
+  state->group.run([state, whether = StopWhen::current()] {
+    const Task in_task(state->hand_over, whether);
     state->work();
   });
 }
@@ -104,8 +121,8 @@ Once::~Once() = default;
 void Once::run(const std::function<void()>& work) {
   state_->hand_over.begin();
   const HandOver::Wait waited(state_->hand_over);
-  tbb::collaborative_call_once(state_->flag, [&] {
-    const HandOver::Task handed(state_->hand_over);
+  tbb::collaborative_call_once(state_->flag, [&, whether = StopWhen::current()] {
+    const Task in_task(state_->hand_over, whether);
     work();
   });
 }
@@ -123,8 +140,8 @@ void with_threads(unsigned threads, const std::function<void()>& work) {
   HandOver hand_over;
   hand_over.begin();
   const HandOver::Wait waited(hand_over);
-  arena.execute([&] {
-    const HandOver::Task handed(hand_over);
+  arena.execute([&, whether = StopWhen::current()] {
+    const Task in_task(hand_over, whether);
     work();
   });
 }

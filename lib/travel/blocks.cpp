@@ -1,5 +1,7 @@
 #include "travel/blocks.h"
 
+#include "core/stop.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -105,7 +107,9 @@ std::vector<Touch> touching_walls(const Beads& beads, const std::vector<std::uin
   std::vector<std::uint64_t> pairs;
   std::vector<std::uint32_t> touched_by(walls.size(),
                                         0xFFFFFFFF);  // the last wall that was found to: samples are in order of walls
+  StopNowAndThen stop(64);
   for (const auto& s : samples) {
+    stop.step();
     const int c = column(s.at), r = row(s.at), last_row = std::min(rows - 1, r + 1);
     for (int y = std::max(0, r - 1); y <= last_row; ++y) {
       const std::uint32_t end = first[index(std::min(columns - 1, c + 1), y) + 1];

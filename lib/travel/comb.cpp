@@ -1,5 +1,6 @@
 #include "travel/comb.h"
 
+#include "core/stop.h"
 #include "travel/box_columns.h"
 
 #include <algorithm>
@@ -45,7 +46,9 @@ Comb::Comb(std::vector<Ring> rings) {
   for (const auto& r : rings) boxes.push_back(box_of(r));
   const BoxColumns columns(std::move(boxes));
   std::vector<std::uint32_t> depth(rings.size(), 0), parent(rings.size(), outside);
-  for (std::size_t i = 0; i < rings.size(); ++i)
+  StopNowAndThen stop(64);
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    stop.step();
     columns.each_around(i, [&](std::uint32_t j) {
       if (side_of(rings[j], rings[i][0]) != Side::inside) return;
       ++depth[i];
@@ -54,6 +57,7 @@ Comb::Comb(std::vector<Ring> rings) {
           std::int64_t{size(j).x} * size(j).y < std::int64_t{size(parent[i]).x} * size(parent[i]).y)
         parent[i] = j;
     });
+  }
   std::vector<std::uint32_t> part(rings.size(), 0);
   std::uint32_t parts = 0;
   for (std::size_t i = 0; i < rings.size(); ++i)
@@ -297,6 +301,7 @@ bool Comb::pull_taut(Polyline& way, IgnoredRings ignored) const {
   Polyline taut{way.front()};
   std::size_t at = 0;
   while (at + 1 < way.size()) {
+    stop_if_asked();
     std::size_t reach = at + 1, step = 1;
     while (true) {  // gallop as far as one sees, then halve
       const std::size_t probe = std::min(reach + step, way.size() - 1);

@@ -1,3 +1,4 @@
+#include "core/stop.h"
 #include "travel/block_chain.h"
 #include "travel/blocks.h"
 
@@ -20,6 +21,7 @@ std::vector<Start> choose_seams(const TravelSettings& settings, const Prepared& 
                                 std::vector<Point>& below) {
   std::vector<Start> starts;
   for (std::size_t s = 0; s < layer.seams.size(); ++s) {
+    stop_if_asked();
     const auto& seam = layer.seams[s];
     const Bead& bead = beads_of(layer.input, layer.blocks[seam.block])[seam.bead];
     const std::uint64_t seed = (std::uint64_t{layer.input.index} << 32) + s;

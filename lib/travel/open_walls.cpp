@@ -1,5 +1,6 @@
 #include "travel/open_walls.h"
 
+#include "core/stop.h"
 #include "travel/blocks.h"
 #include "travel/box_tree.h"
 #include "travel/wall_order.h"
@@ -40,6 +41,7 @@ class Fitting {
     for (int pass = 0; pass < most_passes; ++pass) {
       bool better = false;
       for (std::uint32_t first = next_[n_]; first != n_; first = next_[first]) {
+        stop_if_asked();
         std::uint32_t last = first;
         for (std::uint32_t length = 1; length <= longest_run && last != n_ && open_[last]; ++length, last = next_[last])
           if (const auto place = better_place(first, last)) {

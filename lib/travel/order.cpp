@@ -1,3 +1,4 @@
+#include "core/stop.h"
 #include "travel/open_walls.h"
 #include "travel/tour.h"
 #include "travel/wall_order.h"
@@ -143,6 +144,7 @@ Ordered order(const TravelSettings& settings, const Prepared& layer, const Linke
   Ordered out;
   std::optional<Point> at = linked.from;
   for (std::size_t b = 0; b < linked.block_order.size(); ++b) {
+    stop_if_asked();
     const bool last = b + 1 == linked.block_order.size();
     const auto then = last ? linked.next : std::optional(linked.places[linked.block_order[b + 1]]);
     at = BlockOrder(settings, layer, linked, linked.block_order[b], out.turns).run(at, then);

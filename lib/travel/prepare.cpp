@@ -1,3 +1,4 @@
+#include "core/stop.h"
 #include "geometry/boolean.h"
 #include "geometry/offset.h"
 #include "travel/blocks.h"
@@ -95,10 +96,13 @@ std::vector<char> holes_among(const std::vector<Ring>& rings) {
   for (const auto& r : rings) boxes.push_back(box_of(r));
   const BoxColumns columns(std::move(boxes));
   std::vector<char> hole(rings.size(), 0);
-  for (std::size_t i = 0; i < rings.size(); ++i)
+  StopNowAndThen stop(64);
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    stop.step();
     columns.each_around(i, [&](std::uint32_t k) {
       if (side_of(rings[k], rings[i][0]) == Side::inside) hole[i] = hole[i] == 0;
     });
+  }
   return hole;
 }
 
@@ -117,6 +121,7 @@ void add_seams(const TravelSettings& settings, Prepared& layer) {
   }
   const auto hole = holes_among(rings);
   for (std::size_t s = 0; s < rings.size(); ++s) {
+    stop_if_asked();
     auto& seam = layer.seams[s];
     const bool counter_clockwise = double_area(rings[s]) > 0;
     const bool material_left = counter_clockwise != (hole[s] != 0);

@@ -1,3 +1,4 @@
+#include "core/stop.h"
 #include "travel/bead_path.h"
 #include "travel/blocks.h"
 #include "travel/lift.h"
@@ -231,7 +232,11 @@ class Writer {
 Routed route(const TravelSettings& settings, const RetractionSettings& retraction, const Prepared& layer,
              const Ordered& ordered, std::optional<Point> from) {
   Writer writer(settings, retraction, layer, from);
-  for (const auto& turn : ordered.turns) writer.print(turn);
+  StopNowAndThen stop(16);
+  for (const auto& turn : ordered.turns) {
+    stop.step();
+    writer.print(turn);
+  }
   return writer.finish();
 }
 

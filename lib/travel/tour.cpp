@@ -1,5 +1,6 @@
 #include "travel/tour.h"
 
+#include "core/stop.h"
 #include "travel/point_grid.h"
 
 #include <algorithm>
@@ -34,7 +35,9 @@ std::vector<Visit> nearest_tour(std::span<const Stop> stops, const TourEnds& end
   for (std::size_t i = 0; i < stops.size(); ++i)
     if (!stops[i].reversible) open[2 * i + 1] = 0, grid.remove(static_cast<std::uint32_t>(2 * i + 1));
   Point at = ends.from ? *ends.from : stops.front().a;
+  StopNowAndThen now_and_then(64);
   while (visits.size() < stops.size()) {
+    now_and_then.step();
     const std::uint32_t e = grid.nearest(at);
     const std::uint32_t stop = e / 2;
     const bool reversed = e % 2 != 0;
@@ -90,9 +93,10 @@ class Search {
   /// Looks at the stops of the queue, and at those that moves touch, until nothing more is gained.
   void settle(long budget) {
     for (std::size_t head = 0; head < queue_.size() && budget > 0; ++head, --budget) {
+      now_and_then_.step();
       const std::uint32_t stop = queue_[head];
       look_[stop] = 0;
-      while (budget > 0 && improve(stop)) --budget;
+      while (budget > 0 && improve(stop)) --budget, now_and_then_.step();
       for (const std::uint32_t touched : touched_)
         if (!look_[touched]) look_[touched] = 1, queue_.push_back(touched);
       touched_.clear();
@@ -314,6 +318,7 @@ class Search {
   std::vector<char> look_;
   std::vector<std::uint32_t> neighbours_, touched_, queue_;
   std::uint64_t seed_ = 1;
+  StopNowAndThen now_and_then_{64};
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "travel/wall_order.h"
 
+#include "core/stop.h"
 #include "travel/box_tree.h"
 
 #include <algorithm>
@@ -89,6 +90,7 @@ class WallOrder {
     std::vector<std::pair<std::uint32_t, Start>> spread;
     std::vector<std::uint32_t> reached_from(n, Block::no_seam);
     for (std::uint32_t w = 0; w < n; ++w) {
+      stop_if_asked();
       if (block_.seams[w] == Block::no_seam) continue;
       // From the outer wall inwards, wall by wall.
       spread.assign(1, {w, starts_[w][0]});
@@ -128,6 +130,7 @@ class WallOrder {
       if (waiting[w] == 0) ready.set(w, boxes[w]);
     std::optional<Point> at = from_;
     while (sequence.size() < n) {
+      stop_if_asked();
       std::uint32_t done = n;
       Turn done_turn;
       std::int64_t nearest2 = std::numeric_limits<std::int64_t>::max();
@@ -201,6 +204,7 @@ class WallOrder {
       for (std::size_t a = 0; a < n; ++a)
         for (std::size_t b = a + 1; b < n; ++b)
           for (std::size_t c = b + 1; c <= n && c <= b + 3; ++c) {
+            stop_if_asked();
             Sequence next = sequence;
             std::rotate(next.begin() + static_cast<std::ptrdiff_t>(runs[a]),
                         next.begin() + static_cast<std::ptrdiff_t>(runs[b]),

@@ -1,5 +1,6 @@
 #include "walls/fit_ends.h"
 
+#include "core/stop.h"
 #include "geometry/spatial_index.h"
 
 #include <algorithm>
@@ -147,6 +148,7 @@ void fit_ends(std::vector<Line>& middles, const std::vector<Line>& pairs) {
   if (!ends || pairs.empty()) return;
   Walls walls(pairs);
   for (Line& line : middles) {
+    stop_if_asked();
     if (line.closed || line.path.size() < 2) continue;
     for (int end = 0; end < 2; ++end) {
       const double by = walls.length_under(line.path, line.inset);

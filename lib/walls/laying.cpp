@@ -1,5 +1,6 @@
 #include "walls/laying.h"
 
+#include "core/stop.h"
 #include "walls/planner.h"
 
 #include <utility>
@@ -8,11 +9,17 @@ namespace weft::walls {
 
 Laying Planner::run() {
   find_core();
+  stop_if_asked();
   cut_at_thresholds();
+  stop_if_asked();
   filter();
+  stop_if_asked();
   open_needless_mouths();
+  stop_if_asked();
   pass_junctions();
+  stop_if_asked();
   ramps();
+  stop_if_asked();
   for (std::uint32_t e = 0; e < core_.size(); ++e) set_core_bounds(e);
   run_into_corners();
   return std::move(out_);

@@ -1,4 +1,5 @@
 // What runs into corners and what does not.
+#include "core/stop.h"
 #include "walls/planner.h"
 
 #include <algorithm>
@@ -31,7 +32,9 @@ void Planner::find_core() {
     leaves.push_back(n);
     std::push_heap(leaves.begin(), leaves.end(), thicker);
   };
+  StopNowAndThen stop(256);
   while (!leaves.empty()) {
+    stop.step();
     std::pop_heap(leaves.begin(), leaves.end(), thicker);
     const std::uint32_t n = leaves.back();
     leaves.pop_back();

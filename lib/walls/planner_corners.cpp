@@ -1,4 +1,5 @@
 // How beads turn back in corners.
+#include "core/stop.h"
 #include "walls/planner.h"
 
 #include <algorithm>
@@ -8,7 +9,9 @@ namespace weft::walls {
 
 void Planner::run_into_corners() {
   const auto nodes = static_cast<std::uint32_t>(any_.size());
+  StopNowAndThen stop(256);
   for (std::uint32_t n = 0; n < nodes; ++n) {
+    stop.step();
     std::uint32_t core = ~0U;
     for_each_leaving(any_[n], [&](std::uint32_t h) {
       if (core_[h / 2] && (core == ~0U || out_.spans[h / 2].pairs > out_.spans[core / 2].pairs)) core = h;
@@ -21,6 +24,7 @@ void Planner::run_into_corners() {
     descend_from(n, span);
   }
   for (const std::uint32_t n : peaks_) {
+    stop.step();
     const double half = s_.nodes[n].clearance;
     Count count = count_for(w_, 2 * half, true);
     if (count.pairs > 0 && !count.middle && widest(count, 2 * half) > wide_bead()) count.middle = true;

@@ -1,4 +1,5 @@
 // How many beads lie side by side along the core.
+#include "core/stop.h"
 #include "walls/planner.h"
 
 #include <algorithm>
@@ -41,7 +42,9 @@ Count Planner::count_of(std::uint32_t e) {
 void Planner::cut_at_thresholds() {
   const auto edges = static_cast<std::uint32_t>(core_.size());
   std::vector<double> cuts;
+  StopNowAndThen stop(256);
   for (std::uint32_t e = 0; e < edges; ++e) {
+    stop.step();
     if (!core_[e]) continue;
     const double a = 2 * s_.start(2 * e).clearance, b = 2 * s_.end(2 * e).clearance;
     const double low = std::min(a, b), high = std::max(a, b);
@@ -65,8 +68,10 @@ void Planner::cut_at_thresholds() {
     }
   }
   count_.resize(core_.size());
-  for (std::uint32_t e = 0; e < core_.size(); ++e)
+  for (std::uint32_t e = 0; e < core_.size(); ++e) {
+    stop.step();
     if (core_[e]) count_[e] = count_of(e);
+  }
 }
 
 double Planner::widest(Count count, double thickness) {
@@ -86,7 +91,9 @@ void Planner::filter() {
       while (root[e] != e) e = root[e] = root[root[e]];
       return e;
     };
+    StopNowAndThen stop(256);
     for (std::uint32_t h = 0; h < s_.halves.size(); ++h) {
+      stop.step();
       if (!core_[h / 2]) continue;
       std::uint32_t g = s_.halves[h].next;  // the next core edge around the end
       while (!core_[g / 2]) g = s_.halves[Skeleton::twin(g)].next;
@@ -107,6 +114,7 @@ void Planner::filter() {
     };
     std::vector<Border> borders;
     for (std::uint32_t h = 0; h < s_.halves.size(); ++h) {
+      stop.step();
       if (!core_[h / 2]) continue;
       std::uint32_t g = s_.halves[h].next;
       while (!core_[g / 2]) g = s_.halves[Skeleton::twin(g)].next;

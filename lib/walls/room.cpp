@@ -14,6 +14,7 @@ Place Room::on_piece(Point p, Place a, Place way) const {
 }
 
 double Room::beside(Place a, Place b, double most, bool first, bool last) {
+  stop_.step();
   const double length = distance(a, b), end = std::min(end_um, length / 4);
   const double from = first ? end : 0, to = last ? length - end : length;
   const Place way = unit(a, b), middle = lerp(a, b, 0.5);

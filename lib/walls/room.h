@@ -1,5 +1,6 @@
 #pragma once
 #include "core/polygon.h"
+#include "core/stop.h"
 #include "geometry/spatial_index.h"
 #include "walls/place.h"
 
@@ -25,6 +26,7 @@ class Room {
   Point origin_;
   geometry::SegmentIndex index_;
   std::vector<std::uint32_t> near_;
+  StopNowAndThen stop_{16};
 };
 
 }  // namespace weft::walls

@@ -1,5 +1,7 @@
 #include "walls/skeleton.h"
 
+#include "core/stop.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -124,7 +126,9 @@ Skeleton skeleton_of(const MedialAxis& axis, double chord) {
   for (const auto& node : axis.nodes) out.nodes.push_back({node.at, node.clearance});
   std::vector<std::uint32_t> first(axis.half_edges.size()), last(axis.half_edges.size());
   std::vector<Skeleton::Node> inner;
+  StopNowAndThen stop(128);
   for (std::uint32_t k = 0; k < axis.half_edges.size(); k += 2) {
+    stop.step();
     inner.clear();
     sample(axis, k, chord, inner);
     const auto& right = axis.sites[axis.half_edges[k].site];

@@ -1,5 +1,7 @@
 #include "walls/trace.h"
 
+#include "core/stop.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -146,8 +148,10 @@ std::vector<Line> trace_pairs(const Skeleton& s, const Laying& laying) {
   for (std::uint32_t h = 0; h < halves; ++h)
     first[h + 1] = first[h] + static_cast<std::uint32_t>(laying.spans[h / 2].pairs);
   std::vector<std::uint8_t> seen(first[halves], 0);
+  StopNowAndThen stop(64);
   for (std::uint32_t begin = 0; begin < halves; ++begin)
     for (int i = 0; i < laying.spans[begin / 2].pairs; ++i) {
+      stop.step();
       const auto k = static_cast<std::uint32_t>(i);
       if (seen[first[begin] + k]) continue;
       Loop loop;

@@ -1,3 +1,4 @@
+#include "core/stop.h"
 #include "walls/strip.h"
 #include "walls/stub.h"
 
@@ -80,6 +81,7 @@ class Tracer {
 
   /// The halves of a line, in order, and how it ends.
   void follow(std::uint32_t h, bool closed, std::vector<std::uint8_t>& seen) {
+    stop_if_asked();
     std::vector<std::uint32_t> chain;
     const int inset = laying_.spans[h / 2].pairs;
     while (h != none && !seen[h / 2]) {

@@ -1,5 +1,6 @@
 #include "walls/walls.h"
 
+#include "core/stop.h"
 #include "geometry/boolean.h"
 #include "geometry/medial_axis.h"
 #include "geometry/offset.h"
@@ -225,6 +226,7 @@ WallLayer build(const WallSettings& settings, const WallInput& input) {
     return out;
   }
   for (std::uint32_t i = 0; i < regions.size(); ++i) {
+    stop_if_asked();
     Part part = build_part(settings, widths, regions[i], input.nozzle_diameter, i);
     if (input.over_air != nullptr) steady_over_air(*input.over_air, widths, part.beads);
     put_in_order(part.beads, settings.wall_order);

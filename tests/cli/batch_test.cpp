@@ -1,7 +1,10 @@
 #include "cli/program.h"
 
+#include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include <catch2/catch.hpp>
@@ -171,6 +174,67 @@ TEST_CASE("batch: a job that takes too long is stopped and the others are made")
   CHECK_THAT(run.err, Contains("slow (slow.jsonl:2)") && Contains("--job-timeout") && Contains("status 130"));
   CHECK(o.scratch.has("out/quick.gcode"));
   CHECK_FALSE(o.scratch.has("out/slow.gcode"));
+}
+
+TEST_CASE("batch: a limit ends a job within a layer, however much is in it, and the others are made") {
+  const Orders o;
+  o.scratch.write("bed.ini", "machine_width = 400\nmachine_depth = 400\n");
+  o.scratch.write("islands.stl", boxes_stl(0.5F, 0.5F, 0.2F, 100, 1));
+  o.scratch.write("list.jsonl", R"({"id": "one", "models": ["a.stl"]})"
+                                "\n"
+                                R"({"id": "islands", "models": ["islands.stl"], "profiles": ["bed.ini"]})"
+                                "\n"
+                                R"({"id": "two", "models": ["b.stl"]})"
+                                "\n");
+  const auto batch = [&](const char* folder, std::vector<std::string> more) {
+    more.insert(more.begin(), {"batch", "list.jsonl", "-o", folder, "-j", "1"});
+    return weft(more, o.scratch.path());
+  };
+  REQUIRE(batch("whole", {}).status == 0);
+  const auto whole = o.reports("whole/report.jsonl");
+  REQUIRE(whole[1]["layers"] == 1);
+  const double takes_s = whole[1]["seconds"], limit_s = takes_s / 8;
+  REQUIRE(whole[0]["seconds"] < limit_s);
+
+  const auto run = batch("out", {"--job-timeout", std::to_string(limit_s)});
+  INFO(run.err);
+  CHECK(run.status == 7);
+  CHECK_THAT(run.err, Contains("islands (list.jsonl:2): stopped after") && Contains("--job-timeout; status 130"));
+  const auto reports = o.reports();
+  REQUIRE(reports.size() == 3);
+  CHECK(reports[1]["exit_status"] == 130);
+  CHECK(reports[1]["status"] == "failed");
+  CHECK(reports[1]["seconds"] >= limit_s);
+  CHECK(reports[1]["seconds"] < takes_s / 2);
+  for (const auto* made : {"one.gcode", "two.gcode"})
+    CHECK(o.scratch.read(std::string("out/") + made) == o.scratch.read(std::string("whole/") + made));
+  std::set<std::string> left;
+  for (const auto& entry : std::filesystem::directory_iterator(o.scratch.path() / "out"))
+    left.insert(entry.path().filename().string());
+  CHECK(left == std::set<std::string>{".weft", "junit.xml", "one.gcode", "report.jsonl", "summary.csv", "two.gcode"});
+
+  // A sweep's jobs share what they have in common: who waits for a job that is stopped goes on with it.
+  const auto sweep = weft({"sweep", "islands.stl", "-p", "bed.ini", "--vary", "infill_sparse_density=10,20", "-o", "swept",
+                           "--job-timeout", std::to_string(limit_s)},
+                          o.scratch.path());
+  INFO(sweep.err);
+  CHECK(sweep.status == 7);
+  for (const auto& report : o.reports("swept/report.jsonl")) CHECK(report["exit_status"] == 130);
+
+  const auto begin = std::chrono::steady_clock::now();
+  const auto ended = shell("$WEFT batch list.jsonl -o ended -j 1 & job=$!; until [ -f ended/one.gcode ]; do sleep 0.02; done; sleep " +
+                               std::to_string(limit_s) + "; kill -TERM $job; wait $job",
+                           o.scratch.path());
+  INFO(ended.err);
+  CHECK(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < takes_s / 2);
+  CHECK(ended.status == 130);
+  CHECK_THAT(ended.err, Contains("what is made stays"));
+  CHECK(o.reports("ended/report.jsonl")[1]["status"] == "missing");
+
+  const auto memory = batch("small", {"--max-memory", "30M"});
+  CHECK(memory.status == 7);
+  CHECK_THAT(memory.err, Contains("islands (list.jsonl:2): stopped: alone it needs more than 30 MB"));
+  CHECK(o.reports("small/report.jsonl")[1]["exit_status"] == 130);
 }
 
 TEST_CASE("batch: with --resume what was refused is not tried again") {
