@@ -1,5 +1,6 @@
 #include "mesh/orient.h"
 
+#include "mesh/box_tree.h"
 #include "tasks/blocks.h"
 #include "tasks/parallel.h"
 
@@ -108,22 +109,14 @@ void measure(const Mesh& mesh, const ShellForest& forest, std::vector<Shell>& sh
 
 /// Rule 4 of the header.
 void turn_parts_inside_out(std::vector<Shell>& shells) {
-  constexpr std::size_t most = 1000;  // of the outward shells, the largest: keeps a cloud of bubbles linear
+  const auto faces_inward = [](const Shell& s) { return s.closed && !s.one_sided && s.facing() < 0; };
+  if (std::none_of(shells.begin(), shells.end(), faces_inward)) return;
   std::vector<Box3> outward;
   for (const Shell& shell : shells)
     if (shell.facing() > 0) outward.push_back(shell.box);
-  const bool all_known = outward.size() <= most;
-  const auto larger = [](const Box3& a, const Box3& b) {
-    return std::int64_t{a.size().x} + a.size().y + a.size().z > std::int64_t{b.size().x} + b.size().y + b.size().z;
-  };
-  std::stable_sort(outward.begin(), outward.end(), larger);
-  outward.resize(std::min(outward.size(), most));
-  for (Shell& shell : shells) {
-    if (!shell.closed || shell.one_sided || shell.facing() >= 0) continue;
-    const bool is_void =
-        std::any_of(outward.begin(), outward.end(), [&](const Box3& b) { return b.contains(shell.box); });
-    if (!is_void && all_known) shell.invert = !shell.invert;
-  }
+  const BoxTree tree(std::move(outward));
+  for (Shell& shell : shells)
+    if (faces_inward(shell) && !tree.any_contains(shell.box)) shell.invert = !shell.invert;
 }
 
 void decide(std::vector<Shell>& shells) {

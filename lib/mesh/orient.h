@@ -15,8 +15,8 @@ namespace weft::mesh {
 ///
 /// So a void that the file says is one is never made solid. An inside-out part within the box of another stays too;
 /// the slicer's nonzero rule sees it as solid nevertheless. One-sided shells (Möbius) and open ones in rule 4 are left.
-/// Writes the counts flipped, inverted_shells, shells and one_sided_shells. Cost: linear, but for rule 4 up to
-/// (inward shells) × 1000.
+/// Writes the counts flipped, inverted_shells, shells and one_sided_shells. Cost: linear, but for rule 4, where shells are
+/// looked for in a tree of boxes.
 void orient(Mesh& mesh, Adjacency adjacency, Repairs& repairs);
 
 }  // namespace weft::mesh

@@ -1,3 +1,4 @@
+#include "mesh/box_tree.h"
 #include "mesh/fixtures.h"
 #include "tasks/tasks.h"
 
@@ -165,6 +166,46 @@ TEST_CASE("mesh: a part that is inside out beside one that is not is turned roun
     const auto [volume, repairs] = repaired(facets);
     CHECK(volume == Approx(9000));
     CHECK(repairs == Repairs{.inverted_shells = 1, .shells = 2});
+  }
+}
+
+TEST_CASE("mesh: among thousands of parts one that is inside out is turned round, and a void stays one", "[mesh][repair]") {
+  Facets facets = cube + reversed(box({5, 5, 5}, {15, 15, 15}));
+  const double one = repaired(facets).volume_mm3;
+  REQUIRE(one == Approx(7000));
+  constexpr int more = 2000;
+  for (int i = 0; i < more; ++i) {
+    const float x = 30.F + 3.F * static_cast<float>(i % 50), y = 3.F * static_cast<float>(i / 50);
+    const Facets part = box({x, y, 0}, {x + 2, y + 2, 2});
+    facets = std::move(facets) + (i == 777 ? reversed(part) : part);
+  }
+  const auto [volume, repairs] = repaired(facets);
+  CHECK(volume == Approx(one + more * 8));
+  CHECK(repairs == Repairs{.inverted_shells = 1, .shells = more + 2});
+}
+
+TEST_CASE("mesh: a tree of boxes finds what looking at each box finds", "[mesh][repair][law]") {
+  std::mt19937 random(11);
+  const auto below = [&](int end) { return static_cast<Um>(random() % static_cast<unsigned>(end)); };
+  for (const int count : {0, 1, 8, 9, 700}) {
+    std::vector<Box3> boxes(static_cast<std::size_t>(count));
+    for (auto& b : boxes) {
+      const Point3 low{below(1000), below(1000), below(1000)};
+      b.add(low);
+      b.add(Point3{low.x + below(300), low.y + below(300), low.z + below(300)});
+    }
+    const BoxTree tree(boxes);
+    int held = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const Point3 low{below(1200), below(1200), below(1200)};
+      const Um size = below(60);
+      Box3 asked;
+      asked.add(low), asked.add(Point3{low.x + size, low.y + size, low.z + size});
+      const bool any = std::any_of(boxes.begin(), boxes.end(), [&](const Box3& b) { return b.contains(asked); });
+      held += any;
+      REQUIRE(tree.any_contains(asked) == any);
+    }
+    if (count == 700) CHECK((held > 200 && held < 1800));
   }
 }
 
