@@ -32,7 +32,7 @@ std::string first_text(const IniEntry& e) {
 /// The arithmetic between the lines of a configuration.
 class Translator {
  public:
-  Translator(Lines lines, const std::string& path) : lines_(std::move(lines)), path_(path) {}
+  explicit Translator(Lines lines) : lines_(std::move(lines)) {}
 
   Translation run() {
     machine();
@@ -396,7 +396,6 @@ class Translator {
   }
 
   Lines lines_;
-  const std::string& path_;
   std::set<std::string_view> done_;  ///< rows of same_rows whose setting was reckoned otherwise
   double nozzle_ = 0.4, height_ = 0.2, solid_width_ = 0.45;
   Translation out_;
@@ -424,7 +423,7 @@ Translation translate(std::vector<IniEntry> entries, const std::string& path, bo
     all.insert(all.end(), std::make_move_iterator(entries.begin()), std::make_move_iterator(entries.end()));
     entries = std::move(all);
   }
-  return Translator(Lines(std::move(entries), path), path).run();
+  return Translator(Lines(std::move(entries), path)).run();
 }
 
 }  // namespace weft::prusaslicer
