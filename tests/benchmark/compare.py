@@ -158,7 +158,7 @@ def commands(args, folder):
 
 
 def measured(argv, env, timeout):
-    """Wall s, CPU s, peak MB of one run; None when it failed or took too long."""
+    """Wall s, CPU s, peak MB of one run; in words why there are none, when it failed or took too long."""
     import time
     begin = time.monotonic()
     process = subprocess.Popen(argv, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env={**os.environ, **env})
@@ -169,13 +169,15 @@ def measured(argv, env, timeout):
                 break
             if time.monotonic() - begin > timeout:
                 process.kill()
-                os.wait4(process.pid, 0)
-                return None
+                _, _, usage = os.wait4(process.pid, 0)
+                return f"stopped after {timeout:g} s of wall time, {usage.ru_utime + usage.ru_stime:.0f} s of CPU time, {usage.ru_maxrss / 1024:.0f} MB"
             time.sleep(0.002)
     finally:
         process.returncode = 0
     wall = time.monotonic() - begin
-    return (wall, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024) if status == 0 else None
+    if status != 0:
+        return f"failed with signal {status & 127}" if status & 127 else f"failed with status {status >> 8}"
+    return wall, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
 
 
 def main():
@@ -196,20 +198,22 @@ def main():
         print("| model | slicer | wall s | × weft | CPU s | × weft | peak MB | G-code MB |\n|---|---|---|---|---|---|---|---|")
         for model in models:
             samples = {tool: [] for tool in tools}
-            sizes = {}
+            sizes, why = {}, {}
             for _ in range(args.runs):
                 for tool, command in tools.items():
                     out = folder / f"{tool}.gcode"
                     out.unlink(missing_ok=True)
                     sample = measured(*command(model, out), args.timeout)
-                    if sample and out.exists():
+                    if isinstance(sample, str) or not out.exists():
+                        why[tool] = sample if isinstance(sample, str) else "wrote nothing"
+                    else:
                         samples[tool].append(sample)
                         sizes[tool] = out.stat().st_size / 1e6
             median = {t: [statistics.median(x) for x in zip(*s)] for t, s in samples.items() if s}
             base = median.get("weft")
             for tool in tools:
                 if tool not in median:
-                    print(f"| {model.stem} | {tool} | failed | | | | | |")
+                    print(f"| {model.stem} | {tool} | {why[tool]} | | | | | |", flush=True)
                     continue
                 wall, cpu, memory = median[tool]
                 ratio = (lambda v, i: f"{v / base[i]:.1f}") if base else (lambda v, i: "")
