@@ -9,6 +9,7 @@ namespace weft::motion {
 namespace {
 
 constexpr double volume_share = 0.005;
+constexpr double volume_most = 2;  // mm²·µm at height 1 mm, a square of 45 µm: or on a long segment a share would be a gap
 
 double band_um(const Junction& j) {
   return j.width * static_cast<double>(j.flow);
@@ -68,7 +69,7 @@ class Thinner {
     }
     if (worst != 0) return worst;
     const double was = volume_[span.last] - volume_[span.first], is = std::sqrt(length2) * mean_area_mm2(a, b, 1.0);
-    return std::abs(is - was) > volume_share * was ? (span.first + span.last) / 2 : 0;
+    return std::abs(is - was) > std::min(volume_share * was, volume_most) ? (span.first + span.last) / 2 : 0;
   }
 
   const std::vector<Junction>& path_;

@@ -9,6 +9,7 @@ namespace {
 using Vertex = Line::Vertex;
 
 constexpr double straight_um = 1.0;     // a vertex this close to its neighbours' chord is left out
+constexpr double parallel_um = 0.3;     // … of walls side by side, which leave gaps where each has lost other vertices
 constexpr double even_um = 2.0;         // … where the width is this close to theirs
 constexpr double even_inside = 0.5;     // of the width: an end inside that tapers more keeps its steps
 constexpr double any_taper = 1.0;       // … no end tapers more
@@ -17,12 +18,12 @@ constexpr double width_step_um = 10.0;  // a segment is printed at one width: no
 /// The way from one vertex straight to another.
 class Chord {
  public:
-  Chord(const Vertex& a, const Vertex& c)
+  Chord(const Vertex& a, const Vertex& c, double off)
       : a_(a),
         dx_(c.at.x - a.at.x),
         dy_(c.at.y - a.at.y),
         length2_(dx_ * dx_ + dy_ * dy_),
-        off_most_(straight_um * std::sqrt(length2_)),
+        off_most_(off * std::sqrt(length2_)),
         wider_(c.width - a.width) {}
 
   /// Whether b lies on it.
@@ -38,15 +39,15 @@ class Chord {
   double dx_, dy_, length2_, off_most_, wider_;
 };
 
-/// Leaves out what chords stand for. The ends stay.
-void thin_out(std::vector<Vertex>& path) {
+/// Leaves out what chords stand for that it lies at most `off` from. The ends stay.
+void thin_out(std::vector<Vertex>& path, double off) {
   constexpr std::size_t most_skipped = 24;
   if (path.size() < 3) return;
   std::size_t from = 0, kept = 0;  // what is kept is put in front, never beyond `from`
   while (from + 1 < path.size()) {
     std::size_t to = from + 1;
     for (; to + 1 < path.size() && to - from < most_skipped; ++to) {
-      const Chord chord(path[from], path[to + 1]);
+      const Chord chord(path[from], path[to + 1], off);
       std::size_t i = to;  // the nearest to the new end lies off it first
       while (i > from && chord.holds(path[i])) --i;
       if (i > from) break;
@@ -167,7 +168,7 @@ void finish(Line line, const FinishOptions& o, std::vector<Line>& out, double& d
   const bool all_thick =
       std::all_of(line.path.begin(), line.path.end(), [&](const Vertex& v) { return v.width >= o.least_feature; });
   if (line.closed && all_thick) {
-    thin_out(line.path);
+    thin_out(line.path, parallel_um);
     limit_steps(line.path);
     line.path.pop_back();
     out.push_back(std::move(line));
@@ -187,7 +188,7 @@ void finish(Line line, const FinishOptions& o, std::vector<Line>& out, double& d
       std::reverse(stretch.begin(), stretch.end());
     }
     keep_within(stretch, o.most_width);
-    thin_out(stretch);
+    thin_out(stretch, straight_um);
     limit_steps(stretch);
     const auto most_um = [&](bool meets) { return line.inset == 0 && !meets ? o.even_taper : 1e9; };
     steady_start(stretch, any_taper, most_um(first_meets));

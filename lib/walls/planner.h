@@ -35,9 +35,20 @@ class Planner {
     double low, high;              ///< clearance
     double walls_low, walls_high;  ///< what walls fill there
   };
+  /// The bead that turned back last on a way down: its tip is round.
+  struct Turn {
+    double reach = 0;  ///< half its width
+    double past = 0;   ///< way along the axis since
+  };
+  /// Where a mouth ends in a part that has nothing but walls.
+  struct Throat {
+    int pairs;
+    std::uint32_t bounds;  ///< where those of the part begin in Laying::bounds
+  };
   struct Descent {
     std::uint32_t half;
     Span span;
+    Turn turn;
   };
 
   double slope(std::uint32_t e) const {
@@ -109,12 +120,21 @@ class Planner {
   std::uint32_t bounds_at(Count mine, Count other, double share, double half);
 
   // corners
+  void find_throats();
+  /// Walls that go on where another has turned back fill the room beside its tip, and no more: at an edge of a mouth, and
+  /// down into the part below it as far as the tip reaches.
+  void fill_beside(std::uint32_t h, const Turn& turn);
+  void yield_below(std::uint32_t h, const Span& span, Turn turn);
+  /// Splits an edge whose beads are known; returns the first part of the half.
+  std::uint32_t split_core(std::uint32_t h, double t);
+  /// The bounds of those walls where the axis has come so far, steep by `slope`; as in `span`, but no less than that.
+  std::uint32_t bounds_beside(const Throat& throat, const Span& span, const Turn& turn, double slope, double clearance);
   bool climbs_mouth(std::uint32_t h) const { return mouth_[h / 2] && s_.end(h).clearance > s_.start(h).clearance; }
   void run_into_corners();
   void descend_from(std::uint32_t n, const Span& span);
   double track(const Span& span, int i) const;
   /// Beads end on the axis where the clearance falls to their distance.
-  void descend(std::uint32_t h, Span span);
+  void descend(std::uint32_t h, Span span, Turn turn);
 
   static constexpr std::uint32_t none = ~0U;
   static constexpr double outer_spread =
@@ -138,6 +158,8 @@ class Planner {
   std::vector<Blend> blend_;
   std::vector<Passage> passages_;
   std::vector<std::uint32_t> passage_;  // by edge: its passage, or none
+  std::vector<Throat> throats_;
+  std::vector<std::uint32_t> throat_;  // by edge: its throat, or none
   std::vector<double> scratch_;
   std::vector<Descent> leave_;
   Laying out_;

@@ -7,7 +7,99 @@
 
 namespace weft::walls {
 
+void Planner::find_throats() {
+  throat_.assign(core_.size(), none);
+  for (const auto& run : runs_) {
+    std::uint32_t below = none;
+    int ways = 0;
+    for_each_leaving(run.front(), [&](std::uint32_t h) {
+      if (core_[h / 2]) below = h, ++ways;
+    });
+    if (ways != 1 || !mouth_[run.front() / 2]) continue;
+    const Span& span = out_.spans[below / 2];
+    if (span.middle || span.open) continue;
+    for (const std::uint32_t h : run) throat_[h / 2] = static_cast<std::uint32_t>(throats_.size());
+    throats_.push_back({span.pairs, below % 2 == 0 ? span.at_start : span.at_end});
+  }
+}
+
+std::uint32_t Planner::bounds_beside(const Throat& throat, const Span& span, const Turn& turn, double slope,
+                                     double clearance) {
+  // How far the tip, a disc, reaches along the rib, which leans away from it by the slope.
+  const double r = turn.reach, t = turn.past;
+  const double tip = t < r ? std::sqrt(r * r - t * t * (1 - slope * slope)) - t * slope : 0;
+  const auto last = static_cast<std::size_t>(throat.pairs);
+  const double above = out_.bounds[span.at_start + last], below = out_.bounds[throat.bounds + last];
+  const double wanted = clearance - tip;
+  if (wanted <= above) return span.at_start;
+  const double share = below > above + same_um ? std::min(1.0, (wanted - above) / (below - above)) : 0;
+  const auto at = static_cast<std::uint32_t>(out_.bounds.size());
+  for (std::size_t i = 0; i < last; ++i) {
+    const double b = out_.bounds[span.at_start + i];
+    out_.bounds.push_back(b + share * std::max(0.0, out_.bounds[throat.bounds + i] - b));
+  }
+  out_.bounds.push_back(wanted);
+  return at;
+}
+
+void Planner::fill_beside(std::uint32_t h, const Turn& turn) {
+  if (h / 2 >= throat_.size() || throat_[h / 2] == none || turn.reach <= 0) return;
+  const Throat throat = throats_[throat_[h / 2]];
+  const Span span = out_.spans[h / 2];
+  if (span.pairs != throat.pairs || span.pairs == 0) return;
+  const double m = std::min(1.0, slope(h / 2));
+  const Turn later{turn.reach, turn.past + s_.length(h / 2)};
+  const std::uint32_t from = bounds_beside(throat, span, turn, m, s_.start(h).clearance);
+  const std::uint32_t to = bounds_beside(throat, span, later, m, s_.end(h).clearance);
+  out_.spans[h / 2].at_start = h % 2 == 0 ? from : to;
+  out_.spans[h / 2].at_end = h % 2 == 0 ? to : from;
+}
+
+void Planner::yield_below(std::uint32_t h, const Span& span, Turn turn) {
+  if (h / 2 >= throat_.size() || throat_[h / 2] == none || span.pairs == 0) return;
+  if (span.pairs != throats_[throat_[h / 2]].pairs) return;
+  std::uint32_t g = none;
+  for_each_leaving(Skeleton::twin(h), [&](std::uint32_t x) {
+    if (core_[x / 2]) g = x;
+  });
+  while (turn.past < turn.reach - same_um) {
+    const Span& own = out_.spans[g / 2];
+    const double high = s_.start(g).clearance, length = s_.length(g / 2);
+    if (own.pairs != span.pairs || own.middle || own.open || s_.end(g).clearance > high || length < same_um) return;
+    if (turn.past + length > turn.reach) {
+      const double t = (turn.reach - turn.past) / length;
+      g = split_core(g, t);
+    }
+    const double m = std::min(1.0, slope(g / 2));
+    const Turn later{turn.reach, turn.past + s_.length(g / 2)};
+    Span& cut = out_.spans[g / 2];
+    std::uint32_t &from = g % 2 == 0 ? cut.at_start : cut.at_end, &to = g % 2 == 0 ? cut.at_end : cut.at_start;
+    from = bounds_beside({span.pairs, from}, span, turn, m, high);
+    to = bounds_beside({span.pairs, to}, span, later, m, s_.end(g).clearance);
+    turn = later;
+    const std::uint32_t next = onward(g);
+    if (next == g) return;
+    g = next;
+  }
+}
+
+std::uint32_t Planner::split_core(std::uint32_t h, double t) {
+  const std::uint32_t e = h / 2, f = split(e, h % 2 == 0 ? t : 1 - t);
+  out_.spans.resize(core_.size());
+  Span &first = out_.spans[e], &second = out_.spans[f];
+  second = first;
+  const auto at = static_cast<std::uint32_t>(out_.bounds.size());
+  const double share = h % 2 == 0 ? t : 1 - t;
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(first.pairs); ++i) {
+    const double a = out_.bounds[first.at_start + i], b = out_.bounds[first.at_end + i];
+    out_.bounds.push_back(a + share * (b - a));
+  }
+  first.at_end = second.at_start = at;
+  return h % 2 == 0 ? h : 2 * f + 1;
+}
+
 void Planner::run_into_corners() {
+  find_throats();
   const auto nodes = static_cast<std::uint32_t>(any_.size());
   StopNowAndThen stop(256);
   for (std::uint32_t n = 0; n < nodes; ++n) {
@@ -39,12 +131,12 @@ void Planner::run_into_corners() {
 
 void Planner::descend_from(std::uint32_t n, const Span& span) {
   for_each_leaving(any_[n], [&](std::uint32_t h) {
-    if (!core_[h / 2] && !climbs_mouth(h)) leave_.push_back({h, span});
+    if (!core_[h / 2] && !climbs_mouth(h)) leave_.push_back({h, span, {}});
   });
   while (!leave_.empty()) {
     const Descent d = leave_.back();
     leave_.pop_back();
-    descend(d.half, d.span);
+    descend(d.half, d.span, d.turn);
   }
 }
 
@@ -53,14 +145,18 @@ double Planner::track(const Span& span, int i) const {
   return (b[i] + b[i + 1]) / 2;
 }
 
-void Planner::descend(std::uint32_t h, Span span) {
+void Planner::descend(std::uint32_t h, Span span, Turn turn) {
+  const auto turn_back = [&] {
+    const double* b = &out_.bounds[span.at_start + static_cast<std::size_t>(--span.pairs)];
+    turn = {(b[1] - b[0]) / 2, 0};
+  };
   for (;;) {
     if (reached_.size() < core_.size()) reached_.resize(core_.size(), 0);
     if (reached_[h / 2]) return;
     const double from = s_.start(h).clearance, to = s_.end(h).clearance, low = std::min(from, to);
     while (span.open && out_.bounds[span.at_start + static_cast<std::size_t>(span.pairs)] > from + same_um)
       span.open = false;
-    while (span.pairs > 0 && track(span, span.pairs - 1) > from + same_um) --span.pairs;
+    while (span.pairs > 0 && track(span, span.pairs - 1) > from + same_um) turn_back();
     double cut = -1;
     if (span.open && out_.bounds[span.at_start + static_cast<std::size_t>(span.pairs)] > low + same_um)
       cut = out_.bounds[span.at_start + static_cast<std::size_t>(span.pairs)];
@@ -81,26 +177,31 @@ void Planner::descend(std::uint32_t h, Span span) {
       if (span.open)
         span.open = false;
       else
-        --span.pairs;
+        turn_back();
       continue;
     }
     out_.spans[h / 2] = span;
     out_.spans[h / 2].mouth = mouth_[h / 2] != 0;
+    if (mouth_[h / 2]) fill_beside(h, turn);
+    turn.past += s_.length(h / 2);
     reached_[h / 2] = 1;
     if (rest != h) {
       if (span.open)
         span.open = false;
       else
-        --span.pairs;
+        turn_back();
       h = rest;
       continue;
     }
     const std::uint32_t back = Skeleton::twin(h);
     bool at_core = false;
     for_each_leaving(back, [&](std::uint32_t g) { at_core = at_core || core_[g / 2]; });
-    if (at_core) return;
+    if (at_core) {
+      if (mouth_[h / 2]) yield_below(h, span, turn);
+      return;
+    }
     for_each_leaving(back, [&](std::uint32_t g) {
-      if (g != back && !climbs_mouth(g)) leave_.push_back({g, span});
+      if (g != back && !climbs_mouth(g)) leave_.push_back({g, span, turn});
     });
     return;
   }

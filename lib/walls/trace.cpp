@@ -31,7 +31,7 @@ Piece pair_piece(const Skeleton& s, const Laying& laying, std::uint32_t h, std::
   const double *a = laying.start(h), *b = laying.end(h);
   Piece p{{s.on_start_rib(h, (a[i] + a[i + 1]) / 2), a[i + 1] - a[i]},
           {s.on_end_rib(h, (b[i] + b[i + 1]) / 2), b[i + 1] - b[i]}};
-  if (laying.spans[h / 2].core) {
+  if (laying.spans[h / 2].core || laying.spans[h / 2].mouth) {
     const double area = quad_area(s.on_start_rib(h, a[i]), s.on_end_rib(h, b[i]), s.on_end_rib(h, b[i + 1]),
                                   s.on_start_rib(h, a[i + 1]));
     const double f = fit(area, (p.start.width + p.end.width) / 2, distance(p.start.at, p.end.at));

@@ -170,13 +170,17 @@ class Tracer {
   /// What lies right of the axis between the end of h and the start of g: corners are followed, mouths are passed.
   void around(std::uint32_t h, std::uint32_t g, std::vector<Place>& out) const {
     const double inner = level(h, false);
+    bool passed = false;  // the mouth of a branch: what lies between it and the next one's is a side, too
     for (std::uint32_t x = s_.halves[h].next; x != g;) {
       if (dot_edge(x)) {
         x = s_.halves[x].next;
       } else if (leaves_strip(x)) {
+        if (passed) out.push_back(s_.on_start_rib(x, inner));
+        passed = true;
         x = s_.halves[Skeleton::twin(x)].next;
       } else {
         add_piece(x, inner, out);
+        passed = false;
         x = s_.halves[x].next;
       }
     }

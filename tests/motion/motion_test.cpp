@@ -213,6 +213,13 @@ TEST_CASE("motion: a path sampled finely is printed with few moves, in place, in
   }
 }
 
+TEST_CASE("motion: a long segment does not take on the width of the step at its end") {
+  const Bead ramp{line({{0, 340}, {200, 411}, {220, 407}, {20'000, 407}}).path, Role::inner_wall};
+  Bead thin = ramp;
+  thin_out(thin.path);
+  CHECK(std::abs(volume_mm3(thin, 1_mm) - volume_mm3(ramp, 1_mm)) < 0.004);  // of 8.14 mm³
+}
+
 TEST_CASE("motion: thinning keeps corners, steps of width, and closed paths of two points and more") {
   auto corner = square(10'000).path;
   thin_out(corner);
