@@ -183,7 +183,7 @@ Diagram diagram_of(const detail::Outline& outline) {
       v.where = Where::outside;
       continue;
     }
-    const auto centre = graph.circumcenter(f);
+    const auto centre = graph.centre(f);
     v.at = {centre.x(), centre.y()};
     locate(out, v);
   }

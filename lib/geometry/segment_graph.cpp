@@ -1,6 +1,7 @@
 #include "geometry/segment_graph.h"
 
 #include "core/stop.h"
+#include "geometry/circle_centre.h"
 
 #include <limits>
 
@@ -60,6 +61,7 @@ void SegmentGraph::build(const std::vector<Point>& points,
     insert_segments(points, segments.begin(), segments.end());
     return;
   }
+  knows_sites_ = true;
   std::vector<Point_handle> handles;
   handles.reserve(points.size());
   double least_x = points[0].x(), most_x = least_x, least_y = points[0].y(), most_y = least_y;
@@ -228,23 +230,25 @@ SegmentGraph::Vertex SegmentGraph::fill_hole(const Query& query) {
   return v;
 }
 
-void SegmentGraph::measure(Face f) {
-  if (f->circle != Circle::unknown) return;
-  centre(f);
-  f->circle = bound_circle(f);
+SegmentGraph::Point SegmentGraph::centre(Face f) {
+  if (knows_sites_) measure(f);
+  const bool known = f->circle == Circle::bounded || f->circle == Circle::point;
+  return known ? Point(f->x, f->y) : circumcenter(f);
 }
 
-/// Of three points by the usual formula, else as CGAL constructs it.
-void SegmentGraph::centre(Face f) const {
+/// By closed forms where what they give is proven, and of three points; else as CGAL constructs it, from intervals that
+/// may be wide.
+void SegmentGraph::measure(Face f) {
+  if (f->circle != Circle::unknown) return;
   const GraphSite &a = f->vertex(0)->graph_site, &b = f->vertex(1)->graph_site, &c = f->vertex(2)->graph_site;
-  if (a.edge || b.edge || c.edge) {
-    const auto at = circumcenter(f);
-    f->x = at.x(), f->y = at.y();
-    return;
+  if (const auto centre = circle_centre(a, b, c)) {
+    f->x = centre->x, f->y = centre->y;
+    f->circle = bound_circle(f);
+    if (f->circle != Circle::doubtful || !(a.edge || b.edge || c.edge)) return;
   }
-  const double bx = b.ax - a.ax, by = b.ay - a.ay, cx = c.ax - a.ax, cy = c.ay - a.ay;
-  const double b2 = bx * bx + by * by, c2 = cx * cx + cy * cy, twice = 2 * (bx * cy - by * cx);
-  f->x = a.ax + (cy * b2 - by * c2) / twice, f->y = a.ay + (bx * c2 - cx * b2) / twice;
+  const auto at = circumcenter(f);
+  f->x = at.x(), f->y = at.y();
+  f->circle = bound_circle(f);
 }
 
 SegmentGraph::Circle SegmentGraph::bound_circle(Face f) const {

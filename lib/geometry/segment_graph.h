@@ -3,6 +3,8 @@
 #define CGAL_NDEBUG 1
 #define CGAL_SDG_NO_FACE_MAP 1
 
+#include "geometry/graph_site.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -37,14 +39,6 @@ struct Carrier : Base, Data {
   struct Rebind_TDS {
     using Other = Carrier<typename Base::template Rebind_TDS<Tds>::Other, Data>;
   };
-};
-
-/// What one vertex of the graph stands for: a point of the outline, or an edge between two of them.
-struct GraphSite {
-  double ax = 0, ay = 0, bx = 0, by = 0;  ///< µm; b is a for a point
-  std::uint32_t a = 0, b = 0;             ///< indices of points
-  bool edge = false;
-  bool ends_in(std::uint32_t point) const { return a == point || b == point; }
 };
 
 /// A vertex: the site it is, and its number.
@@ -115,6 +109,8 @@ class SegmentGraph : public GraphBase {
   /// Inserts the points and the segments between them. Pre: points are distinct; segments meet in common ends only and
   /// are distinct.
   void build(const std::vector<Point>& points, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& segments);
+  /// Of a face's circle. Pre: the face is finite
+  Point centre(Face f);
 
  private:
   struct Query {
@@ -131,7 +127,6 @@ class SegmentGraph : public GraphBase {
   Vertex fill_hole(const Query& query);
 
   void measure(Face f);
-  void centre(Face f) const;
   Circle bound_circle(Face f) const;
   bool bound_by_sites(Face f) const;
   bool bound_on_perpendicular(Face f, int end, int edge) const;
@@ -146,7 +141,8 @@ class SegmentGraph : public GraphBase {
 
   Data_structure& structure() { return const_cast<Data_structure&>(tds()); }  // CGAL inherits it privately
 
-  double scale_ = 1;  ///< of coordinates, µm
+  double scale_ = 1;            ///< of coordinates, µm
+  bool knows_sites_ = false;  ///< vertices carry them
 
   // The boundary of the faces that are entered, counter-clockwise: a ring of edges linked through their faces' data.
   void link(const Edge& a, const Edge& b) {
