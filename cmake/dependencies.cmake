@@ -1,6 +1,7 @@
 # Every library weft stands on, all from Debian packages; which module uses which stands in lib/CMakeLists.txt.
 find_package(fmt REQUIRED)
 find_package(TBB REQUIRED)
+find_library(GMP_LIBRARIES NAMES libgmp.a gmp)  # for CGAL; an archive for the reason below
 find_package(CGAL REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(nlohmann_json REQUIRED)

@@ -1,0 +1,143 @@
+// This program is linked with app/small_memory.cpp: whatever is new here is its.
+#include "jobs/memory.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <mutex>
+#include <random>
+#include <thread>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+namespace {
+
+/// A piece of memory, filled with a pattern of its own.
+struct Filled {
+  unsigned char* at = nullptr;
+  std::size_t bytes = 0;
+  unsigned char pattern = 0;
+};
+
+Filled filled(std::size_t bytes, unsigned char pattern) {
+  const Filled piece{static_cast<unsigned char*>(::operator new(bytes)), bytes, pattern};
+  std::memset(piece.at, pattern, bytes);
+  return piece;
+}
+
+bool intact(const Filled& piece) {
+  return std::all_of(piece.at, piece.at + piece.bytes, [&](unsigned char c) { return c == piece.pattern; });
+}
+
+/// With and without its size, which operator delete may be told.
+void give(const Filled& piece, bool told) {
+  told ? ::operator delete(piece.at, piece.bytes) : ::operator delete(piece.at);
+}
+
+constexpr double mb = 1e6;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool watched = true;  // by a sanitizer, which keeps what is freed
+#else
+constexpr bool watched = false;
+#endif
+
+}  // namespace
+
+TEST_CASE("small memory: pieces of all sizes are aligned, lie apart and keep what is written into them", "[app]") {
+  std::mt19937 random(5);
+  std::vector<Filled> held;
+  std::size_t bad = 0, misplaced = 0;
+  for (int round = 0; round < 200'000; ++round) {
+    if (held.size() < 3000 || random() % 2 == 0) {
+      held.push_back(filled(random() % 600, static_cast<unsigned char>(random())));
+      misplaced += reinterpret_cast<std::uintptr_t>(held.back().at) % alignof(std::max_align_t) != 0;
+    } else {
+      std::swap(held[random() % held.size()], held.back());
+      bad += !intact(held.back());
+      give(held.back(), random() % 2 == 0);
+      held.pop_back();
+    }
+  }
+  std::map<std::uintptr_t, std::size_t> places;
+  for (const Filled& piece : held) places[reinterpret_cast<std::uintptr_t>(piece.at)] = piece.bytes;
+  REQUIRE(places.size() == held.size());
+  std::size_t overlapping = 0;
+  std::uintptr_t end = 0;
+  for (const auto& [at, bytes] : places) overlapping += at < end, end = at + bytes;
+  for (const Filled& piece : held) bad += !intact(piece), give(piece, true);
+  CHECK(bad == 0);
+  CHECK(misplaced == 0);
+  CHECK(overlapping == 0);
+}
+
+TEST_CASE("small memory: what threads take from each other and give back is intact, and used again", "[app]") {
+  // A ring of threads: each hands some of its pieces to the next, which checks and frees them.
+  constexpr std::size_t threads = 4, rounds = 3000, handed = 200;
+  std::array<std::vector<Filled>, threads> box;
+  std::array<std::mutex, threads> mutex;
+  std::array<std::size_t, threads> bad{};
+  const auto work = [&](std::size_t me) {
+    std::mt19937 random(static_cast<unsigned>(me));
+    for (std::size_t round = 0; round < rounds; ++round) {
+      std::vector<Filled> made;
+      for (std::size_t i = 0; i < handed; ++i)
+        made.push_back(filled(1 + random() % 300, static_cast<unsigned char>(random())));
+      std::vector<Filled> got;
+      {
+        const std::lock_guard lock(mutex[me]);
+        got.swap(box[me]);
+      }
+      for (const Filled& piece : got) bad[me] += !intact(piece), give(piece, random() % 2 == 0);
+      const std::lock_guard lock(mutex[(me + 1) % threads]);
+      auto& next = box[(me + 1) % threads];
+      if (next.size() > 4 * handed)  // it is slow: these stay here
+        for (const Filled& piece : made) bad[me] += !intact(piece), give(piece, true);
+      else
+        next.insert(next.end(), made.begin(), made.end());
+    }
+  };
+  const double before = static_cast<double>(weft::jobs::resident_bytes());
+  {
+    std::vector<std::thread> all;
+    for (std::size_t i = 0; i < threads; ++i) all.emplace_back(work, i);
+    for (std::thread& thread : all) thread.join();
+  }
+  for (std::size_t i = 0; i < threads; ++i)
+    for (const Filled& piece : box[i]) bad[i] += !intact(piece), give(piece, true);
+  CHECK(bad == std::array<std::size_t, threads>{});
+  // 2,400,000 pieces of 150 bytes were made: 360 MB if none of it were used again
+  if (!watched) CHECK(static_cast<double>(weft::jobs::resident_bytes()) - before < 20 * mb);
+}
+
+TEST_CASE("small memory: what is given back goes to the system", "[app]") {
+  const double before = static_cast<double>(weft::jobs::resident_bytes());
+  std::vector<Filled> held(1'000'000);
+  for (Filled& piece : held) piece = filled(64, 1);
+  const double full = static_cast<double>(weft::jobs::resident_bytes());
+  CHECK(full - before > 64 * mb);
+  for (const Filled& piece : held) give(piece, true);
+  if (!watched) CHECK(full - static_cast<double>(weft::jobs::resident_bytes()) > 60 * mb);
+}
+
+TEST_CASE("small memory: a thread takes up what one that has ended has left", "[app]") {
+  const double before = static_cast<double>(weft::jobs::resident_bytes());
+  std::vector<Filled> kept;
+  for (int i = 0; i < 300; ++i) {
+    std::vector<Filled> made;
+    std::thread([&] {
+      for (int k = 0; k < 4000; ++k) made.push_back(filled(100, static_cast<unsigned char>(k)));
+      for (std::size_t k = 0; k + 1 < made.size(); ++k) give(made[k], true);
+    }).join();
+    kept.push_back(made.back());
+  }
+  // 400 kB each time, 120 MB if no thread could use what the one before it had
+  if (!watched) CHECK(static_cast<double>(weft::jobs::resident_bytes()) - before < 20 * mb);
+  std::size_t bad = 0;
+  for (const Filled& piece : kept) bad += !intact(piece), give(piece, false);
+  CHECK(bad == 0);
+}
