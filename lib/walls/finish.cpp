@@ -15,42 +15,54 @@ constexpr double even_inside = 0.5;     // of the width: an end inside that tape
 constexpr double any_taper = 1.0;       // … no end tapers more
 constexpr double width_step_um = 10.0;  // a segment is printed at one width: no more difference over it than this
 
-/// The way from one vertex straight to another.
-class Chord {
+/// The chords from one vertex that lie at most `off` from what they stand for, and are nowhere more uneven than that: as
+/// directions and as changes of width they are what all of it allows.
+class Chords {
  public:
-  Chord(const Vertex& a, const Vertex& c, double off)
-      : a_(a),
-        dx_(c.at.x - a.at.x),
-        dy_(c.at.y - a.at.y),
-        length2_(dx_ * dx_ + dy_ * dy_),
-        off_most_(off * std::sqrt(length2_)),
-        wider_(c.width - a.width) {}
+  Chords(const Vertex& from, double off) : from_(from), off_(off) {}
 
-  /// Whether b lies on it.
-  bool holds(const Vertex& b) const {
-    if (length2_ < 1e-6) return false;
-    const double x = b.at.x - a_.at.x, y = b.at.y - a_.at.y, along = x * dx_ + y * dy_;
-    if (along < 0 || along > length2_ || std::abs(dx_ * y - dy_ * x) > off_most_) return false;
-    return std::abs(a_.width + along / length2_ * wider_ - b.width) <= even_um;
+  /// Whether one of them leads to a vertex.
+  bool reach(const Vertex& v) const {
+    const double x = v.at.x - from_.at.x, y = v.at.y - from_.at.y, length2 = x * x + y * y;
+    if (length2 < furthest2_ || length2 < 1e-6) return false;
+    if (bounded_ && (cross(low_, {x, y}) < 0 || cross({x, y}, high_) < 0)) return false;
+    const double length = std::sqrt(length2), wider = v.width - from_.width;
+    return wider >= least_ * length && wider <= most_ * length;
+  }
+  /// From now on they stand for this vertex, too.
+  void pass(const Vertex& v) {
+    const double x = v.at.x - from_.at.x, y = v.at.y - from_.at.y, length2 = x * x + y * y;
+    furthest2_ = std::max(furthest2_, length2);
+    const double length = std::max(1e-3, std::sqrt(length2)), wider = v.width - from_.width;
+    least_ = std::max(least_, (wider - even_um) / length);
+    most_ = std::min(most_, (wider + even_um) / length);
+    if (length <= off_) return;
+    const double sine = off_ / length, cosine = std::sqrt(1 - sine * sine);
+    const Place low{x * cosine + y * sine, y * cosine - x * sine}, high{x * cosine - y * sine, y * cosine + x * sine};
+    if (!bounded_ || cross(low_, low) > 0) low_ = low;
+    if (!bounded_ || cross(high, high_) > 0) high_ = high;
+    bounded_ = true;
   }
 
  private:
-  const Vertex& a_;
-  double dx_, dy_, length2_, off_most_, wider_;
+  const Vertex& from_;
+  double off_, furthest2_ = 0, least_ = -1e18, most_ = 1e18;
+  Place low_{}, high_{};
+  bool bounded_ = false;
 };
 
 /// Leaves out what chords stand for that it lies at most `off` from. The ends stay.
+/// Source: Sklansky & Gonzalez, "Fast polygonal approximation of digitized curves" (1980): cones are intersected.
 void thin_out(std::vector<Vertex>& path, double off) {
-  constexpr std::size_t most_skipped = 24;
   if (path.size() < 3) return;
   std::size_t from = 0, kept = 0;  // what is kept is put in front, never beyond `from`
   while (from + 1 < path.size()) {
+    const Vertex start = path[from];
+    Chords chords(start, off);
     std::size_t to = from + 1;
-    for (; to + 1 < path.size() && to - from < most_skipped; ++to) {
-      const Chord chord(path[from], path[to + 1], off);
-      std::size_t i = to;  // the nearest to the new end lies off it first
-      while (i > from && chord.holds(path[i])) --i;
-      if (i > from) break;
+    for (; to + 1 < path.size(); ++to) {
+      chords.pass(path[to]);
+      if (!chords.reach(path[to + 1])) break;
     }
     path[++kept] = path[to];
     from = to;
