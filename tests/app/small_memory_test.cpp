@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <barrier>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <map>
-#include <mutex>
 #include <random>
 #include <thread>
 #include <vector>
@@ -76,29 +76,22 @@ TEST_CASE("small memory: pieces of all sizes are aligned, lie apart and keep wha
 }
 
 TEST_CASE("small memory: what threads take from each other and give back is intact, and used again", "[app]") {
-  // A ring of threads: each hands some of its pieces to the next, which checks and frees them.
-  constexpr std::size_t threads = 4, rounds = 3000, handed = 200;
-  std::array<std::vector<Filled>, threads> box;
-  std::array<std::mutex, threads> mutex;
+  // In each round a thread makes pieces, while it checks and frees those that its neighbour made in the round before.
+  constexpr std::size_t threads = 4, rounds = 1000, handed = 300;
+  std::array<std::array<std::vector<Filled>, 2>, threads> made;
   std::array<std::size_t, threads> bad{};
+  std::barrier together(threads);
   const auto work = [&](std::size_t me) {
     std::mt19937 random(static_cast<unsigned>(me));
     for (std::size_t round = 0; round < rounds; ++round) {
-      std::vector<Filled> made;
-      for (std::size_t i = 0; i < handed; ++i)
-        made.push_back(filled(1 + random() % 300, static_cast<unsigned char>(random())));
-      std::vector<Filled> got;
-      {
-        const std::lock_guard lock(mutex[me]);
-        got.swap(box[me]);
+      auto& mine = made[me][round % 2];
+      auto& theirs = made[(me + 1) % threads][(round + 1) % 2];
+      for (std::size_t i = 0; i < handed; ++i) {
+        if (i < theirs.size()) bad[me] += !intact(theirs[i]), give(theirs[i], random() % 2 == 0);
+        mine.push_back(filled(1 + random() % 300, static_cast<unsigned char>(random())));
       }
-      for (const Filled& piece : got) bad[me] += !intact(piece), give(piece, random() % 2 == 0);
-      const std::lock_guard lock(mutex[(me + 1) % threads]);
-      auto& next = box[(me + 1) % threads];
-      if (next.size() > 4 * handed)  // it is slow: these stay here
-        for (const Filled& piece : made) bad[me] += !intact(piece), give(piece, true);
-      else
-        next.insert(next.end(), made.begin(), made.end());
+      theirs.clear();
+      together.arrive_and_wait();
     }
   };
   const double before = static_cast<double>(weft::jobs::resident_bytes());
@@ -107,10 +100,11 @@ TEST_CASE("small memory: what threads take from each other and give back is inta
     for (std::size_t i = 0; i < threads; ++i) all.emplace_back(work, i);
     for (std::thread& thread : all) thread.join();
   }
-  for (std::size_t i = 0; i < threads; ++i)
-    for (const Filled& piece : box[i]) bad[i] += !intact(piece), give(piece, true);
+  for (auto& of_thread : made)
+    for (auto& of_round : of_thread)
+      for (const Filled& piece : of_round) bad[0] += !intact(piece), give(piece, true);
   CHECK(bad == std::array<std::size_t, threads>{});
-  // 2,400,000 pieces of 150 bytes were made: 360 MB if none of it were used again
+  // 1,200,000 pieces of 150 bytes were made: 180 MB if none of it were used again
   if (!watched) CHECK(static_cast<double>(weft::jobs::resident_bytes()) - before < 20 * mb);
 }
 
@@ -127,15 +121,11 @@ TEST_CASE("small memory: what is given back goes to the system", "[app]") {
 TEST_CASE("small memory: a thread takes up what one that has ended has left", "[app]") {
   const double before = static_cast<double>(weft::jobs::resident_bytes());
   std::vector<Filled> kept;
-  for (int i = 0; i < 300; ++i) {
-    std::vector<Filled> made;
+  for (int i = 0; i < 1000; ++i)
     std::thread([&] {
-      for (int k = 0; k < 4000; ++k) made.push_back(filled(100, static_cast<unsigned char>(k)));
-      for (std::size_t k = 0; k + 1 < made.size(); ++k) give(made[k], true);
+      for (std::size_t bytes = 16; bytes <= 256; bytes += 16) kept.push_back(filled(bytes, static_cast<unsigned char>(i)));
     }).join();
-    kept.push_back(made.back());
-  }
-  // 400 kB each time, 120 MB if no thread could use what the one before it had
+  // Of each of 16 sizes a thread leaves most of a page: 65 MB if the next one could not use it.
   if (!watched) CHECK(static_cast<double>(weft::jobs::resident_bytes()) - before < 20 * mb);
   std::size_t bad = 0;
   for (const Filled& piece : kept) bad += !intact(piece), give(piece, false);
