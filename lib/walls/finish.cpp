@@ -9,14 +9,14 @@ namespace {
 using Vertex = Line::Vertex;
 
 constexpr double straight_um = 1.0;     // a vertex this close to its neighbours' chord is left out
-constexpr double parallel_um = 0.3;     // … of walls side by side, which leave gaps where each has lost other vertices
 constexpr double even_um = 2.0;         // … where the width is this close to theirs
+constexpr double parallel_um = 0.3;     // … of closed walls this close: where each loses other vertices they leave gaps
 constexpr double even_inside = 0.5;     // of the width: an end inside that tapers more keeps its steps
 constexpr double any_taper = 1.0;       // … no end tapers more
 constexpr double width_step_um = 10.0;  // a segment is printed at one width: no more difference over it than this
 
-/// The chords from one vertex that lie at most `off` from what they stand for, and are nowhere more uneven than that: as
-/// directions and as changes of width they are what all of it allows.
+/// The chords from one vertex that lie at most `off` µm from the vertices they stand for, and whose width is within even_um
+/// of theirs: a cone of directions, and a range of changes of width by length, that each of those vertices narrows.
 class Chords {
  public:
   Chords(const Vertex& from, double off) : from_(from), off_(off) {}
@@ -51,7 +51,7 @@ class Chords {
   bool bounded_ = false;
 };
 
-/// Leaves out what chords stand for that it lies at most `off` from. The ends stay.
+/// Leaves out what chords at most `off` µm from it stand for. The ends stay. Cost: linear.
 /// Source: Sklansky & Gonzalez, "Fast polygonal approximation of digitized curves" (1980): cones are intersected.
 void thin_out(std::vector<Vertex>& path, double off) {
   if (path.size() < 3) return;

@@ -42,7 +42,7 @@ class Planner {
   };
   /// Where a mouth ends in a part that has nothing but walls.
   struct Throat {
-    int pairs;
+    int pairs;             ///< of that part
     std::uint32_t bounds;  ///< where those of the part begin in Laying::bounds
   };
   struct Descent {
@@ -120,7 +120,13 @@ class Planner {
   std::uint32_t bounds_at(Count mine, Count other, double share, double half);
 
   // corners
+  /// Of each mouth that ends in one part, if that has no bead on its axis: there walls meet, and may give way. Pre: the
+  /// bounds of the core are set.
   void find_throats();
+  /// None where the mouth has none.
+  const Throat* throat_at(std::uint32_t edge) const {
+    return edge < throat_.size() && throat_[edge] != none ? &throats_[throat_[edge]] : nullptr;
+  }
   /// Walls that go on where another has turned back fill the room beside its tip, and no more: at an edge of a mouth, and
   /// down into the part below it as far as the tip reaches.
   void fill_beside(std::uint32_t h, const Turn& turn);

@@ -43,21 +43,20 @@ std::uint32_t Planner::bounds_beside(const Throat& throat, const Span& span, con
 }
 
 void Planner::fill_beside(std::uint32_t h, const Turn& turn) {
-  if (h / 2 >= throat_.size() || throat_[h / 2] == none || turn.reach <= 0) return;
-  const Throat throat = throats_[throat_[h / 2]];
+  const Throat* throat = throat_at(h / 2);
   const Span span = out_.spans[h / 2];
-  if (span.pairs != throat.pairs || span.pairs == 0) return;
+  if (throat == nullptr || turn.reach <= 0 || span.pairs != throat->pairs || span.pairs == 0) return;
   const double m = std::min(1.0, slope(h / 2));
   const Turn later{turn.reach, turn.past + s_.length(h / 2)};
-  const std::uint32_t from = bounds_beside(throat, span, turn, m, s_.start(h).clearance);
-  const std::uint32_t to = bounds_beside(throat, span, later, m, s_.end(h).clearance);
+  const std::uint32_t from = bounds_beside(*throat, span, turn, m, s_.start(h).clearance);
+  const std::uint32_t to = bounds_beside(*throat, span, later, m, s_.end(h).clearance);
   out_.spans[h / 2].at_start = h % 2 == 0 ? from : to;
   out_.spans[h / 2].at_end = h % 2 == 0 ? to : from;
 }
 
 void Planner::yield_below(std::uint32_t h, const Span& span, Turn turn) {
-  if (h / 2 >= throat_.size() || throat_[h / 2] == none || span.pairs == 0) return;
-  if (span.pairs != throats_[throat_[h / 2]].pairs) return;
+  const Throat* throat = throat_at(h / 2);
+  if (throat == nullptr || span.pairs != throat->pairs || span.pairs == 0) return;
   std::uint32_t g = none;
   for_each_leaving(Skeleton::twin(h), [&](std::uint32_t x) {
     if (core_[x / 2]) g = x;
@@ -66,10 +65,7 @@ void Planner::yield_below(std::uint32_t h, const Span& span, Turn turn) {
     const Span& own = out_.spans[g / 2];
     const double high = s_.start(g).clearance, length = s_.length(g / 2);
     if (own.pairs != span.pairs || own.middle || own.open || s_.end(g).clearance > high || length < same_um) return;
-    if (turn.past + length > turn.reach) {
-      const double t = (turn.reach - turn.past) / length;
-      g = split_core(g, t);
-    }
+    if (turn.past + length > turn.reach) g = split_core(g, (turn.reach - turn.past) / length);
     const double m = std::min(1.0, slope(g / 2));
     const Turn later{turn.reach, turn.past + s_.length(g / 2)};
     Span& cut = out_.spans[g / 2];

@@ -19,7 +19,7 @@ std::uint32_t Planner::split(std::uint32_t e, double t) {
     passage_.resize(core_.size(), none);
     passage_[f] = passage_[e];
   }
-  if (e < throat_.size() && throat_[e] != none) {
+  if (throat_at(e) != nullptr) {
     throat_.resize(core_.size(), none);
     throat_[f] = throat_[e];
   }

@@ -169,7 +169,8 @@ TEST_CASE("pipeline: a job that is stopped in any stage ends as interrupted", "[
 }
 
 TEST_CASE("pipeline: however much one layer holds, a job asks all the time", "[pipeline][law]") {
-  // On one thread, by its time on the processor: neither other programs nor a sanitizer make a difference.
+  // On one thread, by its time on the processor. What runs beside it still may lengthen one wait by chance; what never
+  // asks is as long in each of three runs.
   const auto [name, rings] = GENERATE(table<std::string, std::vector<MmRing>>(
       {{"islands", islands(120)}, {"sieve", sieve(60)}, {"gear", gear(10'000)}, {"rings in rings", rings_in_rings(200)}}));
   CAPTURE(name);
@@ -178,7 +179,6 @@ TEST_CASE("pipeline: however much one layer holds, a job asks all the time", "[p
   job.threads = 1;
   std::string stage, longest_in;
   double least_share = 1;
-  // The processor itself may be taken away for a while; what never asks is as long in each of three runs.
   for (int round = 0; round < 3; ++round) {
     std::size_t asked = 0;
     stage = "read";
@@ -204,7 +204,7 @@ TEST_CASE("pipeline: however much one layer holds, a job asks all the time", "[p
     least_share = std::min(least_share, longest / (last - begin));
   }
   CAPTURE(longest_in);
-  CHECK(least_share < 0.1);
+  CHECK(least_share < 0.05);
 }
 
 TEST_CASE("pipeline: a job that is stopped wherever it asks leaves nothing behind", "[pipeline][law]") {
