@@ -11,8 +11,12 @@ namespace {
 constexpr double volume_share = 0.005;
 constexpr double volume_most = 2;  // mm²·µm at height 1 mm, a square of 45 µm: or on a long segment a share would be a gap
 
-double band_um(const Junction& j) {
-  return j.width * static_cast<double>(j.flow);
+/// What is looked at again and again, as it is computed with.
+struct Spot {
+  double x, y, band_um;
+};
+Spot spot_of(const Junction& j) {
+  return {static_cast<double>(j.at.x), static_cast<double>(j.at.y), j.width * static_cast<double>(j.flow)};
 }
 
 struct Span {
@@ -22,8 +26,8 @@ struct Span {
 class Thinner {
  public:
   explicit Thinner(const std::vector<Junction>& path)
-      : path_(path), keep_(path.size(), 0), band_(path.size()), volume_(path.size(), 0.0) {
-    std::transform(path.begin(), path.end(), band_.begin(), band_um);
+      : path_(path), keep_(path.size(), 0), spots_(path.size()), volume_(path.size(), 0.0) {
+    std::transform(path.begin(), path.end(), spots_.begin(), spot_of);
     for (std::size_t i = 1; i < path.size(); ++i)
       volume_[i] = volume_[i - 1] + distance(path[i - 1].at, path[i].at) * mean_area_mm2(path[i - 1], path[i], 1.0);
   }
@@ -52,29 +56,28 @@ class Thinner {
   /// The junction that lies furthest off the segment from the first to the last, by place or by band, in units of the
   /// tolerances; 0 when the segment can stand for all of them.
   std::size_t worst_in(const Span& span) const {
-    const auto &a = path_[span.first], &b = path_[span.last];
-    const double x = b.at.x - a.at.x, y = b.at.y - a.at.y, length2 = x * x + y * y;
-    const double qa = band_um(a), qb = band_um(b);
+    const Spot a = spots_[span.first], b = spots_[span.last];
+    const double x = b.x - a.x, y = b.y - a.y, wider = b.band_um - a.band_um, length2 = x * x + y * y;
     constexpr double per_place = 1.0 / (static_cast<double>(tolerances::path) * tolerances::path),
                      per_band = 4.0 / (static_cast<double>(tolerances::band_step) * tolerances::band_step);
     const double per_length2 = length2 > 0 ? 1 / length2 : 0;
     double most = 1;  // of the squares: no root is drawn
     std::size_t worst = 0;
     for (std::size_t i = span.first + 1; i < span.last; ++i) {
-      const double px = path_[i].at.x - a.at.x, py = path_[i].at.y - a.at.y;
+      const double px = spots_[i].x - a.x, py = spots_[i].y - a.y;
       const double t = std::clamp((px * x + py * y) * per_length2, 0.0, 1.0);
-      const double dx = px - t * x, dy = py - t * y, dq = qa + t * (qb - qa) - band_[i];
+      const double dx = px - t * x, dy = py - t * y, dq = a.band_um + t * wider - spots_[i].band_um;
       const double error = std::max((dx * dx + dy * dy) * per_place, dq * dq * per_band);
       if (error > most) most = error, worst = i;
     }
     if (worst != 0) return worst;
-    const double was = volume_[span.last] - volume_[span.first], is = std::sqrt(length2) * mean_area_mm2(a, b, 1.0);
+    const double was = volume_[span.last] - volume_[span.first], is = std::sqrt(length2) * mean_area_mm2(path_[span.first], path_[span.last], 1.0);
     return std::abs(is - was) > std::min(volume_share * was, volume_most) ? (span.first + span.last) / 2 : 0;
   }
 
   const std::vector<Junction>& path_;
   std::vector<char> keep_;
-  std::vector<double> band_;
+  std::vector<Spot> spots_;
   std::vector<double> volume_;  // from the first junction, at height 1
 };
 

@@ -102,13 +102,13 @@ void Comb::build_index() {
   moved_.resize(points_.size());
   for (const auto& ring : rings_) {
     Direction comes = direction(points_[ring.end - 1], points_[ring.begin]);
-    for (std::uint32_t i = ring.begin; i < ring.end; ++i) {
+    for (std::uint32_t i = ring.begin, before = ring.end - 1; i < ring.end; before = i++) {
       const Direction goes = direction(points_[i], points_[next(i)]);
-      moved_[i] = moved_right(comes, points_[i], goes, slack_um);
+      moved_[i].from = moved_[before].to = moved_right(comes, points_[i], goes, slack_um);
+      box_.add(moved_[i].from);
       comes = goes;
     }
   }
-  box_ = box_of(moved_);
   const double w = box_.size().x + 1.0, h = box_.size().y + 1.0;
   cell_ = std::max<std::int64_t>(500,
                                  static_cast<std::int64_t>(std::sqrt(w * h / static_cast<double>(points_.size()))) + 1);
@@ -117,7 +117,7 @@ void Comb::build_index() {
   const std::size_t cells = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
   std::vector<std::uint32_t> count(cells + 1, 0);
   const auto each_cell = [&](std::uint32_t e, const auto& visit) {
-    const Point a = moved_[e], b = moved_[next(e)];
+    const auto [a, b] = moved_[e];
     const auto row = [&](std::int64_t y) { return static_cast<int>((y - box_.min.y) / cell_); };
     const auto column = [&](std::int64_t x) { return static_cast<int>((x - box_.min.x) / cell_); };
     const Point low = a.y <= b.y ? a : b, high = a.y <= b.y ? b : a;
@@ -179,18 +179,18 @@ bool Comb::visit_edges(Point a, Point b, const Visit& visit) const {
 bool Comb::sees(Point a, Point b, IgnoredRings ignored) const {
   if (a == b) return true;
   return !visit_edges(
-      a, b, [&](std::uint32_t e) { return cross(a, b, moved_[e], moved_[next(e)]) && !ignored.has(ring_of_[e]); });
+      a, b, [&](std::uint32_t e) { return cross(a, b, moved_[e].from, moved_[e].to) && !ignored.has(ring_of_[e]); });
 }
 
 std::uint32_t Comb::part_of(Point p) const {
   const std::uint32_t edge = edge_beside(p);
-  if (edge == outside || moved_[next(edge)].y < moved_[edge].y) return outside;  // the inside is left of a rising edge
+  if (edge == outside || moved_[edge].to.y < moved_[edge].from.y) return outside;  // the inside is left of a rising edge
   return rings_[ring_of_[edge]].part;
 }
 
 std::uint32_t Comb::hole_around(Point p) const {
   const std::uint32_t edge = edge_beside(p);
-  if (edge == outside || moved_[next(edge)].y > moved_[edge].y || !rings_[ring_of_[edge]].hole) return outside;
+  if (edge == outside || moved_[edge].to.y > moved_[edge].from.y || !rings_[ring_of_[edge]].hole) return outside;
   return ring_of_[edge];
 }
 
@@ -208,7 +208,7 @@ std::uint32_t Comb::edge_beside(Point p) const {
     const std::size_t cell =
         static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(c);
     for (std::uint32_t k = first_[cell]; k < first_[cell + 1]; ++k) {
-      const Point a = moved_[edges_[k]], b = moved_[next(edges_[k])];
+      const auto [a, b] = moved_[edges_[k]];
       if ((a.y > p.y) == (b.y > p.y)) continue;
       const double x = a.x + (y - a.y) * (static_cast<double>(b.x) - a.x) / (static_cast<double>(b.y) - a.y);
       if (x >= p.x && (x < nearest || (x == nearest && edges_[k] < edge))) nearest = x, edge = edges_[k];
@@ -239,7 +239,7 @@ std::optional<Point> Comb::nearest_on_boundary(Point p, Um within) const {
 void Comb::hits(Point p, Point q, IgnoredRings ignored, std::vector<Hit>& out) const {
   out.clear();
   visit_edges(p, q, [&](std::uint32_t e) {
-    const Point a = moved_[e], b = moved_[next(e)];
+    const auto [a, b] = moved_[e];
     if (!ignored.has(ring_of_[e]) && cross(p, q, a, b)) {
       const auto from = static_cast<double>(orient(a, b, p)), to = static_cast<double>(orient(a, b, q));
       out.push_back({from / (from - to), e});

@@ -50,6 +50,9 @@ class Comb {
   std::optional<Polyline> way(Point p, Point q, IgnoredRings ignored = {}) const;
 
  private:
+  struct Edge {  // both ends: what looks at edges need not ask where their rings begin
+    Point from, to;
+  };
   struct Hit {
     double t;
     std::uint32_t edge;
@@ -75,7 +78,7 @@ class Comb {
   }
 
   std::vector<Point> points_;  ///< of all rings; edge i leads from point i to point next(i), the inside on its left
-  std::vector<Point> moved_;   ///< the same, `slack_um` outwards
+  std::vector<Edge> moved_;    ///< the edges, `slack_um` outwards
   std::vector<double> along_;  ///< length of the ring before point i
   std::vector<std::uint32_t> ring_of_;
   std::vector<RingSpan> rings_;

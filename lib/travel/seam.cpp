@@ -33,14 +33,16 @@ Vec between(Point a, Point b) {
   return {static_cast<double>(b.x) - a.x, static_cast<double>(b.y) - a.y};
 }
 
-/// The direction from junction i as seen `reach_um` along the bead, in steps of ±1.
-Vec direction(const std::vector<Junction>& path, std::size_t i, bool forward) {
+/// The direction from junction i as seen `reach_um` along the bead, in steps of ±1. length(k) is how far junction k is from
+/// the next.
+template <class Length>
+Vec direction(const std::vector<Junction>& path, const Length& length, std::size_t i, bool forward) {
   const std::size_t n = path.size();
   std::size_t k = i;
   double gone = 0;
   for (std::size_t steps = 1; steps < n; ++steps) {
     const std::size_t next = forward ? (k + 1 < n ? k + 1 : 0) : (k > 0 ? k : n) - 1;
-    const double step = distance(path[k].at, path[next].at);
+    const double step = length(forward ? k : next);
     if (gone + step >= reach_um) {
       const Point p = lerp(path[k].at, path[next].at, step > 0 ? (reach_um - gone) / step : 0.0);
       return between(path[i].at, p);
@@ -51,9 +53,8 @@ Vec direction(const std::vector<Junction>& path, std::size_t i, bool forward) {
   return between(path[i].at, path[k].at);
 }
 
-/// Signed turn at junction i, rad: > 0 to the left.
-double turn_at(const std::vector<Junction>& path, std::size_t i) {
-  const Vec in = direction(path, i, false), out = direction(path, i, true);
+/// Signed turn from a direction that is looked back in to one that is looked ahead in, rad: > 0 to the left.
+double turn_between(Vec in, Vec out) {
   return std::atan2(-(in.x * out.y - in.y * out.x), -(in.x * out.x + in.y * out.y));
 }
 
@@ -142,13 +143,17 @@ Start rearmost(const Bead& bead) {
 std::vector<Corner> corners_of(const Bead& bead, SeamCorner kind, bool material_left, std::size_t most) {
   std::vector<Corner> corners;
   if (kind == SeamCorner::none || bead.path.size() < 3) return corners;
-  for (std::size_t i = 0; i < bead.path.size(); ++i) {
-    const std::size_t n = bead.path.size();
-    const Point a = bead.path[(i > 0 ? i : n) - 1].at, b = bead.path[i].at, c = bead.path[i + 1 < n ? i + 1 : 0].at;
+  const std::size_t n = bead.path.size();
+  std::vector<double> lengths(n);  // measured once: a curve is looked along from each of its junctions
+  for (std::size_t i = 0; i < n; ++i) lengths[i] = distance(bead.path[i].at, bead.path[i + 1 < n ? i + 1 : 0].at);
+  const auto length = [&](std::size_t i) { return lengths[i]; };
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t before = (i > 0 ? i : n) - 1;
+    const Point a = bead.path[before].at, b = bead.path[i].at, c = bead.path[i + 1 < n ? i + 1 : 0].at;
     // A turn within the half millimetre needs a turn here: most junctions of a curve are passed over cheaply.
     const double local = std::abs(static_cast<double>(orient(a, b, c)));
-    if (local < 0.05 * distance(a, b) * distance(b, c) && dot(b - a, c - b) > 0) continue;
-    const double turn = turn_at(bead.path, i);
+    if (local < 0.05 * lengths[before] * lengths[i] && dot(b - a, c - b) > 0) continue;
+    const double turn = turn_between(direction(bead.path, length, i, false), direction(bead.path, length, i, true));
     if (std::abs(turn) < least_turn_rad) continue;
     const double strength = strength_of(turn, (turn < 0) == material_left, kind);
     if (strength > 0) corners.push_back({static_cast<std::uint32_t>(i), static_cast<float>(strength), 0.F});
@@ -183,16 +188,20 @@ Start nearest_start(const Bead& bead, Point p, Um snap) {
 void add_exposure(const Bead& bead, bool material_left, const Comb& outline, std::span<Corner> corners) {
   constexpr int rays = 8;
   constexpr double ray_um = 5000;
+  const auto length = [&](std::size_t i) {
+    return distance(bead.path[i].at, bead.path[i + 1 < bead.path.size() ? i + 1 : 0].at);
+  };
   for (auto& corner : corners) {
-    const Vec in = direction(bead.path, corner.junction, false), out = direction(bead.path, corner.junction, true);
-    const double turn = std::atan2(-(in.x * out.y - in.y * out.x), -(in.x * out.x + in.y * out.y));
+    const Vec in = direction(bead.path, length, corner.junction, false),
+              out = direction(bead.path, length, corner.junction, true);
+    const double turn = turn_between(in, out);
     // Outwards halfway between the two sides: to the right of the way when material is on its left.
     const double heading = std::atan2(out.y, out.x) - turn / 2;
     const double outwards = heading + (material_left ? -0.5 : 0.5) * std::numbers::pi;
     const Point p = bead.path[corner.junction].at;
     const double step = 1.5 * bead.path[corner.junction].width / std::max(0.3, std::cos(turn / 2));
-    const auto along = [&](Point from, double angle, double length) {
-      return Point{rounded(from.x + length * std::cos(angle)), rounded(from.y + length * std::sin(angle))};
+    const auto along = [&](Point from, double angle, double far) {
+      return Point{rounded(from.x + far * std::cos(angle)), rounded(from.y + far * std::sin(angle))};
     };
     const Point eye = along(p, outwards, step);
     int open = 0;
