@@ -27,7 +27,7 @@ std::size_t expected_bytes(const LayerPlan& plan) {
   std::size_t n = 512;
   for (const auto& step : plan.steps) {
     n += 64;
-    if (const auto* bead = std::get_if<Extrude>(&step)) n += 24 * bead->path.size();
+    if (const auto* bead = std::get_if<Extrude>(&step)) n += 30 * bead->path.size();  // "G1 X123.456 Y123.456 E.12345" and now and then F
   }
   return n;
 }
