@@ -152,7 +152,16 @@ bool Mask::at(Point p) const {
 }
 
 Mask& Mask::operator&=(const Mask& other) {
-  for (std::size_t i = 0; i < bits_.size(); ++i) bits_[i] &= other.bits_[i];
+  const Mask* const one = &other;
+  return *this &= std::span(&one, 1);
+}
+Mask& Mask::operator&=(std::span<const Mask* const> others) {
+  constexpr std::size_t block = 1024;  // words, that stay near while all others pass over them
+  for (std::size_t from = 0, to = 0; from < bits_.size(); from = to) {
+    to = std::min(bits_.size(), from + block);
+    for (const Mask* other : others)
+      for (std::size_t i = from; i < to; ++i) bits_[i] &= other->bits_[i];
+  }
   return *this;
 }
 Mask& Mask::operator|=(const Mask& other) {
@@ -164,16 +173,16 @@ Mask& Mask::operator-=(const Mask& other) {
   return *this;
 }
 
-std::size_t Mask::common(const Mask& other, const Box& within) const {
-  if (bits_.empty() || within.empty()) return 0;
+bool Mask::meets(const Mask& other, const Box& within) const {
+  if (bits_.empty() || within.empty()) return false;
   const int first = std::max(0, grid_.row_of(within.min.y)),
             last = std::min(grid_.rows - 1, grid_.row_of(within.max.y));
   const std::size_t from = word_of(std::clamp(grid_.column_of(within.min.x), 0, grid_.columns - 1));
   const std::size_t to = word_of(std::clamp(grid_.column_of(within.max.x), 0, grid_.columns - 1));
-  std::size_t n = 0;
   for (int r = first; r <= last; ++r)
-    for (std::size_t i = from; i <= to; ++i) n += static_cast<std::size_t>(std::popcount(row(r)[i] & other.row(r)[i]));
-  return n;
+    for (std::size_t i = from; i <= to; ++i)
+      if ((row(r)[i] & other.row(r)[i]) != 0) return true;
+  return false;
 }
 
 bool Mask::meets(const Mask& other) const {
@@ -197,46 +206,71 @@ bool Mask::meets(const Mask& other) const {
   return false;
 }
 
-void Mask::grow(int cells) {
-  stop_if_asked();
+Mask::Rows Mask::rows_set() const {
   const auto is_set = [](Word w) { return w != 0; };
   const auto lowest = std::find_if(bits_.begin(), bits_.end(), is_set);
-  if (cells <= 0 || lowest == bits_.end()) return;
+  if (lowest == bits_.end()) return {};
   const auto highest = std::find_if(bits_.rbegin(), bits_.rend(), is_set).base() - 1;
   const auto row_of_word = [&](auto word) { return static_cast<std::size_t>(word - bits_.begin()) / words_; };
-  const std::size_t first = row_of_word(lowest), count = row_of_word(highest) + 1 - first;
-  const auto reach = static_cast<std::size_t>(cells);
+  return {row_of_word(lowest), row_of_word(highest) + 1};
+}
 
-  // Beside the mask: each row takes what is up to twice `cells` above it, and so they lie `cells` too low. What a row
-  // has of n rows it has of 2 n by one more look, n rows up.
-  std::vector<Word> rows((count + 2 * reach) * words_);
-  std::copy_n(row(static_cast<int>(first)), count * words_, &rows[2 * reach * words_]);
-  for (std::size_t r = 2 * reach; r < 2 * reach + count; ++r) grow_along({&rows[r * words_], words_}, cells);
+/// Rows of the mask, or of what is not set, grown by `cells`; with as many rows more below and above.
+std::unique_ptr<Word[]> Mask::grown_rows(Rows of, int cells, bool outside) const {
+  stop_if_asked();
+  const auto reach = static_cast<std::size_t>(cells);
+  const std::size_t margin = 2 * reach * words_, size = margin + (of.to - of.from) * words_;
+  auto rows = std::make_unique_for_overwrite<Word[]>(size);
+  std::fill_n(rows.get(), margin, 0);
+  const Word* from = bits_.data() + of.from * words_;
+  const Word in_last = grid_.columns % 64 == 0 ? ~Word{0} : bit_of(grid_.columns) - 1;
+  for (std::size_t at = margin; at < size; at += words_, from += words_) {
+    Word* const to = rows.get() + at;
+    if (outside) {
+      for (std::size_t i = 0; i < words_; ++i) to[i] = ~from[i];
+      to[words_ - 1] &= in_last;
+    } else {
+      std::copy_n(from, words_, to);
+    }
+    grow_along({to, words_}, cells);
+  }
+  // Each row takes what is up to twice `cells` above it, for they lie `cells` too low. What a row has of n rows it has of
+  // 2 n by one more look, n rows up.
   for (std::size_t done = 1, by = 0; done < 2 * reach + 1; done += by) {
     by = std::min(done, 2 * reach + 1 - done);
-    Word* const to = rows.data();
+    Word* const to = rows.get();
     const Word* const above = to + by * words_;
-    for (std::size_t i = 0, end = rows.size() - by * words_; i < end; ++i) to[i] |= above[i];
+    for (std::size_t i = 0, end = size - by * words_; i < end; ++i) to[i] |= above[i];
   }
-  const std::size_t from = first - std::min(first, reach),
-                    to = std::min(first + count + reach, static_cast<std::size_t>(grid_.rows));
-  std::copy_n(&rows[(from + reach - first) * words_], (to - from) * words_, row(static_cast<int>(from)));
-  clear_beyond_columns();
+  return rows;
 }
 
 Mask Mask::grown(int cells) const {
-  Mask all = *this;
-  all.grow(cells);
-  return all;
+  if (cells <= 0) return *this;
+  Mask out(grid_);
+  const Rows set = rows_set();
+  if (set.empty()) return out;
+  const auto rows = grown_rows(set, cells, false);
+  const auto reach = static_cast<std::size_t>(cells);
+  const std::size_t from = set.from - std::min(set.from, reach),
+                    to = std::min(set.to + reach, static_cast<std::size_t>(grid_.rows));
+  std::copy_n(&rows[(from + reach - set.from) * words_], (to - from) * words_, out.row(static_cast<int>(from)));
+  out.clear_beyond_columns();
+  return out;
 }
 
 Mask Mask::shrunk(int cells) const {
-  Mask outside = *this;
-  for (Word& w : outside.bits_) w = ~w;
-  outside.clear_beyond_columns();
-  outside.grow(cells);
-  for (std::size_t i = 0; i < bits_.size(); ++i) outside.bits_[i] = bits_[i] & ~outside.bits_[i];
-  return outside;
+  if (cells <= 0) return *this;
+  Mask out(grid_);
+  const Rows set = rows_set();
+  if (set.empty()) return out;
+  const auto reach = static_cast<std::size_t>(cells);
+  const Rows around{set.from - std::min(set.from, reach), std::min(set.to + reach, static_cast<std::size_t>(grid_.rows))};
+  const auto rows = grown_rows(around, cells, true);
+  const Word* const outside = &rows[(set.from + reach - around.from) * words_];
+  for (std::size_t i = 0, from = set.from * words_, n = (set.to - set.from) * words_; i < n; ++i)
+    out.bits_[from + i] = bits_[from + i] & ~outside[i];
+  return out;
 }
 
 std::vector<Ring> Mask::outlines() const {

@@ -2,6 +2,7 @@
 #include "core/polygon.h"
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -39,6 +40,7 @@ class Mask {
   bool at(Point p) const;
 
   Mask& operator&=(const Mask& other);
+  Mask& operator&=(std::span<const Mask* const> others);
   Mask& operator|=(const Mask& other);
   Mask& operator-=(const Mask& other);  ///< and not
   friend Mask operator&(Mask a, const Mask& b) { return a &= b; }
@@ -51,8 +53,8 @@ class Mask {
   Mask shrunk(int cells) const;
   Mask opened(int cells) const { return shrunk(cells).grown(cells); }
 
-  /// How many cells are set in both, among those of the box.
-  std::size_t common(const Mask& other, const Box& within) const;
+  /// Whether any cell of the box is set in both.
+  bool meets(const Mask& other, const Box& within) const;
 
   /// Whether any cell is set in both; the grids may be different windows of one.
   bool meets(const Mask& other) const;
@@ -65,7 +67,13 @@ class Mask {
   std::uint64_t* row(int r) { return bits_.data() + static_cast<std::size_t>(r) * words_; }
   const std::uint64_t* row(int r) const { return bits_.data() + static_cast<std::size_t>(r) * words_; }
   void clear_beyond_columns();
-  void grow(int cells);
+  /// Rows [from, to).
+  struct Rows {
+    std::size_t from = 0, to = 0;
+    bool empty() const { return from == to; }
+  };
+  Rows rows_set() const;  ///< from the first to the last in which a cell is set
+  std::unique_ptr<std::uint64_t[]> grown_rows(Rows of, int cells, bool outside) const;
 
   Grid grid_;
   std::size_t words_ = 0;  // of a row

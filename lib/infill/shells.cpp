@@ -3,6 +3,7 @@
 #include "core/stop.h"
 #include "geometry/boolean.h"
 #include "geometry/simplify.h"
+#include "geometry/spatial_index.h"
 #include "infill/bridges.h"
 #include "infill/mask.h"
 #include "model/flow.h"
@@ -76,9 +77,10 @@ Reach reach_of(const ShellSettings& settings, std::span<const ShellLayer> layers
   return reach;
 }
 
-/// What each cell of a layer is filled with. Disjoint.
+/// What each cell of a layer is filled with. Disjoint, and within `inside`.
 struct Kinds {
-  Mask inside, top, solid;
+  const Mask& inside;
+  Mask top, solid;
   std::vector<Mask> bridges;
   std::vector<double> bridge_angles;
   std::optional<Mask> sparse;  ///< present when any
@@ -92,9 +94,11 @@ Mask solid_cells(const Window& window, std::span<const ShellLayer> layers, std::
   const Mask& inside = window.inside(index);
   if (index + reach.above >= layers.size() && reach.above > 0) return inside;
   if (reach.below > index) return inside;
-  Mask core = inside;
+  std::vector<const Mask*> others;
   for (std::size_t j = index - reach.below; j <= index + reach.above; ++j)
-    if (j != index) core &= window.inside(j);
+    if (j != index) others.push_back(&window.inside(j));
+  Mask core = inside;
+  core &= others;
   return inside - core;
 }
 
@@ -184,7 +188,7 @@ void cut_apart(const Regions& mixed, std::span<const Kind> kinds, const Mask& in
   const Box box = weft::box_of(mixed);
   std::vector<const Kind*> present;
   for (const Kind& kind : kinds)
-    if (kind.cells->common(inside, box) > 0) present.push_back(&kind);
+    if (kind.cells->meets(inside, box)) present.push_back(&kind);
   Regions rest = mixed;
   for (std::size_t k = 0; k < present.size(); ++k) {
     Regions& areas = *present[k]->areas;
@@ -211,22 +215,11 @@ void drop_small_sparse(PartAreas& areas, double least_mm2) {
 /// The part (region of the outline) that each region of the inside lies in.
 std::vector<std::uint32_t> parts_of(const Regions& inside, const Regions& outline) {
   std::vector<std::uint32_t> parts(inside.size(), 0);
-  if (outline.size() < 2) return parts;
-  std::vector<Box> boxes;
-  for (const Region& region : outline) boxes.push_back(weft::box_of(region.outer));
+  if (outline.size() < 2 || inside.empty()) return parts;
+  const geometry::SegmentIndex index(outline);
   for (std::size_t i = 0; i < inside.size(); ++i) {
     stop_if_asked();
-    const Point p = inside[i].outer.front();
-    const auto holds = [&](std::size_t part) {
-      if (!boxes[part].contains(p) || side_of(outline[part].outer, p) == Side::outside) return false;
-      return std::none_of(outline[part].holes.begin(), outline[part].holes.end(),
-                          [&](const Ring& h) { return side_of(h, p) == Side::inside; });
-    };
-    for (std::size_t part = 0; part < outline.size(); ++part)
-      if (holds(part)) {
-        parts[i] = static_cast<std::uint32_t>(part);
-        break;
-      }
+    parts[i] = static_cast<std::uint32_t>(index.region_at(inside[i].outer.front()).value_or(0));
   }
   return parts;
 }
@@ -253,10 +246,16 @@ LayerAreas exact_areas(const ShellSettings& settings, const InfillSettings& infi
     for (; i < order.size() && parts[order[i]] == areas.part; ++i) {
       stop_if_asked();
       const Region& region = (*layer.inside)[order[i]];
-      const Mask cells(kinds.inside.grid().window(weft::box_of(region.outer), kinds.inside.grid().cell), {&region, 1});
       std::vector<const Kind*> present;
-      for (const Kind& kind : all)
-        if (kind.cells->meets(cells)) present.push_back(&kind);
+      if (order.size() == 1) {
+        for (const Kind& kind : all)
+          if (kind.cells->any()) present.push_back(&kind);
+      } else {
+        const Grid& grid = kinds.inside.grid();
+        const Mask cells(grid.window(weft::box_of(region.outer), grid.cell), {&region, 1});
+        for (const Kind& kind : all)
+          if (kind.cells->meets(cells)) present.push_back(&kind);
+      }
       if (present.size() > 1)
         mixed.push_back(region);
       else
