@@ -33,11 +33,11 @@ class Chords {
   void pass(const Vertex& v) {
     const double x = v.at.x - from_.at.x, y = v.at.y - from_.at.y, length2 = x * x + y * y;
     furthest2_ = std::max(furthest2_, length2);
-    const double length = std::max(1e-3, std::sqrt(length2)), wider = v.width - from_.width;
-    least_ = std::max(least_, (wider - even_um) / length);
-    most_ = std::min(most_, (wider + even_um) / length);
+    const double length = std::max(1e-3, std::sqrt(length2)), per_length = 1 / length, wider = v.width - from_.width;
+    least_ = std::max(least_, (wider - even_um) * per_length);
+    most_ = std::min(most_, (wider + even_um) * per_length);
     if (length <= off_) return;
-    const double sine = off_ / length, cosine = std::sqrt(1 - sine * sine);
+    const double sine = off_ * per_length, cosine = std::sqrt(1 - sine * sine);
     const Place low{x * cosine + y * sine, y * cosine - x * sine}, high{x * cosine - y * sine, y * cosine + x * sine};
     if (!bounded_ || cross(low_, low) > 0) low_ = low;
     if (!bounded_ || cross(high, high_) > 0) high_ = high;

@@ -29,14 +29,36 @@ struct Depth {
 /// The walls' segments near one end of a line, found once for all looks at it.
 class Walls {
  public:
-  explicit Walls(const std::vector<Line>& lines) : lines_(lines) {
+  /// @param middles whose ends will be asked for
+  Walls(const std::vector<Line>& lines, const std::vector<Line>& middles) : lines_(lines) {
+    for (const Line& line : lines)
+      for (const Vertex& v : line.path) widest_ = std::max(widest_, v.width);
+    double reach_um = reach_under();
+    std::vector<geometry::Segment> ends;
+    for (const Line& line : middles) {
+      if (line.closed || line.path.size() < 2) continue;
+      for (const Vertex& end : {line.path.front(), line.path.back()}) {
+        ends.push_back({lattice(end.at), lattice(end.at)});
+        reach_um = std::max(reach_um, reach_before(end));
+      }
+    }
+    // Most walls are nowhere near an end: they are passed over a run of segments at a time.
+    const geometry::SegmentIndex around(std::move(ends));
+    const Um reach = rounded(reach_um) + rounding;
+    constexpr std::size_t run = 8;
     std::vector<geometry::Segment> segments;
-    for (std::uint32_t i = 0; i < lines.size(); ++i) {
+    for (std::size_t i = 0; i < lines.size(); ++i) {
       const auto& path = lines[i].path;
-      for (std::uint32_t k = 0; k < path.size(); ++k) {
-        widest_ = std::max(widest_, path[k].width);
-        segments.push_back({lattice(path[k].at), lattice(path[(k + 1) % path.size()].at)});
-        origins_.push_back({i, k});
+      for (std::size_t from = 0, to = 0; from < path.size(); from = to) {
+        to = std::min(path.size(), from + run);
+        Box box;
+        for (std::size_t k = from; k <= to; ++k) box.add(lattice(path[k % path.size()].at));
+        around.near(box.grown(reach), near_);
+        if (near_.empty()) continue;
+        for (std::size_t k = from; k < to; ++k) {
+          segments.push_back({lattice(path[k].at), lattice(path[(k + 1) % path.size()].at)});
+          origins_.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(k)});
+        }
       }
     }
     index_ = geometry::SegmentIndex(std::move(segments));
@@ -46,7 +68,7 @@ class Walls {
   double length_under(const std::vector<Vertex>& path, int inset) {
     look_near(path.back().at, under_share * widest_ / 2, inset);
     if (depth_under(near_, path.back().at).depth <= 0) return 0;  // most ends: no wall is so near
-    look_near(path.back().at, (most_widths + 0.5) * widest_ + step_um, inset);
+    look_near(path.back().at, reach_under(), inset);
     double longest = 0;
     for (std::size_t from = 0, to = 0; from < near_.size(); from = to) {
       const std::uint32_t line = origins_[near_[from]].line;
@@ -64,7 +86,7 @@ class Walls {
     while (back > 0 && distance(path[back].at, end.at) < end.width / 2) --back;
     const Place way = unit(path[back].at, end.at), n{-way.y, way.x};
     const double most = most_gap * end.width;
-    look_near(end.at, most + beside * end.width + widest_ / 2, inset);
+    look_near(end.at, reach_before(end), inset);
     if (near_.empty()) return 0;
     const auto gap = [&](double aside) {
       const Place from{end.at.x + aside * n.x, end.at.y + aside * n.y};
@@ -86,12 +108,17 @@ class Walls {
   struct Origin {
     std::uint32_t line, segment;
   };
+  static constexpr Um rounding = 2;  // of both places, to the lattice
   static Point lattice(Place p) { return {rounded(p.x), rounded(p.y)}; }
+
+  /// How far from an end walls matter that it lies under, or that it may be led on to.
+  double reach_under() const { return (most_widths + 0.5) * widest_ + step_um; }
+  double reach_before(const Vertex& end) const { return (most_gap + beside) * end.width + widest_ / 2; }
 
   /// Finds the segments of all walls, or of those of an inset.
   void look_near(Place p, double reach_um, std::optional<int> inset) {
     const Point at = lattice(p);
-    const Um reach = rounded(reach_um) + 2;
+    const Um reach = rounded(reach_um) + rounding;
     index_.near({{at.x - reach, at.y - reach}, {at.x + reach, at.y + reach}}, near_);
     if (inset) std::erase_if(near_, [&](std::uint32_t s) { return lines_[origins_[s].line].inset != *inset; });
   }
@@ -146,7 +173,7 @@ void lead_on(std::vector<Vertex>& path, double by) {
 void fit_ends(std::vector<Line>& middles, const std::vector<Line>& pairs) {
   const bool ends = std::any_of(middles.begin(), middles.end(), [](const Line& line) { return !line.closed; });
   if (!ends || pairs.empty()) return;
-  Walls walls(pairs);
+  Walls walls(pairs, middles);
   for (Line& line : middles) {
     stop_if_asked();
     if (line.closed || line.path.size() < 2) continue;

@@ -167,6 +167,7 @@ class Planner {
   std::vector<Throat> throats_;
   std::vector<std::uint32_t> throat_;  // by edge: its throat, or none
   std::vector<double> scratch_;
+  std::vector<std::optional<double>> crowded_;  // as far as it was asked for
   std::vector<Descent> leave_;
   Laying out_;
 };

@@ -27,12 +27,16 @@ std::uint32_t Planner::split(std::uint32_t e, double t) {
 }
 
 double Planner::crowded(int beads) {
+  const auto slot = static_cast<std::size_t>(beads);
+  if (slot >= crowded_.size()) crowded_.resize(slot + 1);
+  if (crowded_[slot]) return *crowded_[slot];
   const double most = beads == 2 ? outer_spread * w_.outer : wide_bead();  // the outer wall is to keep its width
   double low = threshold(w_, beads), high = threshold(w_, beads + 1);
   for (int i = 0; i < 30; ++i) {
     const double middle = (low + high) / 2;
     (widest({beads / 2, false}, middle) > most ? high : low) = middle;
   }
+  crowded_[slot] = high;
   return high;
 }
 
