@@ -38,8 +38,11 @@ inline SlicedLayer layer_of(Regions regions) {
   return {0.2_mm, 0.2_mm, std::move(regions)};
 }
 
+/// By name: clang 14 takes no consteval literal as a default argument.
+constexpr Um usual_nozzle = 0.4_mm;
+
 /// Walls of one layer, the second of an object.
-inline WallLayer built(const Regions& regions, const WallSettings& settings = {}, Um nozzle = 0.4_mm) {
+inline WallLayer built(const Regions& regions, const WallSettings& settings = {}, Um nozzle = usual_nozzle) {
   const SlicedLayer layer = layer_of(regions);
   return walls::build(settings, {.layer = layer, .index = 1, .nozzle_diameter = nozzle});
 }
