@@ -55,7 +55,8 @@ Contents read_ascii_stl(const Source& source);
 
 /// Whether the lines of the text begin with the keywords of OBJ, as far as the first vertex.
 bool is_obj(std::string_view text);
-Contents read_obj(const Source& source);
+/// @param piece_bytes so long are the pieces that are read side by side; they make no difference. Pre: > 0
+Contents read_obj(const Source& source, std::size_t piece_bytes = std::size_t{1} << 19);
 
 /// Whether it is a zip archive.
 bool is_3mf(std::string_view bytes);

@@ -1,5 +1,6 @@
 #include "mesh/face.h"
 #include "mesh/fixtures.h"
+#include "tasks/tasks.h"
 
 #include <numeric>
 #include <random>
@@ -21,6 +22,54 @@ std::string replaced(std::string text, std::string_view old, std::string_view pu
   for (std::size_t at = 0; (at = text.find(old, at)) != text.npos; at += put.size()) text.replace(at, old.size(), put);
   return text;
 }
+
+enum class Order { mixed, vertices_first, faces_first };
+enum class Numbers { from_one, backward, both };
+
+/// A file of prisms in a row, 10 µm apart, over a hexagon that is not convex: where a face is cut shows.
+struct Row {
+  Order order;
+  Numbers numbers;
+  std::string gap;  ///< before the last corner of a face
+  std::string eol;
+
+  std::string text(int count) const {
+    std::string all_vertices, all_faces, mixed;
+    for (int i = 0; i < count; ++i) {
+      const std::string own = vertices(i), sides = faces(i, order == Order::vertices_first ? count : i + 1);
+      all_vertices += own, all_faces += sides, mixed += own + sides;
+    }
+    return "o a row" + eol + (order == Order::mixed            ? mixed
+                              : order == Order::vertices_first ? all_vertices + all_faces
+                                                               : all_faces + all_vertices);
+  }
+
+ private:
+  std::string vertices(int i) const {
+    constexpr int ring[6][2] = {{0, 0}, {8, 0}, {8, 8}, {4, 2}, {2, 8}, {0, 8}};
+    std::string out;
+    for (const int z : {0, 5})
+      for (const auto& [x, y] : ring)
+        out += "v " + std::to_string(10 * i + x) + ".0e-3 ." + std::to_string(100 + y) + " 0.00" + std::to_string(z) + eol;
+    return out;
+  }
+  /// @param known prisms whose vertices stand before the face
+  std::string faces(int i, int known) const {
+    std::string out;
+    const auto face = [&](const std::vector<int>& ring) {
+      out += "f";
+      for (const int k : ring) {
+        const bool backward = numbers == Numbers::backward || (numbers == Numbers::both && k % 3 == 0);
+        out += (k == ring.back() ? gap : " ") + std::to_string(12 * i + k + (backward ? -12 * known : 1));
+      }
+      out += eol;
+    };
+    face({5, 4, 3, 2, 1, 0});
+    face({6, 7, 8, 9, 10, 11});
+    for (int k = 0; k < 6; ++k) face({k, (k + 1) % 6, (k + 1) % 6 + 6, k + 6});
+    return out;
+  }
+};
 
 double area2(const std::vector<Point3>& face, const Triangle& t) {
   return static_cast<double>(orient(flat(face[t[0]]), flat(face[t[1]]), flat(face[t[2]])));
@@ -50,6 +99,47 @@ TEST_CASE("mesh: OBJ indices may be negative, carry texture and normal, and go o
 TEST_CASE("mesh: an OBJ may list its faces before its vertices", "[mesh][obj]") {
   const std::string faces = cube.substr(cube.find("f 4"));
   CHECK(volume_mm3(read("o x\n" + faces + corners).objects[0].mesh) == Approx(8000));
+}
+
+TEST_CASE("mesh: a long OBJ is so many times the short one, on any number of threads, however its faces name vertices",
+          "[mesh][obj][law]") {
+  const auto order = GENERATE(Order::mixed, Order::vertices_first, Order::faces_first);
+  const auto numbers = GENERATE(Numbers::from_one, Numbers::backward, Numbers::both);
+  if (order == Order::faces_first && numbers != Numbers::from_one) return;  // there is nothing behind them
+  const auto [gap, eol] = GENERATE(table<std::string, std::string>({{" ", "\n"}, {" ", " \r\n"}, {" \\\n \n ", "\r"}}));
+  if (order == Order::faces_first && gap != " ") return;  // an OBJ is told by the first words of its lines
+  const Row row{order, numbers, gap, eol};
+  const Mesh one = read(row.text(1)).objects[0].mesh;
+  REQUIRE(one.vertices.size() == 12);
+  REQUIRE(one.triangles.size() == 20);
+  constexpr std::uint32_t count = 7'000;
+  Mesh expected;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    for (Point3 p : one.vertices) p.x += static_cast<Um>(10 * i), expected.vertices.push_back(p);
+    for (const auto& [a, b, c] : one.triangles) expected.triangles.push_back({a + 12 * i, b + 12 * i, c + 12 * i});
+  }
+  const std::string text = row.text(count);
+  REQUIRE(text.size() > 3 << 19);
+  for (const unsigned threads : {1U, 2U, 8U}) {
+    const tasks::ThreadLimit limit(threads);
+    const Loaded loaded = read(text);
+    CHECK(loaded.objects[0].name == "a row");
+    CHECK((loaded.objects[0].mesh == expected));
+  }
+}
+
+TEST_CASE("mesh: what is wrong far into an OBJ is told with its face or vertex and its line", "[mesh][obj]") {
+  const std::string text = Row{Order::mixed, Numbers::both, " ", "\n"}.text(7'000);
+  const auto at_end = [&](std::string_view old, std::string_view put) {
+    std::string copy = text;
+    return copy.replace(copy.rfind(old), old.size(), put);
+  };
+  CHECK_THAT(refusal(at_end("\nv ", "\nv x")), Contains("part:139993: vertex 84000: x is 'x69990.0e-3', not a number"));
+  CHECK_THAT(refusal(text + "f 1 2 84001\n"), Contains("part:140002: face 56001: vertex 84001 of 84000"));
+  CHECK_THAT(refusal(text + "f 1 2 -84001\n"), Contains("part:140002: face 56001: vertex -84001 of 84000"));
+  CHECK_THAT(refusal(text + "f 1 2\n"), Contains("part:140002: face 56001 has 2 corners"));
+  CHECK_THAT(refusal("f 1 2 99999\n" + text), Contains("part:1: face 1: vertex 99999 of 84000"));
+  CHECK_THAT(refusal("f 1 2 -1\n" + text), Contains("part:1: face 1: vertex -1 of 0"));
 }
 
 TEST_CASE("mesh: a damaged OBJ is refused with its line", "[mesh][obj]") {
