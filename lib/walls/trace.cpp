@@ -123,22 +123,51 @@ void cut_end(std::vector<Vertex>& path, double by) {
   }
 }
 
-void append(std::vector<Vertex>& path, Vertex start, const Vertex& end) {
+namespace {
+
+constexpr double even_um = 4;  // widths that differ by less are no step
+
+bool steps(const Vertex& a, const Vertex& b) {
+  return std::abs(a.width - b.width) > even_um;
+}
+
+/// A step of width stays where it is, or it would be spread over the length of the pieces. `before` and `after` are the
+/// vertices around it.
+void put_step(const Vertex& before, Vertex& end, Vertex& middle, Vertex& start, const Vertex& after) {
   constexpr double step_um = 10;  // on either side
+  const auto near = [&](const Vertex& from, const Vertex& other) {
+    return lerp(from, other, std::min(0.25, step_um / std::max(1.0, distance(from.at, other.at))));
+  };
+  middle = {end.at, (end.width + start.width) / 2};
+  end = near(end, before);
+  start = near(start, after);
+}
+
+}  // namespace
+
+void append(std::vector<Vertex>& path, Vertex start, const Vertex& end) {
   if (path.empty() || distance(path.back().at, start.at) >= same_um) {
     path.push_back(start);
-  } else if (std::abs(path.back().width - start.width) <= 4 || path.size() < 2) {
+  } else if (!steps(path.back(), start) || path.size() < 2) {
     path.back().width = (path.back().width + start.width) / 2;
-  } else {  // the step stays where it is, or it would be spread over the length of the pieces
-    const Vertex at = path.back(), before = path[path.size() - 2];
-    const auto near = [&](const Vertex& from, const Vertex& other) {
-      return lerp(from, other, std::min(0.25, step_um / std::max(1.0, distance(from.at, other.at))));
-    };
-    path.back() = near(at, before);
-    path.push_back({at.at, (at.width + start.width) / 2});
-    path.push_back(near(start, end));
+  } else {
+    Vertex middle;
+    put_step(path[path.size() - 2], path.back(), middle, start, end);
+    path.insert(path.end(), {middle, start});
   }
   path.push_back(end);
+}
+
+void close(std::vector<Vertex>& path) {
+  if (path.size() < 4 || distance(path.back().at, path.front().at) >= same_um) return;
+  if (!steps(path.back(), path.front())) {
+    path.front().width = (path.back().width + path.front().width) / 2;
+    path.pop_back();
+  } else {
+    Vertex middle;
+    put_step(path[path.size() - 2], path.back(), middle, path.front(), path[1]);
+    path.push_back(middle);
+  }
 }
 
 std::vector<Line> trace_pairs(const Skeleton& s, const Laying& laying) {
@@ -188,10 +217,13 @@ std::vector<Line> trace_pairs(const Skeleton& s, const Laying& laying) {
         }
       } else if (chains.size() > 1) {  // the first chain goes on in the last
         auto &last = chains.back().path, &start = chains.front().path;
-        last.insert(last.end(), start.begin(), start.end());
+        append(last, start[0], start[1]);
+        last.insert(last.end(), start.begin() + 2, start.end());
         chains.back().after = chains.front().after;
         chains.erase(chains.begin());
         if (chains.size() == 1) set_back(chains.front());
+      } else {
+        close(chains.front().path);
       }
       Line line = joined(loop, i);
       if (line.path.size() >= 2) out.push_back(std::move(line));

@@ -20,6 +20,9 @@ struct Line {
 /// Adds a piece to a line in the making; its width need not be that of the line's end.
 void append(std::vector<Line::Vertex>& path, Line::Vertex start, const Line::Vertex& end);
 
+/// Joins the end of a line to its beginning as `append` joins pieces.
+void close(std::vector<Line::Vertex>& path);
+
 inline Line::Vertex lerp(const Line::Vertex& a, const Line::Vertex& b, double t) {
   return {lerp(a.at, b.at, t), a.width + t * (b.width - a.width)};
 }
