@@ -15,10 +15,12 @@ using Vertex = Line::Vertex;
 
 constexpr double step_um = 20;
 constexpr double under_share = 0.9;  // of half a wall's width: closer to its middle an end lies under it
-constexpr double most_widths = 2;    // no more than so many widths of the wall are cut; else it lies there on purpose
-constexpr double most_gap = 0.8;     // of the bead's width: a wider gap before a wall is not an end's
-constexpr double beside = 0.3;       // of the bead's width: where beside its middle an end is looked at, too
-constexpr double most_deep = 0.15;   // of the bead's width: so far the middle goes under, for what is bare beside it
+constexpr double beyond_um =
+    10;  // so far beyond where it comes out an end is cut: bare beside it, covered twice before
+constexpr double most_widths = 2;   // no more than so many widths of the wall are cut; else it lies there on purpose
+constexpr double most_gap = 0.8;    // of the bead's width: a wider gap before a wall is not an end's
+constexpr double beside = 0.3;      // of the bead's width: where beside its middle an end is looked at, too
+constexpr double most_deep = 0.15;  // of the bead's width: so far the middle goes under, for what is bare beside it
 constexpr double touch_um = 2;
 
 /// How deep a place lies under a wall: half the wall's width there less the distance.
@@ -141,14 +143,16 @@ class Walls {
   double length_under(const std::vector<Vertex>& path, std::span<const std::uint32_t> wall) const {
     const Depth end = depth_under(wall, path.back().at);
     if (end.depth <= 0) return 0;
-    double done = 0;
+    double done = 0, deep = end.depth;
     for (std::size_t i = path.size() - 1; i > 0; --i) {
       const double length = distance(path[i].at, path[i - 1].at);
       const int pieces = std::max(1, static_cast<int>(std::ceil(length / step_um)));
       for (int k = 1; k <= pieces; ++k) {
-        const double at = done + length * k / pieces;
+        const double depth = depth_under(wall, lerp(path[i].at, path[i - 1].at, static_cast<double>(k) / pieces)).depth;
+        const double share = depth <= 0 ? deep / (deep - depth) : 1, at = done + length * (k - 1 + share) / pieces;
         if (at > most_widths * end.width) return 0;
-        if (depth_under(wall, lerp(path[i].at, path[i - 1].at, static_cast<double>(k) / pieces)).depth <= 0) return at;
+        if (depth <= 0) return at + beyond_um;
+        deep = depth;
       }
       done += length;
     }
