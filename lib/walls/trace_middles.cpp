@@ -10,7 +10,8 @@ namespace weft::walls {
 namespace {
 
 using Vertex = Line::Vertex;
-constexpr double within_um = 2;  // a chord so far within a strip meets both its sides
+constexpr double within_um = 2;           // a chord so far within a strip meets both its sides
+constexpr double least_within_um = 0.45;  // … where its end is square, too: less than half of what the lattice tells
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 class Tracer {
@@ -247,7 +248,7 @@ class Tracer {
     const Place back = unit(node, s_.start(h).at);
     const auto before = [&](Place p) { return (p.x - node.x) * back.x + (p.y - node.y) * back.y; };
     const double r = before(right), l = before(left);
-    return std::max(0.0, std::max(r, l) + std::min(within_um, std::abs(r - l)));
+    return std::max(0.0, std::max(r, l) + std::clamp(std::abs(r - l), least_within_um, within_um));
   }
 
   /// What is as long as it is wide, a part or the middle of one.
