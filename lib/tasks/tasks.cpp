@@ -35,10 +35,14 @@ void for_each_index(std::size_t count, const std::function<void(std::size_t)>& t
   HandOver hand_over;
   hand_over.begin();
   const HandOver::Wait waited(hand_over);
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-    const Task in_task(hand_over, whether);
-    task(i);
-  });
+  const auto run = [&](const tbb::blocked_range<std::size_t>& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const Task in_task(hand_over, whether);
+      task(i);
+    }
+  };
+  // One index at a time: tasks are layers, or several, and whoever has the last of them is waited for.
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), run, tbb::simple_partitioner());
 }
 
 void for_each_in_order(std::size_t count, std::size_t places, const Steps& steps) {
