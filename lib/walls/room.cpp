@@ -2,10 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace weft::walls {
 namespace {
 constexpr double end_um = 4;
+constexpr std::size_t few = 16;  // segments, which are looked at sooner than looked for
+}
+
+Room::Room(const Region& region, Point origin) : origin_(origin), index_(Regions{region}) {
+  if (index_.segments().size() > few) return;
+  near_.resize(index_.segments().size());
+  std::iota(near_.begin(), near_.end(), 0U);
 }
 
 Place Room::on_piece(Point p, Place a, Place way) const {
@@ -18,9 +26,10 @@ double Room::beside(Place a, Place b, double most, bool first, bool last) {
   const double length = distance(a, b), end = std::min(end_um, length / 4);
   const double from = first ? end : 0, to = last ? length - end : length;
   const Place way = unit(a, b), middle = lerp(a, b, 0.5);
-  const double reach = std::hypot(most, length / 2) + 2;
+  const double reach = std::sqrt(most * most + length * length / 4) + 2;
   const auto lattice = [&](double x, double y) { return Point{origin_.x + rounded(x), origin_.y + rounded(y)}; };
-  index_.near({lattice(middle.x - reach, middle.y - reach), lattice(middle.x + reach, middle.y + reach)}, near_);
+  if (index_.segments().size() > few)
+    index_.near({lattice(middle.x - reach, middle.y - reach), lattice(middle.x + reach, middle.y + reach)}, near_);
   double room = most;
   for (const std::uint32_t i : near_) {
     const auto& s = index_.segments()[i];

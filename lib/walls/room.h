@@ -14,7 +14,7 @@ namespace weft::walls {
 class Room {
  public:
   /// `origin` is that of the places asked about.
-  Room(const Region& region, Point origin) : origin_(origin), index_(Regions{region}) {}
+  Room(const Region& region, Point origin);
 
   /// Half the width at which the band of a piece from a to b reaches the outline on either side; no more than `most`,
   /// µm. At a piece's first (last) end, if it is an end of the bead, what is not quite square is no lack of room.
@@ -25,7 +25,7 @@ class Room {
 
   Point origin_;
   geometry::SegmentIndex index_;
-  std::vector<std::uint32_t> near_;
+  std::vector<std::uint32_t> near_;  ///< of the index's segments; all, when they are few
   StopNowAndThen stop_{16};
 };
 

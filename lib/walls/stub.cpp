@@ -78,8 +78,14 @@ class Cut {
   template <class F>
   void each_crossing(double x, Place v, F f) const {
     const Place p = at(x);
-    for (std::size_t i = 0; i < ring_.size(); ++i) {
-      if (const auto t = meets(p, v, ring_[i], ring_[i + 1 < ring_.size() ? i + 1 : 0])) f(*t);
+    const auto seen = [&](Place q) { return Place{q.x - p.x, q.y - p.y}; };
+    Place a = seen(ring_.back());
+    double a_side = cross(v, a);
+    for (const Place& q : ring_) {
+      const Place b = seen(q);
+      const double b_side = cross(v, b);
+      if ((a_side < 0) != (b_side < 0)) f(meeting(v, a, a_side, b, b_side));
+      a = b, a_side = b_side;
     }
   }
 
@@ -120,9 +126,16 @@ std::vector<Edge> longest_edges(const std::vector<Place>& ring, std::size_t most
   return out;
 }
 
+struct ThroughLine {
+  Place through, way;
+};
+bool same(const ThroughLine& l, const ThroughLine& m) {
+  return l.through.x == m.through.x && l.through.y == m.through.y && l.way.x == m.way.x && l.way.y == m.way.y;
+}
+
 /// Lines that a bead may follow: half-way between two edges, along an edge, and square to one.
-std::vector<std::pair<Place, Place>> lines_through(const std::vector<Place>& ring, Place centre) {
-  std::vector<std::pair<Place, Place>> out;
+std::vector<ThroughLine> lines_through(const std::vector<Place>& ring, Place centre) {
+  std::vector<ThroughLine> out;
   for (const Edge& e : longest_edges(ring, most_edges))
     out.insert(out.end(), {{centre, e.way}, {centre, {-e.way.y, e.way.x}}});
   const auto sides = longest_edges(ring, most_sides);
@@ -148,8 +161,10 @@ std::vector<Vertex> stub_bead(const std::vector<Place>& outline) {
   if (shape.area < 1) return {};
   std::optional<Cut> best;
   double best_share = -1e18;
-  for (const auto& [through, way] : lines_through(ring, shape.centre)) {
-    const Cut cut(ring, through, way);
+  const auto lines = lines_through(ring, shape.centre);  // parallel edges bring the same ones
+  for (auto line = lines.begin(); line != lines.end(); ++line) {
+    if (std::any_of(lines.begin(), line, [&](const ThroughLine& l) { return same(l, *line); })) continue;
+    const Cut cut(ring, line->through, line->way);
     const double length = std::max(1.0, cut.to - cut.from);
     const double share = cut.covered() / shape.area - breadth_malus * shape.area / (length * length);
     if (share > best_share) best.emplace(cut), best_share = share;

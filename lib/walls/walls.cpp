@@ -15,6 +15,7 @@
 #include <iterator>
 #include <new>
 #include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -199,6 +200,54 @@ void steady_over_air(const Regions& over_air, const Widths& widths, Beads& beads
       if (j.flow == 1.F && over(j.at)) j.width = rounded(bead.inset == 0 ? widths.outer : widths.inner);
 }
 
+/// What was made of the last regions of a layer that differed by more than their place: a plate of pins has one kind of
+/// them, and walls move with their region by whole microns.
+class Lately {
+ public:
+  /// What `region` gets, if one of them is like it.
+  std::optional<Part> again(const Region& region, std::uint32_t part) const {
+    for (const Kind& kind : kinds_) {
+      if (!alike(*kind.region, region)) continue;
+      const Point by = region.outer.front() - kind.region->outer.front();
+      Part out = kind.made;
+      for (Bead& bead : out.beads) {
+        bead.part = part;
+        for (Junction& j : bead.path) j.at = j.at + by;
+      }
+      for (Region& r : out.inside) move(r, by);
+      return out;
+    }
+    return {};
+  }
+  void add(const Region& region, const Part& made) {
+    if (region.outer.size() > most_corners || !region.holes.empty()) return;
+    if (kinds_.size() < most_kinds) kinds_.emplace_back();
+    kinds_[next_++ % most_kinds] = {&region, made};
+  }
+
+ private:
+  struct Kind {
+    const Region* region = nullptr;
+    Part made;
+  };
+  static constexpr std::size_t most_kinds = 8;
+  static constexpr std::size_t most_corners = 200;  // a copy of what is larger would take memory
+
+  static bool alike(const Region& a, const Region& b) {
+    if (a.outer.size() != b.outer.size() || !b.holes.empty()) return false;
+    const Point by = b.outer.front() - a.outer.front();
+    return std::equal(a.outer.begin(), a.outer.end(), b.outer.begin(), [&](Point p, Point q) { return p + by == q; });
+  }
+  static void move(Region& region, Point by) {
+    for (Point& p : region.outer) p = p + by;
+    for (Ring& hole : region.holes)
+      for (Point& p : hole) p = p + by;
+  }
+
+  std::vector<Kind> kinds_;
+  std::size_t next_ = 0;
+};
+
 std::string place_of(const WallInput& input, const Region& region) {
   const Point at = box_of(region.outer).centre();
   return fmt::format("layer {} (z {:.3f}), around {:.2f}, {:.2f}", input.index, to_mm(input.layer.z), to_mm(at.x),
@@ -225,10 +274,12 @@ WallLayer build(const WallSettings& settings, const WallInput& input) {
     out.inside = regions;
     return out;
   }
+  Lately lately;
   for (std::uint32_t i = 0; i < regions.size(); ++i) {
     stop_if_asked();
-    Part part = build_part(settings, widths, regions[i], input.nozzle_diameter, i);
-    if (input.over_air != nullptr) steady_over_air(*input.over_air, widths, part.beads);
+    auto again = lately.again(regions[i], i);
+    Part part = again ? *std::move(again) : build_part(settings, widths, regions[i], input.nozzle_diameter, i);
+    if (!again) lately.add(regions[i], part);
     put_in_order(part.beads, settings.wall_order);
     if (!part.valid)
       out.notices.push_back(
@@ -245,6 +296,7 @@ WallLayer build(const WallSettings& settings, const WallInput& input) {
     std::move(part.beads.begin(), part.beads.end(), std::back_inserter(out.beads));
     std::move(part.inside.begin(), part.inside.end(), std::back_inserter(out.inside));
   }
+  if (input.over_air != nullptr) steady_over_air(*input.over_air, widths, out.beads);
   return out;
 }
 
