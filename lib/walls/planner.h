@@ -71,6 +71,11 @@ class Planner {
   /// Where the axis climbs steeply from a thin part into a thick one, the walls of the thick part turn back as they do
   /// in a corner, and the beads of the thin part end.
   void cut_mouths(std::vector<int>& degree);
+  /// Of the arm that a half leads down into: how many where that is level, for as long as a change of count is to last or
+  /// to its end. 0 where there is no such arm.
+  int beads_of_arm(std::uint32_t h) const;
+  /// Whether at the end of a half another such arm begins, of at least so many beads.
+  bool leads_to_arm(std::uint32_t h, int beads) const;
   /// A tip is led on to only straight ahead: at the end of a rib the axis also bends into the sharper of two corners.
   void cut_bent_tips(std::vector<int>& degree);
   Place direction(std::uint32_t h) const;

@@ -80,8 +80,11 @@ void Planner::cut_mouths(std::vector<int>& degree) {
       for (std::uint32_t h = onward(below); h != run.back() && climbs(h); h = onward(h)) run.push_back(h);
       for (const std::uint32_t h : run) seen[h / 2] = 1;
       const std::uint32_t low = s_.halves[below].from, high = s_.to(run.back());
-      const int fewer = count_for(w_, 2 * s_.nodes[low].clearance, false).beads();
       const int more = count_for(w_, 2 * s_.nodes[high].clearance, true).beads();
+      int fewer = count_for(w_, 2 * s_.nodes[low].clearance, false).beads();
+      // Below what climbs so steeply there may be room for one bead more than in the arm. That is none of the arm's: from
+      // there walls come towards it, if those of another arm that has as many go on up there.
+      if (const int arm = beads_of_arm(Skeleton::twin(below)); arm > 0 && leads_to_arm(run.back(), more)) fewer = arm;
       const double rise = s_.nodes[high].clearance - s_.nodes[low].clearance;
       const bool splits = fewer == 1 && 2 * s_.nodes[high].clearance > wide_bead() && rise > 0.3 * w_.inner;
       if (more - fewer >= (splits ? 1 : 2)) runs_.push_back(run);
@@ -102,6 +105,32 @@ void Planner::cut_mouths(std::vector<int>& degree) {
     for_each_leaving(any_[n], [&](std::uint32_t h) { peak = peak && !climbs_mouth(h); });
     if (peak && std::find(peaks_.begin(), peaks_.end(), n) == peaks_.end()) peaks_.push_back(n);
   }
+}
+
+int Planner::beads_of_arm(std::uint32_t h) const {
+  if (s_.end(h).clearance > s_.start(h).clearance + same_um) return 0;
+  const auto beads = [&] { return count_for(w_, 2 * s_.end(h).clearance, false).beads(); };
+  double gentle = 0;  // way down that is not steep
+  for (std::uint32_t g = onward(h); g != h && gentle < o_.filter && s_.end(g).clearance < s_.start(g).clearance; g = onward(h)) {
+    h = g;
+    if (!steep_[h / 2]) gentle += s_.length(h / 2);
+  }
+  const int there = beads();
+  double length = 0;
+  for (std::uint32_t g = onward(h); g != h && length < o_.filter; g = onward(h)) {
+    h = g;
+    if (beads() != there) return 0;
+    length += s_.length(h / 2);
+  }
+  return there;
+}
+
+bool Planner::leads_to_arm(std::uint32_t h, int beads) const {
+  bool found = false;
+  for_each_leaving(Skeleton::twin(h), [&](std::uint32_t g) {
+    found = found || (core_[g / 2] && g != Skeleton::twin(h) && beads_of_arm(g) >= beads);
+  });
+  return found;
 }
 
 void Planner::cut_bent_tips(std::vector<int>& degree) {
