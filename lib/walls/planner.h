@@ -133,7 +133,7 @@ class Planner {
     return edge < throat_.size() && throat_[edge] != none ? &throats_[throat_[edge]] : nullptr;
   }
   /// Walls that go on where another has turned back fill the room beside its tip, and no more: at an edge of a mouth, and
-  /// down into the part below it as far as the tip reaches.
+  /// down into the part below it as far as they would meet the tip.
   void fill_beside(std::uint32_t h, const Turn& turn);
   void yield_below(std::uint32_t h, const Span& span, Turn turn);
   /// Splits an edge whose beads are known; returns the first part of the half.
@@ -142,7 +142,9 @@ class Planner {
   std::uint32_t bounds_beside(const Throat& throat, const Span& span, const Turn& turn, double slope, double clearance);
   bool climbs_mouth(std::uint32_t h) const { return mouth_[h / 2] && s_.end(h).clearance > s_.start(h).clearance; }
   void run_into_corners();
-  void descend_from(std::uint32_t n, const Span& span);
+  /// From a node on, with the most beads that its core has; nothing where it has none.
+  void leave_core(std::uint32_t n, bool only_mouths);
+  void descend_from(std::uint32_t n, const Span& span, bool only_mouths);
   double track(const Span& span, int i) const;
   /// Beads end on the axis where the clearance falls to their distance.
   void descend(std::uint32_t h, Span span, Turn turn);

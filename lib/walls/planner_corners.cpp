@@ -25,20 +25,25 @@ void Planner::find_throats() {
 
 std::uint32_t Planner::bounds_beside(const Throat& throat, const Span& span, const Turn& turn, double slope,
                                      double clearance) {
-  // How far the tip, a disc, reaches along the rib, which leans away from it by the slope.
   const double r = turn.reach, t = turn.past;
-  const double tip = t < r ? std::sqrt(r * r - t * t * (1 - slope * slope)) - t * slope : 0;
   const auto last = static_cast<std::size_t>(throat.pairs);
   const double above = out_.bounds[span.at_start + last], below = out_.bounds[throat.bounds + last];
-  const double wanted = clearance - tip;
-  if (wanted <= above) return span.at_start;
-  const double share = below > above + same_um ? std::min(1.0, (wanted - above) / (below - above)) : 0;
+  // How far the tip, a disc, reaches along the rib, which leans away from it by the slope.
+  const double tip = t < r ? std::sqrt(r * r - t * t * (1 - slope * slope)) - t * slope : 0;
+  // A wall is laid down by discs, too. One that fills the rib up to the tip lies under the tip beside the rib; discs that only
+  // touch it, this far from the axis, leave a triangle bare. Half-way between them least is bare or covered twice.
+  const double room = clearance - out_.bounds[span.at_start + last - 1];
+  const double touching = ((room + r) * (room + r) - t * t) / (2 * (t * slope + room + r));
+  const double touched = std::min(clearance, clearance + room - 2 * touching);
+  const double wanted = (clearance - tip + touched) / 2;
+  if (wanted <= above && clearance >= above) return span.at_start;
+  const double share = below > above + same_um ? std::clamp((wanted - above) / (below - above), 0.0, 1.0) : 0;
   const auto at = static_cast<std::uint32_t>(out_.bounds.size());
   for (std::size_t i = 0; i < last; ++i) {
     const double b = out_.bounds[span.at_start + i];
-    out_.bounds.push_back(b + share * std::max(0.0, out_.bounds[throat.bounds + i] - b));
+    out_.bounds.push_back(std::min(clearance, b + share * std::max(0.0, out_.bounds[throat.bounds + i] - b)));
   }
-  out_.bounds.push_back(wanted);
+  out_.bounds.push_back(std::max(wanted, std::min(above, clearance)));
   return at;
 }
 
@@ -61,17 +66,23 @@ void Planner::yield_below(std::uint32_t h, const Span& span, Turn turn) {
   for_each_leaving(Skeleton::twin(h), [&](std::uint32_t x) {
     if (core_[x / 2]) g = x;
   });
-  while (turn.past < turn.reach - same_um) {
+  const double reach = 2 * turn.reach;  // no disc of a wall touches the tip further away
+  while (turn.past < reach - same_um) {
     const Span& own = out_.spans[g / 2];
     const double high = s_.start(g).clearance, length = s_.length(g / 2);
     if (own.pairs != span.pairs || own.middle || own.open || s_.end(g).clearance > high || length < same_um) return;
-    if (turn.past + length > turn.reach) g = split_core(g, (turn.reach - turn.past) / length);
+    if (turn.past + length > reach) g = split_core(g, (reach - turn.past) / length);
     const double m = std::min(1.0, slope(g / 2));
     const Turn later{turn.reach, turn.past + s_.length(g / 2)};
     Span& cut = out_.spans[g / 2];
     std::uint32_t &from = g % 2 == 0 ? cut.at_start : cut.at_end, &to = g % 2 == 0 ? cut.at_end : cut.at_start;
-    from = bounds_beside({span.pairs, from}, span, turn, m, high);
-    to = bounds_beside({span.pairs, to}, span, later, m, s_.end(g).clearance);
+    const auto yielded = [&](std::uint32_t to_this, const Turn& at, double clearance) {  // to another tip it may have more
+      const auto last = static_cast<std::uint32_t>(span.pairs);
+      const std::uint32_t beside = bounds_beside({span.pairs, to_this}, span, at, m, clearance);
+      return out_.bounds[beside + last] < out_.bounds[to_this + last] ? beside : to_this;
+    };
+    from = yielded(from, turn, high);
+    to = yielded(to, later, s_.end(g).clearance);
     turn = later;
     const std::uint32_t next = onward(g);
     if (next == g) return;
@@ -96,21 +107,7 @@ std::uint32_t Planner::split_core(std::uint32_t h, double t) {
 
 void Planner::run_into_corners() {
   find_throats();
-  const auto nodes = static_cast<std::uint32_t>(any_.size());
   StopNowAndThen stop(256);
-  for (std::uint32_t n = 0; n < nodes; ++n) {
-    stop.step();
-    std::uint32_t core = ~0U;
-    for_each_leaving(any_[n], [&](std::uint32_t h) {
-      if (core_[h / 2] && (core == ~0U || out_.spans[h / 2].pairs > out_.spans[core / 2].pairs)) core = h;
-    });
-    if (core == ~0U) continue;
-    Span span = out_.spans[core / 2];
-    const std::uint32_t at = core % 2 == 0 ? span.at_start : span.at_end;
-    span.core = span.middle = false;
-    span.at_start = span.at_end = at;
-    descend_from(n, span);
-  }
   for (const std::uint32_t n : peaks_) {
     stop.step();
     const double half = s_.nodes[n].clearance;
@@ -120,14 +117,36 @@ void Planner::run_into_corners() {
     span.pairs = count.pairs;
     span.open = is_open(w_, count);
     span.at_start = span.at_end = bounds_at(count, {}, 0, half);
-    descend_from(n, span);
+    descend_from(n, span, false);
     if (count.middle && !span.open) out_.dots.push_back(any_[n]);
+  }
+  // Mouths first, from the thickest part on: below them walls yield, and corners begin with what they have then.
+  std::stable_sort(tops_.begin(), tops_.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return s_.nodes[a].clearance > s_.nodes[b].clearance; });
+  for (const std::uint32_t n : tops_) leave_core(n, true);
+  const auto nodes = static_cast<std::uint32_t>(any_.size());
+  for (std::uint32_t n = 0; n < nodes; ++n) {
+    stop.step();
+    leave_core(n, false);
   }
 }
 
-void Planner::descend_from(std::uint32_t n, const Span& span) {
+void Planner::leave_core(std::uint32_t n, bool only_mouths) {
+  std::uint32_t core = none;
   for_each_leaving(any_[n], [&](std::uint32_t h) {
-    if (!core_[h / 2] && !climbs_mouth(h)) leave_.push_back({h, span, {}});
+    if (core_[h / 2] && (core == none || out_.spans[h / 2].pairs > out_.spans[core / 2].pairs)) core = h;
+  });
+  if (core == none) return;
+  Span span = out_.spans[core / 2];
+  const std::uint32_t at = core % 2 == 0 ? span.at_start : span.at_end;
+  span.core = span.middle = false;
+  span.at_start = span.at_end = at;
+  descend_from(n, span, only_mouths);
+}
+
+void Planner::descend_from(std::uint32_t n, const Span& span, bool only_mouths) {
+  for_each_leaving(any_[n], [&](std::uint32_t h) {
+    if (!core_[h / 2] && !climbs_mouth(h) && (mouth_[h / 2] || !only_mouths)) leave_.push_back({h, span, {}});
   });
   while (!leave_.empty()) {
     const Descent d = leave_.back();
