@@ -71,8 +71,8 @@ class Planner {
   /// Where the axis climbs steeply from a thin part into a thick one, the walls of the thick part turn back as they do
   /// in a corner, and the beads of the thin part end.
   void cut_mouths(std::vector<int>& degree);
-  /// Of the arm that a half leads down into: how many where that is level, for as long as a change of count is to last or
-  /// to its end. 0 where there is no such arm.
+  /// Of the arm that a half leads down into: how many where that is level, for as long as a change of count is to last
+  /// or to its end. 0 where there is no such arm.
   int beads_of_arm(std::uint32_t h) const;
   /// Whether at the end of a half another such arm begins, of at least so many beads.
   bool leads_to_arm(std::uint32_t h, int beads) const;
@@ -132,8 +132,8 @@ class Planner {
   const Throat* throat_at(std::uint32_t edge) const {
     return edge < throat_.size() && throat_[edge] != none ? &throats_[throat_[edge]] : nullptr;
   }
-  /// Walls that go on where another has turned back fill the room beside its tip, and no more: at an edge of a mouth, and
-  /// down into the part below it as far as they would meet the tip.
+  /// Walls that go on where another has turned back fill the room beside its tip, and no more: at an edge of a mouth,
+  /// and down into the part below it as far as they would meet the tip.
   void fill_beside(std::uint32_t h, const Turn& turn);
   void yield_below(std::uint32_t h, const Span& span, Turn turn);
   /// Splits an edge whose beads are known; returns the first part of the half.

@@ -82,8 +82,8 @@ void Planner::cut_mouths(std::vector<int>& degree) {
       const std::uint32_t low = s_.halves[below].from, high = s_.to(run.back());
       const int more = count_for(w_, 2 * s_.nodes[high].clearance, true).beads();
       int fewer = count_for(w_, 2 * s_.nodes[low].clearance, false).beads();
-      // Below what climbs so steeply there may be room for one bead more than in the arm. That is none of the arm's: from
-      // there walls come towards it, if those of another arm that has as many go on up there.
+      // Below what climbs so steeply there may be room for one bead more than in the arm. That is none of the arm's:
+      // from there walls come towards it, if those of another arm that has as many go on up there.
       if (const int arm = beads_of_arm(Skeleton::twin(below)); arm > 0 && leads_to_arm(run.back(), more)) fewer = arm;
       const double rise = s_.nodes[high].clearance - s_.nodes[low].clearance;
       const bool splits = fewer == 1 && 2 * s_.nodes[high].clearance > wide_bead() && rise > 0.3 * w_.inner;
@@ -111,7 +111,8 @@ int Planner::beads_of_arm(std::uint32_t h) const {
   if (s_.end(h).clearance > s_.start(h).clearance + same_um) return 0;
   const auto beads = [&] { return count_for(w_, 2 * s_.end(h).clearance, false).beads(); };
   double gentle = 0;  // way down that is not steep
-  for (std::uint32_t g = onward(h); g != h && gentle < o_.filter && s_.end(g).clearance < s_.start(g).clearance; g = onward(h)) {
+  for (std::uint32_t g = onward(h); g != h && gentle < o_.filter && s_.end(g).clearance < s_.start(g).clearance;
+       g = onward(h)) {
     h = g;
     if (!steep_[h / 2]) gentle += s_.length(h / 2);
   }

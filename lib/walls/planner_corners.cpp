@@ -30,8 +30,9 @@ std::uint32_t Planner::bounds_beside(const Throat& throat, const Span& span, con
   const double above = out_.bounds[span.at_start + last], below = out_.bounds[throat.bounds + last];
   // How far the tip, a disc, reaches along the rib, which leans away from it by the slope.
   const double tip = t < r ? std::sqrt(r * r - t * t * (1 - slope * slope)) - t * slope : 0;
-  // A wall is laid down by discs, too. One that fills the rib up to the tip lies under the tip beside the rib; discs that only
-  // touch it, this far from the axis, leave a triangle bare. Half-way between them least is bare or covered twice.
+  // A wall is laid down by discs, too. One that fills the rib up to the tip lies under the tip beside the rib; discs
+  // that only touch it, this far from the axis, leave a triangle bare. Half-way between them least is bare or covered
+  // twice.
   const double room = clearance - out_.bounds[span.at_start + last - 1];
   const double touching = ((room + r) * (room + r) - t * t) / (2 * (t * slope + room + r));
   const double touched = std::min(clearance, clearance + room - 2 * touching);
@@ -76,7 +77,8 @@ void Planner::yield_below(std::uint32_t h, const Span& span, Turn turn) {
     const Turn later{turn.reach, turn.past + s_.length(g / 2)};
     Span& cut = out_.spans[g / 2];
     std::uint32_t &from = g % 2 == 0 ? cut.at_start : cut.at_end, &to = g % 2 == 0 ? cut.at_end : cut.at_start;
-    const auto yielded = [&](std::uint32_t to_this, const Turn& at, double clearance) {  // to another tip it may have more
+    const auto yielded = [&](std::uint32_t to_this, const Turn& at,
+                             double clearance) {  // to another tip it may have more
       const auto last = static_cast<std::uint32_t>(span.pairs);
       const std::uint32_t beside = bounds_beside({span.pairs, to_this}, span, at, m, clearance);
       return out_.bounds[beside + last] < out_.bounds[to_this + last] ? beside : to_this;

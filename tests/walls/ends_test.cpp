@@ -44,8 +44,9 @@ Shares shares(const Region& region, const WallLayer& walls, const Box& box, Um s
   for (Um x = box.min.x + step / 3; x < box.max.x; x += step)
     for (Um y = box.min.y + step / 6; y < box.max.y; y += step + 2) {
       if (!index.region_at({x, y})) continue;
-      const auto times =
-          std::count_if(walls.beads.begin(), walls.beads.end(), [&](const Bead& b) { return covers(b, {x, y}); });
+      const auto times = std::count_if(walls.beads.begin(), walls.beads.end(), [&](const Bead& b) {
+        return covers(b, {x, y});
+      });
       ++all;
       bare += times == 0;
       twice += times > 1;
@@ -135,7 +136,8 @@ TEST_CASE("walls: a crossing is one although the lattice parts the places where 
   CHECK(bare_share(cross, walls, {{-800, -800}, {800, 800}}, 13) < 0.002);
 }
 
-TEST_CASE("walls: where many arms meet, walls fill the room beside the tips of the one that circles the middle", "[walls]") {
+TEST_CASE("walls: where many arms meet, walls fill the room beside the tips of the one that circles the middle",
+          "[walls]") {
   // 2.2 to 5 % were bare or covered twice: walls were as wide as below up to there, which is no tip's shape.
   for (const int arms : {5, 6, 8})
     for (const double width : {1000.0, 1800.0}) {
