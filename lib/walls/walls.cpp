@@ -152,8 +152,12 @@ Part build_part(const WallSettings& settings, const Widths& widths, const Region
   auto pairs = trace_pairs(skeleton, laying), middles = trace_middles(skeleton, laying);
   fit_ends(middles, pairs);
   std::vector<Line> finished;
+  StopNowAndThen stop(64);
   for (auto* lines : {&pairs, &middles})
-    for (Line& line : *lines) finish(std::move(line), finishing, finished, out.dropped_mm);
+    for (Line& line : *lines) {
+      stop.step();
+      finish(std::move(line), finishing, finished, out.dropped_mm);
+    }
   out.inside = rest_of(skeleton, laying, axis.origin);
   if (!dab) keep_inside(region, finishing, finished);
   for (const Line& line : finished) append_bead(line, finishing, out.beads);
