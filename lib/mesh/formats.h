@@ -44,7 +44,8 @@ inline bool is_binary_stl(std::string_view bytes) {
 /// something else: a damaged file is still within a factor of 1000 of the size that its count asks for.
 std::optional<std::string> damage_of_binary_stl(std::string_view bytes);
 Contents read_binary_stl(const Source& source);
-/// The same of a file that is not in memory as a whole: in blocks, each of which is given to `see` first.
+/// The same of a file that is not in memory as a whole: in blocks, each of which is shown to `see` in its turn, on any
+/// thread and beside what else is done.
 /// Throws: Error::Kind::file as well. Pre: is_binary_stl.
 Contents read_binary_stl(InputFile& file, const std::string& path, double scale,
                          const std::function<void(std::string_view)>& see);

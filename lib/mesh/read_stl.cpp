@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstring>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -40,13 +41,15 @@ std::uint32_t count_of(std::string_view bytes) {
 
 /// Gives the next so many bytes of the file, and may use the room for them.
 using Fetch = std::function<std::string_view(char* room, std::size_t bytes)>;
+/// Is shown what was fetched, in order.
+using See = std::function<void(std::string_view)>;
 
 /// Reads the triangles of a file, in blocks.
 class Triangles {
  public:
   Triangles(std::size_t count, const std::string& path, double scale) : count_(count), path_(path), scale_(scale) {}
 
-  Contents read(const Fetch& fetch) const {
+  Contents read(const Fetch& fetch, const See& see) const {
     constexpr std::size_t block_triangles = 4096;
     struct Block {
       std::unique_ptr<char[]> room = std::make_unique_for_overwrite<char[]>(block_triangles * triangle_bytes);
@@ -57,15 +60,20 @@ class Triangles {
     reader.most_triangles = count_;
     reader.expected_vertices = count_ / 2 + 16;  // Euler: a closed surface has half as many vertices as triangles
     std::vector<Block> blocks(std::min(reader.parts, tasks::most_in_flight()));
+    std::optional<tasks::Beside> seeing;  // a block, until the next one is fetched: so long its room is its own
     reader.fetch = [&](std::size_t i, std::size_t place) {
       const std::size_t triangles = std::min(block_triangles, count_ - i * block_triangles);
-      blocks[place].bytes = fetch(blocks[place].room.get(), triangles * triangle_bytes);
+      const auto bytes = blocks[place].bytes = fetch(blocks[place].room.get(), triangles * triangle_bytes);
+      if (!see) return;
+      if (seeing) seeing->wait();
+      seeing.emplace([&see, bytes] { see(bytes); });
     };
     reader.read = [&](std::size_t i, std::size_t place, Part& part) {
       decode(blocks[place].bytes, i * block_triangles, part);
     };
     Contents contents;
     contents.bodies.push_back({"", welded(reader)});
+    if (seeing) seeing->wait();
     return contents;
   }
 
@@ -126,26 +134,27 @@ Contents read_binary_stl(const Source& source) {
   const std::size_t count = count_of(source.bytes);
   refuse_too_many(count, source.path);
   std::string_view rest = source.bytes.substr(header_bytes);
-  return Triangles(count, source.path, source.scale).read([&](char*, std::size_t bytes) {
+  const auto next = [&](char*, std::size_t bytes) {
     const auto block = rest.substr(0, bytes);
     rest.remove_prefix(bytes);
     return block;
-  });
+  };
+  return Triangles(count, source.path, source.scale).read(next, {});
 }
 
-Contents read_binary_stl(InputFile& file, const std::string& path, double scale,
-                         const std::function<void(std::string_view)>& see) {
+Contents read_binary_stl(InputFile& file, const std::string& path, double scale, const See& see) {
   const auto fetch = [&](char* room, std::size_t size) {
     const std::string_view bytes(room, file.read(room, size));
     if (bytes.size() < size) file.check_whole();  // it was longer
-    see(bytes);
     return bytes;
   };
   char header[header_bytes];
-  const std::size_t count = count_of(fetch(header, header_bytes));
+  const auto front = fetch(header, header_bytes);
+  see(front);
+  const std::size_t count = count_of(front);
   refuse_too_many(count, path);
   try {
-    auto contents = Triangles(count, path, scale).read(fetch);
+    auto contents = Triangles(count, path, scale).read(fetch, see);
     file.check_whole();
     return contents;
   } catch (const Error&) {
