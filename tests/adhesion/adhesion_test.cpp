@@ -2,6 +2,7 @@
 
 #include "adhesion/loops.h"
 #include "model/flow.h"
+#include "rectangle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,12 +14,10 @@
 using namespace weft;
 using adhesion::AdhesionInput;
 using adhesion::PlateLayer;
+using test::rectangle;
 
 namespace {
 
-Region rectangle(Um x0, Um y0, Um x1, Um y1) {
-  return {{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, {}};
-}
 Region frame() {
   Region r = rectangle(0, 0, 40000, 40000);
   r.holes.push_back({{10000, 10000}, {10000, 30000}, {30000, 30000}, {30000, 10000}});

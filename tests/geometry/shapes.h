@@ -1,5 +1,6 @@
 #pragma once
 #include "core/polygon.h"
+#include "rectangle.h"
 
 #include <cmath>
 #include <cstdint>
@@ -9,10 +10,7 @@
 /// Shapes for laws, the same for one seed on every machine.
 namespace shapes {
 using namespace weft;
-
-inline Region rectangle(Point min, Point max) {
-  return {{min, {max.x, min.y}, max, {min.x, max.y}}, {}};
-}
+using weft::test::rectangle;
 
 class Dice {
  public:

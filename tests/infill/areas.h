@@ -1,40 +1,24 @@
 #pragma once
+#include "band.h"
 #include "core/polygon.h"
 #include "model/bead.h"
+#include "rectangle.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 /// What the tests of infill share: simple areas, and an independent look at what beads cover.
 namespace weft::test {
 
-inline Region rectangle(Um x0, Um y0, Um x1, Um y1) {
-  return {{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, {}};
-}
-
 inline Region with_hole(Region region, Um x0, Um y0, Um x1, Um y1) {
   region.holes.push_back({{x0, y0}, {x0, y1}, {x1, y1}, {x1, y0}});
   return region;
 }
 
-/// How many bands of beads lie over p. Bands end square; inner joints are round.
-inline int cover(const Beads& beads, double x, double y) {
-  int n = 0;
-  for (const Bead& bead : beads) {
-    const std::size_t segments = bead.path.size() - (bead.closed ? 0 : 1);
-    bool hit = false;
-    for (std::size_t i = 0; i < segments && !hit; ++i) {
-      const Junction &a = bead.path[i], &b = bead.path[(i + 1) % bead.path.size()];
-      const double dx = b.at.x - a.at.x, dy = b.at.y - a.at.y, l = std::hypot(dx, dy);
-      const double px = x - a.at.x, py = y - a.at.y;
-      const double along = (px * dx + py * dy) / l, off = std::abs(px * dy - py * dx) / l;
-      const double half = (a.width + (b.width - a.width) * along / l) / 2;
-      hit = along >= 0 && along <= l && off <= half;
-      if (!hit && (i > 0 || bead.closed)) hit = std::hypot(px, py) <= a.width / 2.0;
-    }
-    n += hit;
-  }
-  return n;
+/// How many beads' bands lie over a place.
+inline std::ptrdiff_t cover(const Beads& beads, double x, double y) {
+  return std::count_if(beads.begin(), beads.end(), [&](const Bead& bead) { return covers(bead, x, y); });
 }
 
 inline bool holds(const Regions& regions, Point p) {

@@ -39,7 +39,7 @@ TEST_CASE("solid: lines lie side by side without gap and without overlap", "[inf
   int bare = 0, twice = 0, all = 0;
   for (double x = 650; x < 7400; x += 31)
     for (double y = 650; y < 4400; y += 29) {
-      const int n = cover(beads, x, y);
+      const auto n = cover(beads, x, y);
       ++all, bare += n == 0, twice += n > 1;
     }
   CAPTURE(angle);
@@ -75,7 +75,7 @@ TEST_CASE("solid: lines beside an edge cover what is between them and it, whatev
       for (double y = 20; y < 7000; y += 23) {
         const bool corner = std::abs(x - 3000) < 150 || std::abs(x - 9000) < 150;  // lines step aside there
         if (corner) continue;
-        const int n = cover(beads, x, y);
+        const auto n = cover(beads, x, y);
         const bool in = holds({region}, {rounded(x), rounded(y)});
         in ? ++all : ++outside;
         if (in) bare += n == 0, twice += n > 1;

@@ -2,6 +2,7 @@
 
 #include "mesh/fits.h"
 #include "mesh/fixtures.h"
+#include "rectangle.h"
 
 #include <algorithm>
 #include <random>
@@ -15,10 +16,7 @@ using Catch::Contains;
 
 namespace {
 
-Ring rectangle(Um width, Um depth) {
-  return {{0, 0}, {width, 0}, {width, depth}, {0, depth}};
-}
-const Plate square{.surface = rectangle(200_mm, 200_mm), .height = 100_mm};
+const Plate square{.surface = test::rectangle(0, 0, 200_mm, 200_mm).outer, .height = 100_mm};
 
 /// The print surface is an L: the quarter at the back right is missing.
 const Plate l_shaped{

@@ -1,6 +1,7 @@
 #pragma once
 #include "geometry/boolean.h"
 #include "geometry/offset.h"
+#include "rectangle.h"
 #include "travel/travel.h"
 
 #include <random>
@@ -8,11 +9,9 @@
 /// Synthetic layers: walls from plain offsets and straight lines inside them.
 namespace weft::travel::sample {
 
-constexpr Um width = 400;
+using test::rectangle;
 
-inline Ring rectangle(Point min, Point max) {
-  return {min, {max.x, min.y}, max, {min.x, max.y}};
-}
+constexpr Um width = 400;
 
 inline Ring circle(Point centre, Um radius, int corners) {
   Ring ring;
@@ -90,7 +89,7 @@ inline Regions plate() {
   Region body{
       {{0, 0}, {40000, 0}, {40000, 30000}, {25000, 30000}, {25000, 12000}, {20000, 12000}, {20000, 30000}, {0, 30000}},
       {turned_over(circle({9000, 15000}, 4000, 48)), turned_over(circle({32000, 8000}, 3000, 32))}};
-  Region island{rectangle({21500, 20000}, {23500, 28000}), {}};
+  Region island = rectangle({21500, 20000}, {23500, 28000});
   return {body, island};
 }
 

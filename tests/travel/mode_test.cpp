@@ -10,13 +10,12 @@ namespace {
 
 /// A square of 40 mm; `what` of it is a block in its middle, or, where that is said, a strip from side to side.
 LayerInput with_area(Regions ObjectLayer::*what, bool from_side_to_side = false) {
-  LayerInput input = sample::layer({{sample::rectangle({0, 0}, {40000, 40000}), {}}}, 1, 4000);
+  LayerInput input = sample::layer({sample::rectangle({0, 0}, {40000, 40000})}, 1, 4000);
   auto& object = input.objects[0];
-  const Regions area{{from_side_to_side ? sample::rectangle({0, 13000}, {40000, 27000})
-                                        : sample::rectangle({10000, 13000}, {30000, 27000}),
-                      {}}};
+  const Regions area{from_side_to_side ? sample::rectangle({0, 13000}, {40000, 27000})
+                                       : sample::rectangle({10000, 13000}, {30000, 27000})};
   object.*what = area;
-  object.sparse = geometry::subtract({{sample::rectangle({1200, 1200}, {38800, 38800}), {}}}, area);
+  object.sparse = geometry::subtract({sample::rectangle({1200, 1200}, {38800, 38800})}, area);
   return input;
 }
 
@@ -78,7 +77,7 @@ TEST_CASE(
   const Case c =
       GENERATE(Case{Combing::noskin, &ObjectLayer::skin}, Case{Combing::no_outer_surfaces, &ObjectLayer::top},
                Case{Combing::infill, &ObjectLayer::skin});
-  const Ring block = sample::rectangle({10050, 13050}, {29950, 26950});
+  const Ring block = sample::rectangle({10050, 13050}, {29950, 26950}).outer;
   const auto plain = way_past(Combing::all, with_area(c.area));
   CHECK(enters(plain, block));
   CHECK_FALSE(plain.retract);
@@ -132,7 +131,7 @@ TEST_CASE("travel: a combing offset keeps travels that much further in, or lets 
 TEST_CASE("travel: an offset that closes the boundary leaves travels there to retractions", "[travel]") {
   auto settings = combing(Combing::all);
   settings.retraction_combing_offset = -10000;
-  const auto prepared = prepare(settings, sample::layer({{sample::rectangle({0, 0}, {15000, 15000}), {}}}));
+  const auto prepared = prepare(settings, sample::layer({sample::rectangle({0, 0}, {15000, 15000})}));
   CHECK(prepared.comb.empty());
   CHECK(sample::count(plan(settings, {}, {sample::layer(sample::plate())})).retractions >
         sample::count(plan({}, {}, {sample::layer(sample::plate())})).retractions);
@@ -152,9 +151,9 @@ TEST_CASE("travel: a combed way much longer than the straight one gives way to a
 }
 
 TEST_CASE("travel: retracted travels go round other parts when asked, and keep their distance", "[travel]") {
-  const Regions parts{{sample::rectangle({0, 0}, {8000, 8000}), {}},
-                      {sample::rectangle({14000, -10000}, {18000, 6000}), {}},
-                      {sample::rectangle({24000, 0}, {32000, 8000}), {}}};
+  const Regions parts{sample::rectangle({0, 0}, {8000, 8000}),
+                      sample::rectangle({14000, -10000}, {18000, 6000}),
+                      sample::rectangle({24000, 0}, {32000, 8000})};
   TravelSettings settings;
   settings.travel_avoid_other_parts = true;
   settings.travel_avoid_distance = 1000;
@@ -177,9 +176,9 @@ TEST_CASE("travel: retracted travels go round other parts when asked, and keep t
 
 TEST_CASE("travel: ways stay inside a concave reach and out of no-go areas, or it is said where not", "[travel]") {
   LayerInput input = sample::layer(
-      {{sample::rectangle({0, 0}, {8000, 8000}), {}}, {sample::rectangle({30000, 0}, {38000, 8000}), {}}});
-  input.room.no_go = {sample::rectangle({15000, -50000}, {20000, 20000})};
-  input.room.reach = sample::rectangle({-60000, -60000}, {60000, 60000});
+      {sample::rectangle({0, 0}, {8000, 8000}), sample::rectangle({30000, 0}, {38000, 8000})});
+  input.room.no_go = {sample::rectangle({15000, -50000}, {20000, 20000}).outer};
+  input.room.reach = sample::rectangle({-60000, -60000}, {60000, 60000}).outer;
   const Region area{input.room.no_go[0], {}};
   const auto routed = [&] {
     const auto prepared = std::vector{prepare({}, input)};
@@ -195,7 +194,7 @@ TEST_CASE("travel: ways stay inside a concave reach and out of no-go areas, or i
   CHECK(out.departures.outside.count == 0);
   CHECK(notices_of(std::vector{out}).empty());
 
-  input.room.no_go = {sample::rectangle({15000, -70000}, {20000, 70000})};  // from edge to edge of the reach
+  input.room.no_go = {sample::rectangle({15000, -70000}, {20000, 70000}).outer};  // from edge to edge of the reach
   out = routed();
   CHECK(out.departures.outside.count == 1);
   const auto notices = notices_of(std::vector{out});
@@ -208,7 +207,7 @@ TEST_CASE("travel: a lift without room gives way, at most up to the top of the r
   retraction.retraction_hop = 1000;
   retraction.retraction_hop_type = HopType::spiral;
   LayerInput input = sample::layer(sample::plate());
-  input.room = {sample::rectangle({0, 0}, {40000, 30000}), {}, 700};
+  input.room = {sample::rectangle({0, 0}, {40000, 30000}).outer, {}, 700};
   const auto prepared = std::vector{prepare({}, input)};
   const auto out = route({}, retraction, prepared[0], order({}, prepared[0], link({}, prepared)[0]), Point{1000, 1000});
   Um top = 0;

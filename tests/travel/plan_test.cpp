@@ -128,7 +128,7 @@ TEST_CASE("travel: monotonic lines keep their order, or have it turned around as
           "[travel][law]") {
   const Role role = GENERATE(Role::solid_infill, Role::top_skin);
   for (const Um turned : {0, 1}) {
-    auto input = sample::layer({{sample::rectangle({0, 0}, {20000, 20000}), {}}}, 0, 400, 7);
+    auto input = sample::layer({sample::rectangle({0, 0}, {20000, 20000})}, 0, 400, 7);
     for (auto& bead : input.objects[0].beads)
       if (bead.role == Role::infill) bead.role = role;
     if (turned != 0) std::reverse(input.objects[0].beads.begin(), input.objects[0].beads.end());
@@ -143,11 +143,11 @@ TEST_CASE("travel: monotonic lines keep their order, or have it turned around as
 }
 
 TEST_CASE("travel: objects are labelled, their index is the plate's", "[travel]") {
-  LayerInput input = sample::layer({{sample::rectangle({0, 0}, {10000, 10000}), {}}});
-  input.objects.push_back(sample::object({{sample::rectangle({20000, 0}, {30000, 10000}), {}}}));
+  LayerInput input = sample::layer({sample::rectangle({0, 0}, {10000, 10000})});
+  input.objects.push_back(sample::object({sample::rectangle({20000, 0}, {30000, 10000})}));
   input.objects[0].object = 4;
   input.objects[1].object = 9;
-  input.adhesion.push_back(sample::closed_bead(sample::rectangle({-3000, -3000}, {33000, 13000}), Role::skirt, 0, 0));
+  input.adhesion.push_back(sample::closed_bead(sample::rectangle({-3000, -3000}, {33000, 13000}).outer, Role::skirt, 0, 0));
   const auto plans = plan({}, {}, {input});
   std::vector<std::uint32_t> labels;
   bool skirt_first = false;

@@ -19,7 +19,7 @@ double volume_mm3(const std::vector<Junction>& path) {
 
 std::vector<Junction> square(Um side) {
   std::vector<Junction> path;
-  for (const Point p : sample::rectangle({0, 0}, {side, side})) path.push_back({p, 400, 1.F});
+  for (const Point p : sample::rectangle({0, 0}, {side, side}).outer) path.push_back({p, 400, 1.F});
   path.push_back(path.front());
   return path;
 }
@@ -80,7 +80,7 @@ TEST_CASE("travel: staggered seams of inner walls lie aside, on every second wal
   settings.z_seam_type = SeamType::aligned;
   const auto seams = [&] {
     std::vector<Point> starts(3);
-    const auto plans = plan(settings, {}, {sample::layer({{sample::rectangle({0, 0}, {20000, 20000}), {}}})});
+    const auto plans = plan(settings, {}, {sample::layer({sample::rectangle({0, 0}, {20000, 20000})})});
     int wall = 2;  // innermost first
     for (const auto& step : plans[0].steps)
       if (const auto* e = std::get_if<Extrude>(&step); e && is_wall(e->role))

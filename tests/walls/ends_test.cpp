@@ -1,3 +1,4 @@
+#include "band.h"
 #include "geometry/spatial_index.h"
 #include "walls/shapes.h"
 #include "walls/walls.h"
@@ -18,21 +19,6 @@ WallLayer filled(const Regions& regions) {
   return built(regions, settings);
 }
 
-bool covers(const Bead& bead, Point p) {
-  for (std::size_t k = 0; k + (bead.closed ? 0 : 1) < bead.path.size(); ++k) {
-    const Junction &a = bead.path[k], &b = bead.path[(k + 1) % bead.path.size()];
-    const double dx = b.at.x - a.at.x, dy = b.at.y - a.at.y, length = std::hypot(dx, dy),
-                 half = (a.width + b.width) / 4.0;
-    const double px = p.x - a.at.x, py = p.y - a.at.y;
-    const bool joint = (k > 0 || bead.closed) && std::hypot(px, py) <= half;  // it swells round at a turn
-    if (length < 1 ? joint
-                   : joint || (px * dx + py * dy >= 0 && px * dx + py * dy <= length * length &&
-                               std::abs(px * dy - py * dx) <= half * length))
-      return true;
-  }
-  return false;
-}
-
 struct Shares {
   double bare, twice;  ///< covered by no bead, by more than one
 };
@@ -45,7 +31,7 @@ Shares shares(const Region& region, const WallLayer& walls, const Box& box, Um s
     for (Um y = box.min.y + step / 6; y < box.max.y; y += step + 2) {
       if (!index.region_at({x, y})) continue;
       const auto times = std::count_if(walls.beads.begin(), walls.beads.end(), [&](const Bead& b) {
-        return covers(b, {x, y});
+        return covers(b, x, y);
       });
       ++all;
       bare += times == 0;
@@ -259,7 +245,7 @@ TEST_CASE("walls: a rib just as thick as min_feature_size is printed wherever th
   for (int degrees = 0; degrees < 90; degrees += 7) {
     const double a = degrees * std::numbers::pi / 180, c = std::cos(a), s = std::sin(a);
     Ring ring;
-    for (const Point p : rectangle(0, 0, 8_mm, 50))
+    for (const Point p : rectangle(0, 0, 8_mm, 50).outer)
       ring.push_back({rounded(p.x * c - p.y * s), rounded(p.x * s + p.y * c)});
     WallSettings settings;
     settings.min_feature_size = 50;

@@ -159,7 +159,7 @@ TEST_CASE("walls: the mirror image of a part gets the mirror image of its beads"
 
 TEST_CASE("walls: a rib of 0.4 mm is printed alike in every layer", "[walls][law]") {
   WallSettings settings;
-  const SlicedLayer layer = layer_of({{rectangle(0, 0, 20_mm, 0.4_mm), {}}});
+  const SlicedLayer layer = layer_of({rectangle(0, 0, 20_mm, 0.4_mm)});
   const auto first = walls::build(settings, {.layer = layer, .index = 1});
   REQUIRE(first.beads.size() == 1);
   for (std::size_t i = 2; i < 50; ++i) CHECK(walls::build(settings, {.layer = layer, .index = i}).beads == first.beads);
@@ -168,7 +168,7 @@ TEST_CASE("walls: a rib of 0.4 mm is printed alike in every layer", "[walls][law
   for (int i = 0; i < 50; ++i) {
     auto wobble = [&] { return static_cast<Um>(random() % 3) - 1; };
     Ring ring;
-    for (const Point p : rectangle(0, 0, 20_mm, 0.4_mm)) ring.push_back({p.x + wobble(), p.y + wobble()});
+    for (const Point p : rectangle(0, 0, 20_mm, 0.4_mm).outer) ring.push_back({p.x + wobble(), p.y + wobble()});
     const auto walls = walls_of({{ring, {}}});
     REQUIRE(walls.beads.size() == 1);
     for (const Junction& j : walls.beads[0].path) {

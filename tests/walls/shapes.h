@@ -1,5 +1,6 @@
 #pragma once
 #include "core/polygon.h"
+#include "rectangle.h"
 #include "walls/walls.h"
 
 #include <cmath>
@@ -7,10 +8,6 @@
 #include <random>
 
 namespace weft::test {
-
-inline Ring rectangle(Um x, Um y, Um width, Um depth) {
-  return {{x, y}, {x + width, y}, {x + width, y + depth}, {x, y + depth}};
-}
 
 inline Ring circle(Point centre, Um radius, int corners, bool hole = false) {
   Ring ring;

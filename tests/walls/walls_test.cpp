@@ -11,7 +11,7 @@ using namespace weft;
 using namespace weft::test;
 
 TEST_CASE("walls: a strip narrower than one bead gets a single centred bead from end to end", "[walls]") {
-  const auto walls = built({{rectangle(0, 0, 10_mm, 0.4_mm), {}}});
+  const auto walls = built({rectangle(0, 0, 10_mm, 0.4_mm)});
   REQUIRE(walls.beads.size() == 1);
   const Bead& bead = walls.beads[0];
   CHECK_FALSE(bead.closed);
@@ -29,7 +29,7 @@ TEST_CASE("walls: flow compensation plans a thin rib at a stable width with less
   };
   const auto row = GENERATE(Row{50, 200, 0.25}, Row{100, 200, 0.5}, Row{200, 200, 1.0}, Row{400, 400, 1.0});
   CAPTURE(row.rib);
-  const auto walls = built({{rectangle(0, 0, 10_mm, row.rib), {}}}, {}, 0.8_mm);
+  const auto walls = built({rectangle(0, 0, 10_mm, row.rib)}, {}, 0.8_mm);
   REQUIRE(walls.beads.size() == 1);
   for (const Junction& j : walls.beads[0].path) {
     CHECK(j.width == Approx(row.width).margin(2));
@@ -38,7 +38,7 @@ TEST_CASE("walls: flow compensation plans a thin rib at a stable width with less
 }
 
 TEST_CASE("walls: a rib thinner than min_feature_size is left out and named", "[walls]") {
-  const auto walls = built({{rectangle(0, 0, 10_mm, 0.04_mm), {}}});
+  const auto walls = built({rectangle(0, 0, 10_mm, 0.04_mm)});
   CHECK(walls.beads.empty());
   REQUIRE(walls.notices.size() == 1);
   CHECK(walls.notices[0].code == "thin_feature_dropped");
@@ -46,7 +46,7 @@ TEST_CASE("walls: a rib thinner than min_feature_size is left out and named", "[
 
 TEST_CASE("walls: a wide part has wall_line_count closed walls of nominal width and leaves the rest inside",
           "[walls]") {
-  const auto walls = built({{rectangle(0, 0, 20_mm, 20_mm), {}}});
+  const auto walls = built({rectangle(0, 0, 20_mm, 20_mm)});
   REQUIRE(walls.beads.size() == 3);
   for (const Bead& bead : walls.beads) CHECK(bead.closed);
   CHECK(walls.beads[0].inset == 2);
@@ -57,13 +57,13 @@ TEST_CASE("walls: a wide part has wall_line_count closed walls of nominal width 
 TEST_CASE("walls: the order setting decides which wall comes first", "[walls]") {
   WallSettings settings;
   settings.wall_order = WallOrder::outside_in;
-  CHECK(built({{rectangle(0, 0, 20_mm, 20_mm), {}}}, settings).beads[0].inset == 0);
+  CHECK(built({rectangle(0, 0, 20_mm, 20_mm)}, settings).beads[0].inset == 0);
 }
 
 TEST_CASE("walls: alternate_extra_wall adds a wall on odd layers", "[walls]") {
   WallSettings settings;
   settings.alternate_extra_wall = true;
-  CHECK(built({{rectangle(0, 0, 20_mm, 20_mm), {}}}, settings).beads.size() == 4);
+  CHECK(built({rectangle(0, 0, 20_mm, 20_mm)}, settings).beads.size() == 4);
 }
 
 TEST_CASE("walls: xy offsets move outlines and holes", "[walls]") {
@@ -71,14 +71,14 @@ TEST_CASE("walls: xy offsets move outlines and holes", "[walls]") {
   settings.xy_offset = 0.1_mm;
   settings.hole_xy_offset = 0.3_mm;
   const Ring hole = circle({10_mm, 10_mm}, 3_mm, 60, true);
-  const auto walls = built({{rectangle(0, 0, 20_mm, 20_mm), {hole}}}, settings);
+  const auto walls = built({Region{rectangle(0, 0, 20_mm, 20_mm).outer, {hole}}}, settings);
   const double expected = 20.2 * 20.2 - std::numbers::pi * 3.2 * 3.2;
   CHECK(area_mm2(walls.inside) + bead_area_mm2(walls) == Approx(expected).epsilon(0.003));
 }
 
 TEST_CASE("walls: no bead is wider than max_wall_line_width allows", "[walls]") {
   const Um thickness = GENERATE(600, 900, 1200, 1500, 2100, 2700);
-  const auto walls = built({{rectangle(0, 0, 10_mm, thickness), {}}});
+  const auto walls = built({rectangle(0, 0, 10_mm, thickness)});
   for (const Bead& bead : walls.beads)
     for (const Junction& j : bead.path) CHECK(j.width <= 0.9_mm);
 }
@@ -139,7 +139,7 @@ TEST_CASE("walls: where two thin ribs cross, one bead goes through and nothing c
 
 TEST_CASE("walls: over air a bead keeps the nozzle's own strand", "[walls]") {
   const Regions strip{{{{0, 0}, {20_mm, 0}, {20_mm, 1.3_mm}, {0, 1_mm}}, {}}};
-  const Regions air{{rectangle(5_mm, -1_mm, 10_mm, 4_mm), {}}};
+  const Regions air{rectangle(5_mm, -1_mm, 15_mm, 3_mm)};
   WallSettings settings;
   settings.wall_line_width_0 = 0.45_mm;
   settings.wall_line_width_x = 0.45_mm;
@@ -159,8 +159,8 @@ TEST_CASE("walls: over air a bead keeps the nozzle's own strand", "[walls]") {
 TEST_CASE("walls: a speck is left out without a word, a small part with its size", "[walls]") {
   WallSettings settings;
   settings.min_feature_size = 0.3_mm;
-  CHECK(built({{rectangle(0, 0, 0.05_mm, 0.05_mm), {}}}, settings).notices.empty());
-  const auto walls = built({{rectangle(0, 0, 0.25_mm, 0.2_mm), {}}}, settings);
+  CHECK(built({rectangle(0, 0, 0.05_mm, 0.05_mm)}, settings).notices.empty());
+  const auto walls = built({rectangle(0, 0, 0.25_mm, 0.2_mm)}, settings);
   CHECK(walls.beads.empty());
   REQUIRE(walls.notices.size() == 1);
   CHECK(walls.notices[0].message.find("0.250 x 0.200 mm") != std::string::npos);
@@ -170,7 +170,7 @@ TEST_CASE("walls: with every nozzle a thin rib gets the plastic of its own thick
   const Um nozzle = GENERATE(0.25_mm, 0.4_mm, 0.8_mm);
   const Um rib = GENERATE(50, 100, 200, 300);
   CAPTURE(nozzle, rib);
-  const auto walls = built({{rectangle(0, 0, 10_mm, rib), {}}}, {}, nozzle);
+  const auto walls = built({rectangle(0, 0, 10_mm, rib)}, {}, nozzle);
   REQUIRE(walls.beads.size() == 1);
   CHECK(bead_area_mm2(walls) == Approx(10 * to_mm(rib)).epsilon(0.01));
   for (const Junction& j : walls.beads[0].path) {
