@@ -1,5 +1,6 @@
 #include "mesh/face.h"
 #include "mesh/fixtures.h"
+#include "mesh/formats.h"
 #include "tasks/tasks.h"
 
 #include <numeric>
@@ -101,7 +102,7 @@ TEST_CASE("mesh: an OBJ may list its faces before its vertices", "[mesh][obj]") 
   CHECK(volume_mm3(read("o x\n" + faces + corners).objects[0].mesh) == Approx(8000));
 }
 
-TEST_CASE("mesh: a long OBJ is so many times the short one, on any number of threads, however its faces name vertices",
+TEST_CASE("mesh: a long OBJ is so many times the short one, in any pieces and threads, however its faces name vertices",
           "[mesh][obj][law]") {
   const auto order = GENERATE(Order::mixed, Order::vertices_first, Order::faces_first);
   const auto numbers = GENERATE(Numbers::from_one, Numbers::backward, Numbers::both);
@@ -109,36 +110,43 @@ TEST_CASE("mesh: a long OBJ is so many times the short one, on any number of thr
   const auto [gap, eol] = GENERATE(table<std::string, std::string>({{" ", "\n"}, {" ", " \r\n"}, {" \\\n \n ", "\r"}}));
   if (order == Order::faces_first && gap != " ") return;  // an OBJ is told by the first words of its lines
   const Row row{order, numbers, gap, eol};
-  const Mesh one = read(row.text(1)).objects[0].mesh;
+  const std::string path = "part";
+  const auto body = [&](std::string_view text, std::size_t piece_bytes) {
+    return read_obj({text, path}, piece_bytes).bodies.front();
+  };
+  const std::string single = row.text(1);
+  const Mesh one = body(single, single.size()).mesh;
   REQUIRE(one.vertices.size() == 12);
   REQUIRE(one.triangles.size() == 20);
-  constexpr std::uint32_t count = 7'000;
+  constexpr std::uint32_t count = 200;
   Mesh expected;
   for (std::uint32_t i = 0; i < count; ++i) {
     for (Point3 p : one.vertices) p.x += static_cast<Um>(10 * i), expected.vertices.push_back(p);
     for (const auto& [a, b, c] : one.triangles) expected.triangles.push_back({a + 12 * i, b + 12 * i, c + 12 * i});
   }
   const std::string text = row.text(count);
-  REQUIRE(text.size() > 3 << 19);
   for (const unsigned threads : {1U, 2U, 8U}) {
     const tasks::ThreadLimit limit(threads);
-    const Loaded loaded = read(text);
-    CHECK(loaded.objects[0].name == "a row");
-    CHECK((loaded.objects[0].mesh == expected));
+    for (const std::size_t piece_bytes : {std::size_t{1}, std::size_t{700}, std::size_t{40'000}, text.size()}) {
+      const Body many = body(text, piece_bytes);
+      CHECK(many.name == "a row");
+      CHECK((many.mesh == expected));
+    }
   }
 }
 
 TEST_CASE("mesh: what is wrong far into an OBJ is told with its face or vertex and its line", "[mesh][obj]") {
-  const std::string text = Row{Order::mixed, Numbers::both, " ", "\n"}.text(7'000);
+  const std::string text = Row{Order::mixed, Numbers::both, " ", "\n"}.text(2'500);
+  REQUIRE(text.size() > 1 << 20);  // more than one piece
   const auto at_end = [&](std::string_view old, std::string_view put) {
     std::string copy = text;
     return copy.replace(copy.rfind(old), old.size(), put);
   };
-  CHECK_THAT(refusal(at_end("\nv ", "\nv x")), Contains("part:139993: vertex 84000: x is 'x69990.0e-3', not a number"));
-  CHECK_THAT(refusal(text + "f 1 2 84001\n"), Contains("part:140002: face 56001: vertex 84001 of 84000"));
-  CHECK_THAT(refusal(text + "f 1 2 -84001\n"), Contains("part:140002: face 56001: vertex -84001 of 84000"));
-  CHECK_THAT(refusal(text + "f 1 2\n"), Contains("part:140002: face 56001 has 2 corners"));
-  CHECK_THAT(refusal("f 1 2 99999\n" + text), Contains("part:1: face 1: vertex 99999 of 84000"));
+  CHECK_THAT(refusal(at_end("\nv ", "\nv x")), Contains("part:49993: vertex 30000: x is 'x24990.0e-3', not a number"));
+  CHECK_THAT(refusal(text + "f 1 2 30001\n"), Contains("part:50002: face 20001: vertex 30001 of 30000"));
+  CHECK_THAT(refusal(text + "f 1 2 -30001\n"), Contains("part:50002: face 20001: vertex -30001 of 30000"));
+  CHECK_THAT(refusal(text + "f 1 2\n"), Contains("part:50002: face 20001 has 2 corners"));
+  CHECK_THAT(refusal("f 1 2 99999\n" + text), Contains("part:1: face 1: vertex 99999 of 30000"));
   CHECK_THAT(refusal("f 1 2 -1\n" + text), Contains("part:1: face 1: vertex -1 of 0"));
 }
 
