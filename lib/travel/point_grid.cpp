@@ -1,5 +1,7 @@
 #include "travel/point_grid.h"
 
+#include "core/stop.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -111,8 +113,11 @@ std::vector<std::uint32_t> nearest_neighbours(std::span<const Point> points, int
   const auto width = static_cast<std::size_t>(count);
   std::vector<std::uint32_t> lists(points.size() * width);
   const PointGrid grid(points);
-  for (std::uint32_t i = 0; i < points.size(); ++i)
+  StopNowAndThen stop(64);
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    stop.step();
     grid.nearest_few(points[i], i, std::span(lists).subspan(i * width, width));
+  }
   return lists;
 }
 

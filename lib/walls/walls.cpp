@@ -152,10 +152,9 @@ Part build_part(const WallSettings& settings, const Widths& widths, const Region
   auto pairs = trace_pairs(skeleton, laying), middles = trace_middles(skeleton, laying);
   fit_ends(middles, pairs);
   std::vector<Line> finished;
-  StopNowAndThen stop(64);
   for (auto* lines : {&pairs, &middles})
     for (Line& line : *lines) {
-      stop.step();
+      stop_if_asked();
       finish(std::move(line), finishing, finished, out.dropped_mm);
     }
   out.inside = rest_of(skeleton, laying, axis.origin);
