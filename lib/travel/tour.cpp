@@ -4,6 +4,7 @@
 #include "travel/point_grid.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <limits>
 
 namespace weft::travel {
@@ -60,7 +61,8 @@ class Search {
     edge_.resize(stops.size() + 1);
     position_.resize(stops.size());
     look_.assign(stops.size(), 1);
-    settled(0, n_);
+    for (int i = 0; i <= n_; ++i) edge_[at(i)] = hop(i - 1, i);
+    settled(0, n_, {});
     for (const auto& s : stops) any_fixed_ = any_fixed_ || !s.reversible;
     const auto points = endpoints(stops);
     neighbours_ = nearest_neighbours(points, neighbour_count);
@@ -122,8 +124,7 @@ class Search {
       std::sort(std::begin(cut), std::end(cut));
       if (cut[0] == cut[1] || cut[1] == cut[2]) continue;
       changed_from_ = n_, changed_to_ = 0;
-      std::rotate(places_.begin() + cut[0], places_.begin() + cut[1], places_.begin() + cut[2]);
-      settled(cut[0], cut[2]);
+      exchange(cut[0], cut[1], cut[2]);
       for (const int c :
            {cut[0] - 1, cut[0], cut[0] + cut[2] - cut[1] - 1, cut[0] + cut[2] - cut[1], cut[2] - 1, cut[2]})
         if (c >= 0 && c < n_) queue_.push_back(places_[at(c)].stop);
@@ -186,15 +187,24 @@ class Search {
     if (i >= 0 && i < n_) touched_.push_back(places_[at(i)].stop);
   }
 
-  /// To be called when the places first … last − 1 are not what they were.
-  void settled(int first, int last) {
-    for (int i = first; i < last; ++i) position_[places_[at(i)].stop] = i, edge_[at(i)] = hop(i - 1, i);
-    edge_[at(last)] = hop(last - 1, last);
+  /// To be called when the places first … last − 1 are not what they were, with the edges that are new: others moved.
+  void settled(int first, int last, std::initializer_list<int> new_edges) {
+    for (int i = first; i < last; ++i) position_[places_[at(i)].stop] = i;
+    for (const int k : new_edges) edge_[at(k)] = hop(k - 1, k);
     changed_from_ = std::min(changed_from_, first), changed_to_ = std::max(changed_to_, last);
   }
 
+  /// Exchanges the places [low, middle) with [middle, high), and the edges between them.
+  void exchange(int low, int middle, int high) {
+    std::rotate(places_.begin() + low, places_.begin() + middle, places_.begin() + high);
+    std::rotate(edge_.begin() + low, edge_.begin() + middle, edge_.begin() + high);
+    settled(low, high, {low, low + high - middle, high});
+  }
+
+  /// Turns places around, and the edges between them.
   void reverse(int first, int last) {
     std::reverse(places_.begin() + first, places_.begin() + last + 1);
+    std::reverse(edge_.begin() + first + 1, edge_.begin() + last + 1);
     for (int i = first; i <= last; ++i) {
       Place& place = places_[at(i)];
       place.reversed = !place.reversed;
@@ -228,7 +238,7 @@ class Search {
   }
   void turn(int first, int last) {
     reverse(first, last);
-    settled(first, last + 1);
+    settled(first, last + 1, {first, last + 1});
     touch(first - 1), touch(first), touch(last), touch(last + 1);
   }
 
@@ -267,9 +277,7 @@ class Search {
     touch(first - 1), touch(first), touch(last), touch(last + 1), touch(gap - 1), touch(gap);
     if (turned) reverse(first, last);
     const int low = std::min(first, gap), high = std::max(last + 1, gap);
-    const int middle = gap < first ? first : last + 1;
-    std::rotate(places_.begin() + low, places_.begin() + middle, places_.begin() + high);
-    settled(low, high);
+    exchange(low, gap < first ? first : last + 1, high);
   }
 
   bool improve(std::uint32_t stop) {

@@ -21,21 +21,26 @@ class Chords {
  public:
   Chords(const Vertex& from, double off) : from_(from), off_(off) {}
 
+  /// A vertex as it is seen from theirs.
+  struct Seen {
+    double x, y, wider, length;
+  };
+  Seen seen(const Vertex& v) const {
+    const double x = v.at.x - from_.at.x, y = v.at.y - from_.at.y;
+    return {x, y, v.width - from_.width, std::sqrt(x * x + y * y)};
+  }
   /// Whether one of them leads to a vertex.
-  bool reach(const Vertex& v) const {
-    const double x = v.at.x - from_.at.x, y = v.at.y - from_.at.y, length2 = x * x + y * y;
-    if (length2 < furthest2_ || length2 < 1e-6) return false;
-    if (bounded_ && (cross(low_, {x, y}) < 0 || cross({x, y}, high_) < 0)) return false;
-    const double length = std::sqrt(length2), wider = v.width - from_.width;
-    return wider >= least_ * length && wider <= most_ * length;
+  bool reach(const Seen& v) const {
+    if (v.length < furthest_ || v.length < 1e-3) return false;
+    if (bounded_ && (cross(low_, {v.x, v.y}) < 0 || cross({v.x, v.y}, high_) < 0)) return false;
+    return v.wider >= least_ * v.length && v.wider <= most_ * v.length;
   }
   /// From now on they stand for this vertex, too.
-  void pass(const Vertex& v) {
-    const double x = v.at.x - from_.at.x, y = v.at.y - from_.at.y, length2 = x * x + y * y;
-    furthest2_ = std::max(furthest2_, length2);
-    const double length = std::max(1e-3, std::sqrt(length2)), per_length = 1 / length, wider = v.width - from_.width;
-    least_ = std::max(least_, (wider - even_um) * per_length);
-    most_ = std::min(most_, (wider + even_um) * per_length);
+  void pass(const Seen& v) {
+    furthest_ = std::max(furthest_, v.length);
+    const double x = v.x, y = v.y, length = std::max(1e-3, v.length), per_length = 1 / length;
+    least_ = std::max(least_, (v.wider - even_um) * per_length);
+    most_ = std::min(most_, (v.wider + even_um) * per_length);
     if (length <= off_) return;
     const double sine = off_ * per_length, cosine = std::sqrt(1 - sine * sine);
     const Place low{x * cosine + y * sine, y * cosine - x * sine}, high{x * cosine - y * sine, y * cosine + x * sine};
@@ -46,7 +51,7 @@ class Chords {
 
  private:
   const Vertex& from_;
-  double off_, furthest2_ = 0, least_ = -1e18, most_ = 1e18;
+  double off_, furthest_ = 0, least_ = -1e18, most_ = 1e18;
   Place low_{}, high_{};
   bool bounded_ = false;
 };
@@ -60,9 +65,11 @@ void thin_out(std::vector<Vertex>& path, double off) {
     const Vertex start = path[from];
     Chords chords(start, off);
     std::size_t to = from + 1;
-    for (; to + 1 < path.size(); ++to) {
-      chords.pass(path[to]);
-      if (!chords.reach(path[to + 1])) break;
+    for (auto last = chords.seen(path[to]); to + 1 < path.size(); ++to) {
+      const auto next = chords.seen(path[to + 1]);
+      chords.pass(last);
+      if (!chords.reach(next)) break;
+      last = next;
     }
     path[++kept] = path[to];
     from = to;
