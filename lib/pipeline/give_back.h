@@ -16,6 +16,6 @@ inline void give_back_memory() {
 }
 
 /// How many layers are worth it, where layers take and free memory one by one.
-inline constexpr std::size_t layers_between_giving_back = 16;
+inline constexpr std::size_t layers_between_giving_back = 8;
 
 }  // namespace weft::pipeline

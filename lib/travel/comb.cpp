@@ -93,7 +93,8 @@ void Comb::add_ring(const Ring& ring, bool is_hole, std::uint32_t part) {
     points_.resize(begin), along_.resize(begin);
     return;
   }
-  ring_of_.resize(end, static_cast<std::uint32_t>(rings_.size()));
+  points_.push_back(points_[begin]), along_.push_back(length);  // so that both ends of an edge lie side by side
+  ring_of_.resize(points_.size(), static_cast<std::uint32_t>(rings_.size()));
   rings_.push_back({begin, end, part, length, is_hole});
 }
 
@@ -102,13 +103,14 @@ void Comb::build_index() {
   moved_.resize(points_.size());
   for (const auto& ring : rings_) {
     Direction comes = direction(points_[ring.end - 1], points_[ring.begin]);
-    for (std::uint32_t i = ring.begin, before = ring.end - 1; i < ring.end; before = i++) {
-      const Direction goes = direction(points_[i], points_[next(i)]);
-      moved_[i].from = moved_[before].to = moved_right(comes, points_[i], goes, slack_um);
-      box_.add(moved_[i].from);
+    for (std::uint32_t i = ring.begin; i < ring.end; ++i) {
+      const Direction goes = direction(points_[i], points_[i + 1]);
+      moved_[i] = moved_right(comes, points_[i], goes, slack_um);
       comes = goes;
     }
+    moved_[ring.end] = moved_[ring.begin];
   }
+  box_ = box_of(moved_);
   const double w = box_.size().x + 1.0, h = box_.size().y + 1.0;
   cell_ = std::max<std::int64_t>(500,
                                  static_cast<std::int64_t>(std::sqrt(w * h / static_cast<double>(points_.size()))) + 1);
@@ -117,7 +119,7 @@ void Comb::build_index() {
   const std::size_t cells = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
   std::vector<std::uint32_t> count(cells + 1, 0);
   const auto each_cell = [&](std::uint32_t e, const auto& visit) {
-    const auto [a, b] = moved_[e];
+    const Point a = moved_[e], b = moved_[e + 1];
     const auto row = [&](std::int64_t y) { return static_cast<int>((y - box_.min.y) / cell_); };
     const auto column = [&](std::int64_t x) { return static_cast<int>((x - box_.min.x) / cell_); };
     const Point low = a.y <= b.y ? a : b, high = a.y <= b.y ? b : a;
@@ -137,12 +139,15 @@ void Comb::build_index() {
         visit(static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(c));
     }
   };
-  const auto n = static_cast<std::uint32_t>(points_.size());
-  for (std::uint32_t e = 0; e < n; ++e) each_cell(e, [&](std::size_t c) { ++count[c + 1]; });
+  const auto each_edge = [&](const auto& visit) {
+    for (const auto& ring : rings_)
+      for (std::uint32_t e = ring.begin; e < ring.end; ++e) visit(e);
+  };
+  each_edge([&](std::uint32_t e) { each_cell(e, [&](std::size_t c) { ++count[c + 1]; }); });
   for (std::size_t c = 0; c < cells; ++c) count[c + 1] += count[c];
   first_ = count;
   edges_.resize(count[cells]);
-  for (std::uint32_t e = 0; e < n; ++e) each_cell(e, [&](std::size_t c) { edges_[count[c]++] = e; });
+  each_edge([&](std::uint32_t e) { each_cell(e, [&](std::size_t c) { edges_[count[c]++] = e; }); });
 }
 
 /// Calls visit(edge) for edges near the segment, some twice, until it returns true; returns whether it did.
@@ -179,18 +184,18 @@ bool Comb::visit_edges(Point a, Point b, const Visit& visit) const {
 bool Comb::sees(Point a, Point b, IgnoredRings ignored) const {
   if (a == b) return true;
   return !visit_edges(
-      a, b, [&](std::uint32_t e) { return cross(a, b, moved_[e].from, moved_[e].to) && !ignored.has(ring_of_[e]); });
+      a, b, [&](std::uint32_t e) { return cross(a, b, moved_[e], moved_[e + 1]) && !ignored.has(ring_of_[e]); });
 }
 
 std::uint32_t Comb::part_of(Point p) const {
   const std::uint32_t edge = edge_beside(p);
-  if (edge == outside || moved_[edge].to.y < moved_[edge].from.y) return outside;  // the inside is left of a rising edge
+  if (edge == outside || moved_[edge + 1].y < moved_[edge].y) return outside;  // the inside is left of a rising edge
   return rings_[ring_of_[edge]].part;
 }
 
 std::uint32_t Comb::hole_around(Point p) const {
   const std::uint32_t edge = edge_beside(p);
-  if (edge == outside || moved_[edge].to.y > moved_[edge].from.y || !rings_[ring_of_[edge]].hole) return outside;
+  if (edge == outside || moved_[edge + 1].y > moved_[edge].y || !rings_[ring_of_[edge]].hole) return outside;
   return ring_of_[edge];
 }
 
@@ -208,7 +213,7 @@ std::uint32_t Comb::edge_beside(Point p) const {
     const std::size_t cell =
         static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(c);
     for (std::uint32_t k = first_[cell]; k < first_[cell + 1]; ++k) {
-      const auto [a, b] = moved_[edges_[k]];
+      const Point a = moved_[edges_[k]], b = moved_[edges_[k] + 1];
       if ((a.y > p.y) == (b.y > p.y)) continue;
       const double x = a.x + (y - a.y) * (static_cast<double>(b.x) - a.x) / (static_cast<double>(b.y) - a.y);
       if (x >= p.x && (x < nearest || (x == nearest && edges_[k] < edge))) nearest = x, edge = edges_[k];
@@ -221,7 +226,7 @@ std::optional<Point> Comb::nearest_on_boundary(Point p, Um within) const {
   double best2 = static_cast<double>(within) * within;
   std::optional<Point> best;
   const auto nearest_on = [&](std::uint32_t e) {
-    const Point a = points_[e], b = points_[next(e)];
+    const Point a = points_[e], b = points_[e + 1];
     const double ux = static_cast<double>(b.x) - a.x, uy = static_cast<double>(b.y) - a.y;
     const double px = static_cast<double>(p.x) - a.x, py = static_cast<double>(p.y) - a.y;
     const double t = std::clamp((px * ux + py * uy) / (ux * ux + uy * uy), 0.0, 1.0);
@@ -239,7 +244,7 @@ std::optional<Point> Comb::nearest_on_boundary(Point p, Um within) const {
 void Comb::hits(Point p, Point q, IgnoredRings ignored, std::vector<Hit>& out) const {
   out.clear();
   visit_edges(p, q, [&](std::uint32_t e) {
-    const auto [a, b] = moved_[e];
+    const Point a = moved_[e], b = moved_[e + 1];
     if (!ignored.has(ring_of_[e]) && cross(p, q, a, b)) {
       const auto from = static_cast<double>(orient(a, b, p)), to = static_cast<double>(orient(a, b, q));
       out.push_back({from / (from - to), e});
@@ -284,7 +289,7 @@ Polyline Comb::along_rings(Point p, Point q, const std::vector<Hit>& found) cons
     for (std::size_t k = i + 1; k < found.size(); ++k)
       if (ring_of_[found[k].edge] == ring) last = k;
     const auto on_boundary = [&](const Hit& h) {
-      const Point at = lerp(p, q, h.t), a = points_[h.edge], b = points_[next(h.edge)];
+      const Point at = lerp(p, q, h.t), a = points_[h.edge], b = points_[h.edge + 1];
       const double ux = static_cast<double>(b.x) - a.x, uy = static_cast<double>(b.y) - a.y;
       const double t =
           ((static_cast<double>(at.x) - a.x) * ux + (static_cast<double>(at.y) - a.y) * uy) / (ux * ux + uy * uy);

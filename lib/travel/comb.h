@@ -50,9 +50,6 @@ class Comb {
   std::optional<Polyline> way(Point p, Point q, IgnoredRings ignored = {}) const;
 
  private:
-  struct Edge {  // both ends: what looks at edges need not ask where their rings begin
-    Point from, to;
-  };
   struct Hit {
     double t;
     std::uint32_t edge;
@@ -68,17 +65,17 @@ class Comb {
   bool pull_taut(Polyline& way, IgnoredRings ignored) const;
 
   struct RingSpan {
-    std::uint32_t begin = 0, end = 0, part = 0;
+    std::uint32_t begin = 0, end = 0, part = 0;  // point `end` is the first once more
     double length = 0;
     bool hole = false;
   };
   std::uint32_t next(std::uint32_t edge) const {
-    const bool last = edge + 1 == ring_of_.size() || ring_of_[edge + 1] != ring_of_[edge];
-    return last ? rings_[ring_of_[edge]].begin : edge + 1;
+    const auto& ring = rings_[ring_of_[edge]];
+    return edge + 1 == ring.end ? ring.begin : edge + 1;
   }
 
-  std::vector<Point> points_;  ///< of all rings; edge i leads from point i to point next(i), the inside on its left
-  std::vector<Edge> moved_;    ///< the edges, `slack_um` outwards
+  std::vector<Point> points_;  ///< of all rings; edge i leads from point i to point i + 1, the inside on its left
+  std::vector<Point> moved_;   ///< the same, `slack_um` outwards
   std::vector<double> along_;  ///< length of the ring before point i
   std::vector<std::uint32_t> ring_of_;
   std::vector<RingSpan> rings_;
