@@ -56,13 +56,14 @@ TEST_CASE("walls: a wide part has wall_line_count closed walls of nominal width 
 
 TEST_CASE("walls: among many parts each gets the walls that it has alone", "[walls]") {
   // Alike, nearly alike, turned, with a hole, and again: in any order no part gets another's walls.
+  const auto pin = [](Point at, Um width, Um depth) { return rectangle(at, at + Point{width, depth}); };
   Regions parts;
   for (Um i = 0; i < 12; ++i) {
     const Um x = 5_mm * i, size = i % 3 == 0 ? 500 : 2500;
-    parts.push_back(rectangle(x, 0, size, size));
-    parts.push_back(rectangle(x, 5_mm, size + i % 2, size));
-    parts.push_back(rectangle(x, 10_mm, 700, size));
-    Region ring = rectangle(x, 15_mm, 4_mm, 4_mm);
+    parts.push_back(pin({x, 0}, size, size));
+    parts.push_back(pin({x, 5_mm}, size + i % 2, size));
+    parts.push_back(pin({x, 10_mm}, 700, size));
+    Region ring = pin({x, 15_mm}, 4_mm, 4_mm);
     if (i % 2 == 0) ring.holes.push_back(Ring{{x + 1000, 16_mm}, {x + 1000, 17_mm}, {x + 2000, 17_mm}, {x + 2000, 16_mm}});
     parts.push_back(ring);
   }
