@@ -15,7 +15,8 @@ using Path = std::vector<Vertex>;
 
 constexpr double noticed_um = 8;  // a band may reach over the outline by so much
 constexpr double outside_um = 4;  // … and is made to by no more: the lattice and the part's volume want their share
-constexpr double least_piece_um = 20;  // no shorter pieces are cut
+constexpr double outside_thin_um = 3.5;  // … where all beads are single: a corner gets one sooner than all grow so far
+constexpr double least_piece_um = 20;    // no shorter pieces are cut
 constexpr double least_piece = 0.06;  // … nor than so much of the width: on the lattice their directions would jitter
 constexpr double long_piece = 8;      // times the least: longer ones are cut whatever that brings
 constexpr double worth_um = 4;        // … others if it makes them so much wider, together
@@ -50,6 +51,7 @@ class Keeper {
 
   /// `thin`: all lines are single beads.
   void run(bool thin) {
+    if (thin) outside_ = outside_thin_um;
     bool any = false;
     for (Line& line : lines_) {
       if (!(thin || is_arm(line)) || fits(line.path)) continue;

@@ -69,8 +69,9 @@ std::vector<Pocket> pockets_of(const Region& region, Point origin, const std::ve
                                          rounded(sliver_um / 2 * lattice.scale()), geometry::Corner::miter);
   std::vector<Pocket> out;
   for (const Region& pocket : left)
-    out.push_back({lattice.places(pocket.outer),
-                   static_cast<double>(double_area(pocket.outer)) / 2 / (lattice.scale() * lattice.scale())});
+    if (pocket.holes.empty())
+      out.push_back({lattice.places(pocket.outer),
+                     static_cast<double>(double_area(pocket.outer)) / 2 / (lattice.scale() * lattice.scale())});
   std::stable_sort(out.begin(), out.end(), [](const Pocket& a, const Pocket& b) { return a.area > b.area; });
   return out;
 }

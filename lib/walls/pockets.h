@@ -8,11 +8,12 @@
 namespace weft::walls {
 
 struct Pocket {
-  std::vector<Place> ring;  ///< what lies within holes of it counts as part of it
-  double area = 0;          ///< µm²
+  std::vector<Place> ring;
+  double area = 0;  ///< µm²
 };
 
-/// Largest first; slivers thinner than 2 µm are none. Pre: open lines, whose places count from `origin`, µm.
+/// Largest first; slivers thinner than 2 µm are none, nor is what surrounds a line. Pre: open lines, whose places count
+/// from `origin`, µm.
 std::vector<Pocket> pockets_of(const Region& region, Point origin, const std::vector<Line>& lines);
 
 }  // namespace weft::walls

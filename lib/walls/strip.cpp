@@ -261,8 +261,8 @@ void Strip::lean() {
     const Place way = unit(before, end);
     return ((a.x + b.x - 2 * end.x) * way.x + (a.y + b.y - 2 * end.y) * way.y) / 4;
   };
-  first_leans_ = first_tip.empty() && skip_first == 0;
-  last_leans_ = last_tip.empty() && skip_last == 0;
+  first_leans_ = first_tip.empty() && !first_pointed && skip_first == 0;
+  last_leans_ = last_tip.empty() && !last_pointed && skip_last == 0;
   if (first_leans_) skip_first = -beyond(axis_.front(), axis_[1], right_.front().at, left_.front().at);
   if (last_leans_) skip_last = -beyond(axis_.back(), axis_[axis_.size() - 2], right_.back().at, left_.back().at);
 }
@@ -332,8 +332,9 @@ std::vector<Vertex> Strip::bead() {
     const double free = free_at(s);
     std::size_t edge = 0;
     const Place way = direction(s, std::max(0.5 * free, 10.0));
-    const Chord chord = across(at(s, edge), way, s, free);
-    add(path, chord, at(s, edge), way, free);
+    const Place p = at(s, edge);
+    const bool point = (first_pointed && s <= 0) || (last_pointed && s >= whole);
+    add(path, point ? Chord{p, p, true} : across(p, way, s, free), p, way, free);
   }
   if (closed && path.size() > 1) {
     path.front().width = (path.front().width + path.back().width) / 2;

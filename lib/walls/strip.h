@@ -18,7 +18,8 @@ class Strip {
   void add_left(Place at) { left_.push_back({at, tag()}); }
   /// Outline beyond the first (last) point of the axis, from left to right (right to left).
   std::vector<Place> first_tip, last_tip;
-  double skip_first = 0, skip_last = 0;  ///< the bead begins (ends) so far inside the axis' ends, µm
+  bool first_pointed = false, last_pointed = false;  ///< the sides meet there
+  double skip_first = 0, skip_last = 0;              ///< the bead begins (ends) so far inside the axis' ends, µm
   /// What is skipped is not the strip's own: a wall turns back there.
   bool turn_first = false, turn_last = false;
   bool closed = false;   ///< the axis ends where it begins

@@ -10,6 +10,7 @@ namespace weft::walls {
 namespace {
 
 using Vertex = Line::Vertex;
+constexpr double pointed_um = 5;          // of half its width: so narrow an end is none
 constexpr double within_um = 2;           // a chord so far within a strip meets both its sides
 constexpr double least_within_um = 0.45;  // … where its end is square, too: less than half of what the lattice tells
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
@@ -103,15 +104,17 @@ class Tracer {
     }
     fill(strip, chain);
     if (!closed) {
-      strip.last_tip = tip_of(chain.back(), level(chain.back(), false));
-      const std::uint32_t first = Skeleton::twin(chain.front());
-      strip.first_tip = tip_of(first, level(first, false));
+      const std::uint32_t last = chain.back(), first = Skeleton::twin(chain.front());
+      strip.last_pointed = pointed(last);
+      strip.first_pointed = pointed(first);
+      if (!strip.last_pointed) strip.last_tip = tip_of(last, level(last, false));
+      if (!strip.first_pointed) strip.first_tip = tip_of(first, level(first, false));
     }
     Line line;
     line.closed = closed;
     line.inset = inset;
-    line.first_meets = strip.first_tip.empty();
-    line.last_meets = strip.last_tip.empty();
+    line.first_meets = !strip.first_pointed && strip.first_tip.empty();
+    line.last_meets = !strip.last_pointed && strip.last_tip.empty();
     line.path = strip.bead();
     if (line.path.size() >= 2) out_.push_back(std::move(line));
   }
@@ -213,11 +216,13 @@ class Tracer {
     return none;
   }
 
+  /// Whether the sides of a middle meet at the end of a half.
+  bool pointed(std::uint32_t h) const { return s_.end(h).clearance - level(h, false) < pointed_um; }
+
   /// What lies beyond the end of a middle that ends because the part ends: the outline of it, at the distance of the
   /// walls around the middle.
   std::vector<Place> tip_of(std::uint32_t h, double inner) const {
     std::vector<Place> ring;
-    if (s_.end(h).clearance - inner < 5) return {};
     for (std::uint32_t g = s_.halves[h].next; g != Skeleton::twin(h); g = s_.halves[g].next) {
       if (leaves_strip(g)) return {};
       add_piece(g, inner, ring);

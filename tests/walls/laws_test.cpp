@@ -106,8 +106,8 @@ TEST_CASE("walls: on 1,000 random polygons beads and inside together have the ar
   CHECK(mean / count < 0.0025);
 }
 
-TEST_CASE("walls: beads stay within 0.01 mm of the part, but in 4 of 1,000", "[walls][law]") {
-  // Measured over 1,000 of these: 4 have one that reaches further, two closed walls by 13 and 15 µm, two single beads
+TEST_CASE("walls: beads stay within 0.01 mm of the part, but in 3 of 1,000", "[walls][law]") {
+  // Measured over 1,000 of these: 3 have one that reaches further, two closed walls by 13 and 15 µm, a single bead
   // between walls by 11 µm. Of the 78 that have none but single beads, none.
   std::mt19937 random(20'240'601);
   int thin = 0, astray = 0;
@@ -127,7 +127,7 @@ TEST_CASE("walls: beads stay within 0.01 mm of the part, but in 4 of 1,000", "[w
   }
   CAPTURE(astray, thin);
   CHECK(thin > 50);
-  CHECK(astray <= 4);
+  CHECK(astray <= 3);
 }
 
 TEST_CASE("walls: no bead of a random polygon is wider than max_wall_line_width", "[walls][law]") {
@@ -140,21 +140,25 @@ TEST_CASE("walls: no bead of a random polygon is wider than max_wall_line_width"
 }
 
 TEST_CASE("walls: the mirror image of a part gets the mirror image of its beads", "[walls][law]") {
-  // Measured over 1,000 of these: one differs by more than 5 µm, by a short bead in a corner that is cut differently.
+  // Over eight seeds, 8,000 polygons, 5 differ by more, by 6 to 306 µm: by which of two ways a choice falls that is as
+  // good as even, such as which pocket of a small part gets a bead.
   std::mt19937 random(20'240'601);
-  int count = 0, off = 0;
   for (int i = 0; i < 1000; ++i) {
     const Regions regions = geometry::regions_from_rings(std::vector<Ring>{random_ring(random)});
     const auto here = walls_of(regions);
     auto there = walls_of(mirrored(regions));
-    double most = 0;
     for (Bead& bead : there.beads)
-      for (Junction& j : bead.path) most = std::max(most, distance_to(here.beads, {-j.at.x, j.at.y}));
-    ++count;
-    off += most > 5 ? 1 : 0;
+      for (Junction& j : bead.path) j.at.x = -j.at.x;
+    double most = 0;
+    const auto compare = [&](const Beads& some, const Beads& others) {
+      for (const Bead& bead : some)
+        for (const Junction& j : bead.path) most = std::max(most, distance_to(others, j.at));
+    };
+    compare(here.beads, there.beads);
+    compare(there.beads, here.beads);
+    CAPTURE(i, most);
+    CHECK(most <= 5);
   }
-  INFO(off << " of " << count);
-  CHECK(off <= count / 1000);
 }
 
 TEST_CASE("walls: a rib of 0.4 mm is printed alike in every layer", "[walls][law]") {
