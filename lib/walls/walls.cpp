@@ -81,7 +81,10 @@ struct Part {
 /// `single_wider`: so much wider a single bead may get, µm, which has the outline on both sides.
 void keep_volume(const Region& region, Um widest, Um single_wider, Part& part) {
   constexpr double most = 0.05;        // beyond, something was left out on purpose
-  constexpr double tolerated = 0.003;  // so much stays where it is: even walls are worth more
+  // So much stays where it is. Walls side by side are worth more when even; a bead alone has none beside it.
+  const bool alone =
+      std::all_of(part.beads.begin(), part.beads.end(), [](const Bead& b) { return b.inset == 0 && !b.closed; });
+  const double tolerated = alone ? 0.002 : 0.003;
   const double wanted = area_mm2(region) - area_mm2(part.inside);
   std::vector<Um> widest_of;                 // each junction, once any is to be wider
   for (int round = 0; round < 4; ++round) {  // again, for beads that are as wide as they may be do not take their share
