@@ -43,13 +43,13 @@ struct Orders {
   }
 };
 
-/// Two boxes, and between them a plate of islands: much in one layer.
+/// Two boxes, and between them a plate of islands: much in one layer, more than 100 MB of it.
 struct Plates : Orders {
   static constexpr int enough_for_boxes_mb = 30;
 
   Plates() {
     scratch.write("bed.ini", "machine_width = 400\nmachine_depth = 400\n");
-    scratch.write("islands.stl", boxes_stl(0.5F, 0.5F, 0.2F, 100, 1));
+    scratch.write("islands.stl", boxes_stl(0.5F, 0.5F, 0.2F, 200, 1));
     scratch.write("list.jsonl", R"({"id": "one", "models": ["a.stl"]})"
                                 "\n"
                                 R"({"id": "islands", "models": ["islands.stl"], "profiles": ["bed.ini"]})"
