@@ -27,7 +27,8 @@ std::size_t expected_bytes(const LayerPlan& plan) {
   std::size_t n = 512;
   for (const auto& step : plan.steps) {
     n += 64;
-    if (const auto* bead = std::get_if<Extrude>(&step)) n += 30 * bead->path.size();  // "G1 X123.456 Y123.456 E.12345" and now and then F
+    // "G1 X123.456 Y123.456 E.12345", and now and then F
+    if (const auto* bead = std::get_if<Extrude>(&step)) n += 30 * bead->path.size();
   }
   return n;
 }

@@ -215,7 +215,6 @@ Mask::Rows Mask::rows_set() const {
   return {row_of_word(lowest), row_of_word(highest) + 1};
 }
 
-/// Rows of the mask, or of what is not set, grown by `cells`; with as many rows more below and above.
 std::unique_ptr<Word[]> Mask::grown_rows(Rows of, int cells, bool outside) const {
   stop_if_asked();
   const auto reach = static_cast<std::size_t>(cells);

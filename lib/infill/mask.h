@@ -40,7 +40,7 @@ class Mask {
   bool at(Point p) const;
 
   Mask& operator&=(const Mask& other);
-  Mask& operator&=(std::span<const Mask* const> others);
+  Mask& operator&=(std::span<const Mask* const> others);  ///< all of them in one pass. Pre: grids are the same
   Mask& operator|=(const Mask& other);
   Mask& operator-=(const Mask& other);  ///< and not
   friend Mask operator&(Mask a, const Mask& b) { return a &= b; }
@@ -73,6 +73,8 @@ class Mask {
     bool empty() const { return from == to; }
   };
   Rows rows_set() const;  ///< from the first to the last in which a cell is set
+  /// What is set in these rows, or what is not (`outside`), grown by so many cells; with as many rows more below and
+  /// above.
   std::unique_ptr<std::uint64_t[]> grown_rows(Rows of, int cells, bool outside) const;
 
   Grid grid_;

@@ -11,7 +11,7 @@ namespace {
 constexpr double volume_share = 0.005;
 constexpr double volume_most = 2;  // mm²·µm at height 1 mm, a square of 45 µm: or on a long segment a share would be a gap
 
-/// What is looked at again and again, as it is computed with.
+/// A junction in the numbers that errors are computed with, µm: it is looked at again and again.
 struct Spot {
   double x, y, band_um;
 };
@@ -71,7 +71,8 @@ class Thinner {
       if (error > most) most = error, worst = i;
     }
     if (worst != 0) return worst;
-    const double was = volume_[span.last] - volume_[span.first], is = std::sqrt(length2) * mean_area_mm2(path_[span.first], path_[span.last], 1.0);
+    const double was = volume_[span.last] - volume_[span.first];
+    const double is = std::sqrt(length2) * mean_area_mm2(path_[span.first], path_[span.last], 1.0);
     return std::abs(is - was) > std::min(volume_share * was, volume_most) ? (span.first + span.last) / 2 : 0;
   }
 

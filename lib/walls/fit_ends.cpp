@@ -15,12 +15,11 @@ using Vertex = Line::Vertex;
 
 constexpr double step_um = 20;
 constexpr double under_share = 0.9;  // of half a wall's width: closer to its middle an end lies under it
-constexpr double beyond_um =
-    10;  // so far beyond where it comes out an end is cut: bare beside it, covered twice before
-constexpr double most_widths = 2;   // no more than so many widths of the wall are cut; else it lies there on purpose
-constexpr double most_gap = 0.8;    // of the bead's width: a wider gap before a wall is not an end's
-constexpr double beside = 0.3;      // of the bead's width: where beside its middle an end is looked at, too
-constexpr double most_deep = 0.15;  // of the bead's width: so far the middle goes under, for what is bare beside it
+constexpr double beyond_um = 10;     // so much more is cut: ends that only come out of a wall lie under it beside that
+constexpr double most_widths = 2;    // no more than so many widths of the wall are cut; else it lies there on purpose
+constexpr double most_gap = 0.8;     // of the bead's width: a wider gap before a wall is not an end's
+constexpr double beside = 0.3;       // of the bead's width: where beside its middle an end is looked at, too
+constexpr double most_deep = 0.15;   // of the bead's width: so far the middle goes under, for what is bare beside it
 constexpr double touch_um = 2;
 
 /// How deep a place lies under a wall: half the wall's width there less the distance.

@@ -142,7 +142,8 @@ class Planner {
   std::uint32_t bounds_beside(const Throat& throat, const Span& span, const Turn& turn, double slope, double clearance);
   bool climbs_mouth(std::uint32_t h) const { return mouth_[h / 2] && s_.end(h).clearance > s_.start(h).clearance; }
   void run_into_corners();
-  /// From a node on, with the most beads that its core has; nothing where it has none.
+  /// Descends from a node with the most beads that its core has, into corners and mouths or into mouths only; does
+  /// nothing where the node has no core.
   void leave_core(std::uint32_t n, bool only_mouths);
   void descend_from(std::uint32_t n, const Span& span, bool only_mouths);
   double track(const Span& span, int i) const;

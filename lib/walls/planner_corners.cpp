@@ -77,11 +77,11 @@ void Planner::yield_below(std::uint32_t h, const Span& span, Turn turn) {
     const Turn later{turn.reach, turn.past + s_.length(g / 2)};
     Span& cut = out_.spans[g / 2];
     std::uint32_t &from = g % 2 == 0 ? cut.at_start : cut.at_end, &to = g % 2 == 0 ? cut.at_end : cut.at_start;
-    const auto yielded = [&](std::uint32_t to_this, const Turn& at,
-                             double clearance) {  // to another tip it may have more
+    // Where another tip is nearer they have yielded more already.
+    const auto yielded = [&](std::uint32_t bounds, const Turn& at, double clearance) {
       const auto last = static_cast<std::uint32_t>(span.pairs);
-      const std::uint32_t beside = bounds_beside({span.pairs, to_this}, span, at, m, clearance);
-      return out_.bounds[beside + last] < out_.bounds[to_this + last] ? beside : to_this;
+      const std::uint32_t beside = bounds_beside({span.pairs, bounds}, span, at, m, clearance);
+      return out_.bounds[beside + last] < out_.bounds[bounds + last] ? beside : bounds;
     };
     from = yielded(from, turn, high);
     to = yielded(to, later, s_.end(g).clearance);

@@ -125,10 +125,10 @@ void cut_end(std::vector<Vertex>& path, double by) {
 
 namespace {
 
-constexpr double even_um = 4;  // widths that differ by less are no step
+constexpr double least_step_um = 4;  // widths that differ by no more are no step
 
 bool steps(const Vertex& a, const Vertex& b) {
-  return std::abs(a.width - b.width) > even_um;
+  return std::abs(a.width - b.width) > least_step_um;
 }
 
 /// A step of width stays where it is, or it would be spread over the length of the pieces. `before` and `after` are the

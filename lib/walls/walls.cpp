@@ -80,10 +80,10 @@ struct Part {
 /// What turns, tips and branches lay too much or too little is taken from all beads of the part: its volume is right.
 /// `single_wider`: so much wider a single bead may get, µm, which has the outline on both sides.
 void keep_volume(const Region& region, Um widest, Um single_wider, Part& part) {
-  constexpr double most = 0.05;        // beyond, something was left out on purpose
+  constexpr double most = 0.05;  // beyond, something was left out on purpose
   // So much stays where it is. Walls side by side are worth more when even; a bead alone has none beside it.
-  const bool alone =
-      std::all_of(part.beads.begin(), part.beads.end(), [](const Bead& b) { return b.inset == 0 && !b.closed; });
+  const auto single = [](const Bead& bead) { return bead.inset == 0 && !bead.closed; };
+  const bool alone = std::all_of(part.beads.begin(), part.beads.end(), single);
   const double tolerated = alone ? 0.002 : 0.003;
   const double wanted = area_mm2(region) - area_mm2(part.inside);
   std::vector<Um> widest_of;                 // each junction, once any is to be wider
@@ -94,11 +94,9 @@ void keep_volume(const Region& region, Um widest, Um single_wider, Part& part) {
     const double ratio = wanted / laid;
     const double scale = std::clamp(ratio > 1 ? ratio - tolerated : ratio + tolerated, 1 - most, 1 + most);
     if (widest_of.empty())
-      for (const Bead& bead : part.beads) {
-        const bool single = bead.inset == 0 && !bead.closed;
+      for (const Bead& bead : part.beads)
         for (const Junction& j : bead.path)
-          widest_of.push_back(single ? std::min(widest, j.width + single_wider) : widest);
-      }
+          widest_of.push_back(single(bead) ? std::min(widest, j.width + single_wider) : widest);
     std::size_t i = 0;
     for (Bead& bead : part.beads)
       for (Junction& j : bead.path) {
@@ -206,11 +204,11 @@ void steady_over_air(const Regions& over_air, const Widths& widths, Beads& beads
       if (j.flow == 1.F && over(j.at)) j.width = rounded(bead.inset == 0 ? widths.outer : widths.inner);
 }
 
-/// What was made of the last regions of a layer that differed by more than their place: a plate of pins has one kind of
-/// them, and walls move with their region by whole microns.
-class Lately {
+/// The last parts of a layer that differed by more than their place: a plate of pins has one kind of them, and walls
+/// move with their region by whole microns.
+class KindsOfParts {
  public:
-  /// What `region` gets, if one of them is like it.
+  /// What `region`, the part of that number, gets if one of them is like it.
   std::optional<Part> again(const Region& region, std::uint32_t part) const {
     for (const Kind& kind : kinds_) {
       if (!alike(*kind.region, region)) continue;
@@ -220,11 +218,12 @@ class Lately {
         bead.part = part;
         for (Junction& j : bead.path) j.at = j.at + by;
       }
-      for (Region& r : out.inside) move(r, by);
+      out.inside = moved(std::move(out.inside), by);
       return out;
     }
     return {};
   }
+  /// Remembers a part, unless it is large. `region` must stay where it is.
   void add(const Region& region, const Part& made) {
     if (region.outer.size() > most_corners || !region.holes.empty()) return;
     if (kinds_.size() < most_kinds) kinds_.emplace_back();
@@ -243,11 +242,6 @@ class Lately {
     if (a.outer.size() != b.outer.size() || !b.holes.empty()) return false;
     const Point by = b.outer.front() - a.outer.front();
     return std::equal(a.outer.begin(), a.outer.end(), b.outer.begin(), [&](Point p, Point q) { return p + by == q; });
-  }
-  static void move(Region& region, Point by) {
-    for (Point& p : region.outer) p = p + by;
-    for (Ring& hole : region.holes)
-      for (Point& p : hole) p = p + by;
   }
 
   std::vector<Kind> kinds_;
@@ -280,12 +274,12 @@ WallLayer build(const WallSettings& settings, const WallInput& input) {
     out.inside = regions;
     return out;
   }
-  Lately lately;
+  KindsOfParts kinds;
   for (std::uint32_t i = 0; i < regions.size(); ++i) {
     stop_if_asked();
-    auto again = lately.again(regions[i], i);
+    auto again = kinds.again(regions[i], i);
     Part part = again ? *std::move(again) : build_part(settings, widths, regions[i], input.nozzle_diameter, i);
-    if (!again) lately.add(regions[i], part);
+    if (!again) kinds.add(regions[i], part);
     put_in_order(part.beads, settings.wall_order);
     if (!part.valid)
       out.notices.push_back(
