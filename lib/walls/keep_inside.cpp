@@ -1,7 +1,6 @@
 #include "walls/keep_inside.h"
 
 #include "walls/pockets.h"
-#include "walls/room.h"
 #include "walls/stub.h"
 
 #include <algorithm>
@@ -46,8 +45,8 @@ bool is_arm(const Line& line) {
 /// The lines of one part.
 class Keeper {
  public:
-  Keeper(const Region& region, const FinishOptions& options, std::vector<Line>& lines)
-      : region_(region), o_(options), lines_(lines), room_(region, options.origin) {}
+  Keeper(const Region& region, Room& room, const FinishOptions& options, std::vector<Line>& lines)
+      : region_(region), o_(options), lines_(lines), room_(room) {}
 
   /// `thin`: all lines are single beads.
   void run(bool thin) {
@@ -210,17 +209,17 @@ class Keeper {
   const Region& region_;
   const FinishOptions& o_;
   std::vector<Line>& lines_;
-  Room room_;
+  Room& room_;
   double outside_ = outside_um;
   double missing_ = 0;
 };
 
 }  // namespace
 
-void keep_inside(const Region& region, const FinishOptions& options, std::vector<Line>& lines) {
+void keep_inside(const Region& region, Room& room, const FinishOptions& options, std::vector<Line>& lines) {
   const bool thin = std::all_of(lines.begin(), lines.end(), single);
   if (lines.empty() || (!thin && std::none_of(lines.begin(), lines.end(), is_arm))) return;
-  Keeper(region, options, lines).run(thin);
+  Keeper(region, room, options, lines).run(thin);
 }
 
 }  // namespace weft::walls

@@ -1,6 +1,7 @@
 #pragma once
 #include "core/polygon.h"
 #include "walls/finish.h"
+#include "walls/room.h"
 
 #include <vector>
 
@@ -12,6 +13,6 @@ namespace weft::walls {
 /// of single beads what that leaves out is taken up by beads that have room for it; what is left of the part beyond
 /// that gets short beads of its own. Where they would be too thin or too short to be laid the beads there are keep the
 /// part's volume, over its outline if need be. Pre: finished lines, all there are of the part.
-void keep_inside(const Region& region, const FinishOptions& options, std::vector<Line>& lines);
+void keep_inside(const Region& region, Room& room, const FinishOptions& options, std::vector<Line>& lines);
 
 }  // namespace weft::walls

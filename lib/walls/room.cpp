@@ -1,6 +1,5 @@
 #include "walls/room.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -10,10 +9,14 @@ constexpr double end_um = 4;
 constexpr std::size_t few = 16;  // segments, which are looked at sooner than looked for
 }
 
-Room::Room(const Region& region, Point origin) : origin_(origin), index_(Regions{region}) {
-  if (index_.segments().size() > few) return;
-  near_.resize(index_.segments().size());
-  std::iota(near_.begin(), near_.end(), 0U);
+const geometry::SegmentIndex& Room::index() {
+  if (index_) return *index_;
+  index_.emplace(Regions{region_});
+  if (index_->segments().size() <= few) {
+    near_.resize(index_->segments().size());
+    std::iota(near_.begin(), near_.end(), 0U);
+  }
+  return *index_;
 }
 
 Place Room::on_piece(Point p, Place a, Place way) const {
@@ -21,26 +24,36 @@ Place Room::on_piece(Point p, Place a, Place way) const {
   return {x * way.x + y * way.y, y * way.x - x * way.y};
 }
 
-double Room::beside(Place a, Place b, double most, bool first, bool last) {
+Room::Sides Room::sides(Place a, Place b, double most, bool first, bool last) {
   stop_.step();
-  const double length = distance(a, b), end = std::min(end_um, length / 4);
-  const double from = first ? end : 0, to = last ? length - end : length;
   const Place way = unit(a, b), middle = lerp(a, b, 0.5);
-  const double reach = std::sqrt(most * most + length * length / 4) + 2;
+  const double length = distance(a, b), reach = std::sqrt(most * most + length * length / 4) + 2;
   const auto lattice = [&](double x, double y) { return Point{origin_.x + rounded(x), origin_.y + rounded(y)}; };
-  if (index_.segments().size() > few)
-    index_.near({lattice(middle.x - reach, middle.y - reach), lattice(middle.x + reach, middle.y + reach)}, near_);
-  double room = most;
+  const auto& segments = index().segments();
+  if (segments.size() > few)
+    index_->near({lattice(middle.x - reach, middle.y - reach), lattice(middle.x + reach, middle.y + reach)}, near_);
+  const double end = std::min(end_um, length / 4), from = first ? end : 0, to = last ? length - end : length;
+  Sides room{most, most};
   for (const std::uint32_t i : near_) {
-    const auto& s = index_.segments()[i];
+    const auto& s = segments[i];
     Place p = on_piece(s.a, a, way), q = on_piece(s.b, a, way);
     if (p.x > q.x) std::swap(p, q);
     if (q.x <= from || p.x >= to) continue;
     const auto at = [&](double x) { return p.y + (x - p.x) / (q.x - p.x) * (q.y - p.y); };
     const double y = p.x < from ? at(from) : p.y, z = q.x > to ? at(to) : q.y;
-    room = std::min(room, (y < 0) != (z < 0) ? 0 : std::min(std::abs(y), std::abs(z)));
+    const bool crosses = (y < 0) != (z < 0);
+    const double off = crosses ? 0 : std::min(std::abs(y), std::abs(z));
+    if (crosses || y > 0) room.left = std::min(room.left, off);
+    if (crosses || y <= 0) room.right = std::min(room.right, off);
   }
   return room;
+}
+
+double Room::beyond(Place p) {
+  const Point at{origin_.x + rounded(p.x), origin_.y + rounded(p.y)};
+  if (index().winding(at).value_or(1) > 0) return 0;
+  const auto nearest = index_->nearest(at);
+  return nearest ? nearest->distance_um : 0;
 }
 
 }  // namespace weft::walls

@@ -106,28 +106,21 @@ TEST_CASE("walls: on 1,000 random polygons beads and inside together have the ar
   CHECK(mean / count < 0.0025);
 }
 
-TEST_CASE("walls: beads stay within 0.01 mm of the part, but in 3 of 1,000", "[walls][law]") {
-  // Measured over 1,000 of these: 3 have one that reaches further, two closed walls by 13 and 15 µm, a single bead
-  // between walls by 11 µm. Of the 78 that have none but single beads, none.
+TEST_CASE("walls: beads stay within 0.01 mm of the part", "[walls][law]") {
+  // Of 7,000 others 20 have a bead that reaches further: small parts whose volume comes first.
   std::mt19937 random(20'240'601);
-  int thin = 0, astray = 0;
+  int thin = 0;
   for (int i = 0; i < 1000; ++i) {
     const Regions regions = geometry::regions_from_rings(std::vector<Ring>{random_ring(random)});
     const auto walls = walls_of(regions);
-    const bool all_open = std::none_of(walls.beads.begin(), walls.beads.end(), [](const Bead& b) { return b.closed; });
-    bool outside = false;
     for (const Bead& bead : walls.beads) {
       const double most = footprint_outside(regions, bead);
       CAPTURE(i, most);
-      CHECK(most <= (all_open ? 10 : 15));
-      outside = outside || most > 10;
+      CHECK(most <= 10);
     }
-    thin += all_open ? 1 : 0;
-    astray += outside ? 1 : 0;
+    thin += std::none_of(walls.beads.begin(), walls.beads.end(), [](const Bead& b) { return b.closed; }) ? 1 : 0;
   }
-  CAPTURE(astray, thin);
   CHECK(thin > 50);
-  CHECK(astray <= 3);
 }
 
 TEST_CASE("walls: no bead of a random polygon is wider than max_wall_line_width", "[walls][law]") {
@@ -140,7 +133,7 @@ TEST_CASE("walls: no bead of a random polygon is wider than max_wall_line_width"
 }
 
 TEST_CASE("walls: the mirror image of a part gets the mirror image of its beads", "[walls][law]") {
-  // Over eight seeds, 8,000 polygons, 5 differ by more, by 6 to 306 µm: by which of two ways a choice falls that is as
+  // Over eight seeds, 8,000 polygons, 11 differ by more, by 5 to 306 µm: by which of two ways a choice falls that is as
   // good as even, such as which pocket of a small part gets a bead.
   std::mt19937 random(20'240'601);
   for (int i = 0; i < 1000; ++i) {

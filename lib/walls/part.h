@@ -1,0 +1,19 @@
+#pragma once
+#include "model/bead.h"
+#include "settings/walls.h"
+#include "walls/beading.h"
+
+/// Private to walls: the walls of one region of a layer.
+namespace weft::walls {
+
+struct Part {
+  Beads beads;
+  Regions inside;         ///< what walls leave for infill
+  double dropped_mm = 0;  ///< length of what was too thin
+  bool valid = true;      ///< false: there was no medial axis to go by, and walls are concentric
+};
+
+/// `index`: the region's number in its layer.
+Part part_of(const WallSettings& settings, const Widths& widths, const Region& region, Um nozzle, std::uint32_t index);
+
+}  // namespace weft::walls
