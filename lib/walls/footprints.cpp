@@ -24,12 +24,11 @@ double laid(const Junction& j) {
   return j.width * static_cast<double>(j.flow);
 }
 
-void lay(Junction& j, double width) {
-  const double less = std::max(1.0, width);
-  if (j.flow < 1.F)
-    j.flow = static_cast<float>(less / j.width);
-  else
-    j.width = rounded(less);
+/// Below the narrowest planned width the flow gives way.
+void lay(Junction& j, double width, Um narrowest) {
+  const double planned = std::max<double>(j.flow < 1.F ? j.width : width, narrowest);
+  j.width = rounded(planned);
+  j.flow = static_cast<float>(std::clamp(width / planned, 1 / planned, 1.0));
 }
 
 struct Piece {
@@ -63,12 +62,12 @@ struct Give {
   double left = 0, right = 0;
 };
 
-void give_way(const std::vector<Give>& gives, Bead& bead) {
+void give_way(const std::vector<Give>& gives, Um narrowest, Bead& bead) {
   std::vector<double> inwards;
   for (std::size_t j = 0; j < bead.path.size(); ++j) {
     const auto [left, right] = gives[j];
     if (const double less = 2 * (bead.closed ? std::min(left, right) : std::max(left, right)); less > 0)
-      lay(bead.path[j], laid(bead.path[j]) - less);
+      lay(bead.path[j], laid(bead.path[j]) - less, narrowest);
     inwards.push_back(right - left);
   }
   if (bead.closed) move_left(bead, inwards);  // others stay in their middle, where they begin and end at beads
@@ -76,7 +75,8 @@ void give_way(const std::vector<Give>& gives, Bead& bead) {
 
 }  // namespace
 
-Footprints::Footprints(Room& room, Point origin, Um nominal, const Beads& beads) : room_(room), origin_(origin) {
+Footprints::Footprints(Room& room, Point origin, Um nominal, Um narrowest, const Beads& beads)
+    : room_(room), origin_(origin), narrowest_(narrowest) {
   for (std::size_t i = 0; i < beads.size(); ++i) {
     const Bead& bead = beads[i];
     if (bead.inset != 0) continue;
@@ -109,7 +109,7 @@ Bead Footprints::kept(const Suspect& suspect, double outside, const Bead& bead) 
         gives[j] = {std::max(gives[j].left, give.left), std::max(gives[j].right, give.right)};
     }
     if (!any) break;
-    give_way(gives, out);
+    give_way(gives, narrowest_, out);
   }
   return out;
 }

@@ -13,8 +13,9 @@ namespace weft::walls {
 class Footprints {
  public:
   /// `nominal`: the width of outer walls, µm. Pieces of a loop that have it lie beside the outline they follow and are
-  /// not looked at. `origin` is that of `room`. Pre: `beads` are all of the part.
-  Footprints(Room& room, Point origin, Um nominal, const Beads& beads);
+  /// not looked at. `narrowest`: a bead is not planned narrower, µm, but laid with less flow. `origin` is that of
+  /// `room`. Pre: `beads` are all of the part.
+  Footprints(Room& room, Point origin, Um nominal, Um narrowest, const Beads& beads);
 
   /// Makes beads give way; whether any had to. All stay if less than `least` mm² would be covered then: volume comes
   /// first. Pre: these are the beads it was made of; their widths may have changed by no more than `most_change`.
@@ -32,6 +33,7 @@ class Footprints {
 
   Room& room_;
   Point origin_;
+  Um narrowest_;
   std::vector<Suspect> suspects_;
 };
 

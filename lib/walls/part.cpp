@@ -81,7 +81,7 @@ geometry::MedialAxis axis_of(const Region& region) {
 
 /// Beads lay what their part asks for, and not over its outline. What loops that give way lose all make up for, which
 /// may push others out.
-void fit(Room& room, Point origin, const Widths& widths, double wanted, bool dab, Beads& beads) {
+void fit(Room& room, const FinishOptions& options, const Widths& widths, double wanted, bool dab, Beads& beads) {
   constexpr int most_rounds = 6;
   constexpr double near_enough = 0.9955;  // of what is wanted
   // … or less at first, where there are loops: they can make up for it.
@@ -92,13 +92,15 @@ void fit(Room& room, Point origin, const Widths& widths, double wanted, bool dab
     keep_all();
     return;
   }
-  const Um nominal = rounded(widths.outer);
-  std::optional<Footprints> footprints(std::in_place, room, origin, nominal, beads);
+  const Um nominal = rounded(widths.outer), narrowest = options.compensate ? rounded(options.stable_outer) : 1;
+  std::optional<Footprints> footprints(std::in_place, room, options.origin, nominal, narrowest, beads);
   double wider = 1;
   for (int round = 0; round < most_rounds; ++round) {
     if (!footprints->keep(least * wanted, beads) && round > 0) break;
     wider *= keep_all();
-    if (wider > 1 + Footprints::most_change) footprints.emplace(room, origin, nominal, beads), wider = 1;
+    if (wider <= 1 + Footprints::most_change) continue;
+    footprints.emplace(room, options.origin, nominal, narrowest, beads);
+    wider = 1;
   }
   footprints->keep(near_enough * wanted, beads);
 }
@@ -147,7 +149,7 @@ Part part_of(const WallSettings& settings, const Widths& widths, const Region& r
   if (!dab) keep_inside(region, room, finishing, finished);
   for (const Line& line : finished) append_bead(line, finishing, out.beads);
   const double wanted = area_mm2(region) - area_mm2(out.inside);
-  fit(room, axis.origin, widths, wanted, dab, out.beads);
+  fit(room, finishing, widths, wanted, dab, out.beads);
   return out;
 }
 

@@ -10,7 +10,7 @@ using namespace weft::walls;
 
 namespace {
 
-constexpr Um nominal = 400;
+constexpr Um nominal = 400, narrowest = 200;
 
 /// A part of 10 x 10 mm.
 const Region part = test::rectangle(0, 0, 10_mm, 10_mm);
@@ -25,7 +25,7 @@ Bead wall(Um inset, Um width) {
 
 bool kept(Beads& beads, double least_mm2) {
   Room room(part, {0, 0});
-  return Footprints(room, {0, 0}, nominal, beads).keep(least_mm2, beads);
+  return Footprints(room, {0, 0}, nominal, narrowest, beads).keep(least_mm2, beads);
 }
 
 }  // namespace
@@ -58,9 +58,9 @@ TEST_CASE("footprints: a single bead gets narrower where it reaches over, on eit
   Beads beads{bead};
   const Region strip = test::rectangle(0, 0, 10_mm, 600);  // room for 480 there, then for 600
   Room room(strip, {0, 0});
-  CHECK_FALSE(Footprints(room, {0, 0}, nominal, beads).keep(0, beads));  // over it by 5 µm
+  CHECK_FALSE(Footprints(room, {0, 0}, nominal, narrowest, beads).keep(0, beads));  // over it by 5 µm
   beads.front().path[0].width = beads.front().path[1].width = 520;
-  CHECK(Footprints(room, {0, 0}, nominal, beads).keep(0, beads));
+  CHECK(Footprints(room, {0, 0}, nominal, narrowest, beads).keep(0, beads));
   const auto& path = beads.front().path;
   CHECK(path[0].width + path[1].width <= 2 * (480 + 20));
   CHECK(path[0].at == bead.path[0].at);
@@ -81,11 +81,24 @@ TEST_CASE("footprints: a flow-compensated bead gives way by its flow", "[walls]"
   Beads beads{bead};
   const Region rib = test::rectangle(0, 0, 5_mm, 100);
   Room room(rib, {0, 0});
-  CHECK(Footprints(room, {0, 0}, nominal, beads).keep(0, beads));
+  CHECK(Footprints(room, {0, 0}, nominal, narrowest, beads).keep(0, beads));
   for (const Junction& j : beads.front().path) {
     CHECK(j.width == 200);
     CHECK(j.flow * 200 <= 100 + 2 * 10);
     CHECK(j.flow * 200 >= 100);
+  }
+}
+
+TEST_CASE("footprints: a bead that would get narrower than any is planned gives way by its flow", "[walls]") {
+  Bead bead;
+  bead.path = {{{1_mm, 75}, 210}, {{4_mm, 75}, 210}};  // room for 150
+  Beads beads{bead};
+  const Region rib = test::rectangle(0, 0, 5_mm, 150);
+  Room room(rib, {0, 0});
+  CHECK(Footprints(room, {0, 0}, nominal, narrowest, beads).keep(0, beads));
+  for (const Junction& j : beads.front().path) {
+    CHECK(j.width == narrowest);
+    CHECK(j.flow * narrowest == Approx(150 + 2 * 8).margin(1));
   }
 }
 
