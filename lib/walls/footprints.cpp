@@ -15,9 +15,9 @@ constexpr double noticed_um = 9.3;  // walls may reach over the outline by 10, a
 // … and are made to by no more than the first, for neighbours move with a piece; than the others where all would cost
 // too much of the part's volume.
 constexpr std::array outside_um{8.0, 9.2};
-constexpr Um nominal_within = 2;     // a width so close to the nominal one is that: the lattice and the part's volume
+constexpr Um nominal_within = 2;  // a width so close to the nominal one is that: the lattice and the part's volume
 constexpr double most_slant = 3;  // a piece that meets the outline more squarely would vanish
-constexpr int most_rounds = 3;       // a piece moves the next one's ends
+constexpr int most_rounds = 3;    // a piece moves the next one's ends
 
 /// What a bead lays at a junction.
 double laid(const Junction& j) {
@@ -43,8 +43,8 @@ Piece piece_of(const Bead& bead, std::size_t k, Point origin) {
   return {place(a), place(b), (laid(a) + laid(b)) / 4};
 }
 
-/// So much a piece must give on the right of its way, which has room for half a width of `room` there, to reach over the
-/// outline by no more than `outside`.
+/// So much a piece must give on the right of its way, which has room for half a width of `room` there, to reach over
+/// the outline by no more than `outside`.
 double too_far(Room& in, Place a, Place b, double half, double room, double outside) {
   if (half - room <= noticed_um) return 0;
   // The outline may run slantwise, or the piece end where it does: only how far out its corners lie counts.

@@ -7,7 +7,7 @@ namespace weft::walls {
 namespace {
 constexpr double end_um = 4;
 constexpr std::size_t few = 16;  // segments, which are looked at sooner than looked for
-}
+}  // namespace
 
 const geometry::SegmentIndex& Room::index() {
   if (index_) return *index_;

@@ -1,4 +1,5 @@
 #include "walls/footprints.h"
+
 #include "rectangle.h"
 #include "walls/keep_volume.h"
 #include "walls/move_aside.h"
@@ -19,7 +20,8 @@ const Region part = test::rectangle(0, 0, 10_mm, 10_mm);
 Bead wall(Um inset, Um width) {
   Bead out;
   out.closed = true;
-  for (const Point p : test::rectangle(inset, inset, 10_mm - inset, 10_mm - inset).outer) out.path.push_back({p, width});
+  for (const Point p : test::rectangle(inset, inset, 10_mm - inset, 10_mm - inset).outer)
+    out.path.push_back({p, width});
   return out;
 }
 
