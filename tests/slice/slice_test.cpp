@@ -254,7 +254,8 @@ TEST_CASE("slice: layers of real parts hold the volume of their meshes", "[law][
     if (!path) return;
     INFO(name);
     Mesh mesh = mesh::read_file(path->string()).objects.at(0).mesh;
-    mesh = solids::moved(std::move(mesh), {0, 0, -box_of(mesh).min.z});
+    const Um bottom = box_of(mesh).min.z;
+    mesh = solids::moved(std::move(mesh), {0, 0, -bottom});
     LayerSettings settings;
     settings.layer_height = 0.05_mm;
     const auto cuts = cut_all(mesh, settings);
@@ -267,7 +268,8 @@ TEST_CASE("slice: an open scan comes out whole", "[corpus]") {
   const auto path = corpus("models/stanford-bunny.stl");
   if (!path) return;
   Mesh mesh = mesh::read_file(path->string()).objects.at(0).mesh;
-  mesh = solids::moved(std::move(mesh), {0, 0, -box_of(mesh).min.z});
+  const Um bottom = box_of(mesh).min.z;
+  mesh = solids::moved(std::move(mesh), {0, 0, -bottom});
   const auto cuts = cut_all(mesh);
   check_proper(cuts);
   CHECK(volume_mm3(cuts) == Approx(volume_mm3(mesh)).epsilon(0.05));
