@@ -35,13 +35,19 @@ bool intact(const Filled& piece) {
 
 /// With and without its size, which operator delete may be told.
 void give(const Filled& piece, bool told) {
-  told ? ::operator delete(piece.at, piece.bytes) : ::operator delete(piece.at);
+  if (told)  // not `told ? … : …`: clang 14 calls both
+    ::operator delete(piece.at, piece.bytes);
+  else
+    ::operator delete(piece.at);
 }
 
 constexpr double mb = 1e6;
 
+// Whether a sanitizer watches, which keeps what is freed.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool watched = true;  // by a sanitizer, which keeps what is freed
+constexpr bool watched = true;
+#elif defined(__has_feature)
+constexpr bool watched = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
 #else
 constexpr bool watched = false;
 #endif
