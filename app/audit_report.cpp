@@ -1,12 +1,12 @@
 #include "audit_report.h"
 
-#include <fmt/format.h>
+#include "core/version.h"
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "core/version.h"
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace weft::app {
 namespace {
@@ -15,10 +15,14 @@ using Json = nlohmann::ordered_json;
 
 std::string_view kind_of(audit::Finding::Kind kind) {
   switch (kind) {
-    case audit::Finding::Kind::surface: return "print_surface";
-    case audit::Finding::Kind::reach: return "reach";
-    case audit::Finding::Kind::no_go: return "no_go_area";
-    case audit::Finding::Kind::damaged: break;
+    case audit::Finding::Kind::surface:
+      return "print_surface";
+    case audit::Finding::Kind::reach:
+      return "reach";
+    case audit::Finding::Kind::no_go:
+      return "no_go_area";
+    case audit::Finding::Kind::damaged:
+      break;
   }
   return "damaged";
 }
@@ -67,10 +71,14 @@ Json entry_of(const AuditEntry& entry) {
   for (const auto& f : r.findings) out["violations"].push_back(violation_of(f));
   out["totals"] = Json::array();
   for (const auto& t : r.totals)
-    out["totals"].push_back({{"kind", kind_of(t.kind)}, {"side", side_of(t.side, t.area)}, {"feature", t.feature}, {"count", t.count},
+    out["totals"].push_back({{"kind", kind_of(t.kind)},
+                             {"side", side_of(t.side, t.area)},
+                             {"feature", t.feature},
+                             {"count", t.count},
                              {"worst_mm", to_mm(t.worst)}});
   out["opaque"] = Json::array();
-  for (const auto& o : r.opaque) out["opaque"].push_back({{"command", o.name}, {"count", o.count}, {"first_line", o.first_line}});
+  for (const auto& o : r.opaque)
+    out["opaque"].push_back({{"command", o.name}, {"count", o.count}, {"first_line", o.first_line}});
   out["warnings"] = Json::array();
   for (const auto& n : r.notices) out["warnings"].push_back({{"code", n.code}, {"message", n.message}});
   return out;
@@ -81,12 +89,23 @@ std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {
     switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      case '\n': out += "&#10;"; break;
-      default: out += (static_cast<unsigned char>(c) < ' ' && c != '\t') || static_cast<unsigned char>(c) > '~' ? '?' : c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\n':
+        out += "&#10;";
+        break;
+      default:
+        out += (static_cast<unsigned char>(c) < ' ' && c != '\t') || static_cast<unsigned char>(c) > '~' ? '?' : c;
     }
   }
   return out;
@@ -95,7 +114,8 @@ std::string escaped(std::string_view text) {
 }  // namespace
 
 std::string audit_json(const std::vector<AuditEntry>& entries) {
-  const bool failed = std::any_of(entries.begin(), entries.end(), [](const AuditEntry& e) { return !e.outcome.report; });
+  const bool failed =
+      std::any_of(entries.begin(), entries.end(), [](const AuditEntry& e) { return !e.outcome.report; });
   const bool clean = std::all_of(entries.begin(), entries.end(), [](const AuditEntry& e) { return e.clean(); });
   Json out{{"weft", version}, {"status", clean ? "ok" : failed ? "failed" : "rejected"}, {"audits", Json::array()}};
   for (const auto& e : entries) out["audits"].push_back(entry_of(e));
@@ -108,7 +128,8 @@ std::string audit_junit(const std::vector<AuditEntry>& entries) {
   for (const auto& e : entries) {
     cases += fmt::format("  <testcase classname=\"{}\" name=\"{}\"", escaped(e.printer), escaped(e.file));
     if (e.clean()) {
-      cases += fmt::format(">\n    <system-out>{}</system-out>\n  </testcase>\n", escaped(audit::summary(*e.outcome.report)));
+      cases += fmt::format(">\n    <system-out>{}</system-out>\n  </testcase>\n",
+                           escaped(audit::summary(*e.outcome.report)));
     } else if (e.outcome.report) {
       ++failures;
       const auto& r = *e.outcome.report;
@@ -117,11 +138,14 @@ std::string audit_junit(const std::vector<AuditEntry>& entries) {
       cases += "</failure>\n  </testcase>\n";
     } else {
       ++errors;
-      cases += fmt::format(">\n    <error type=\"file\" message=\"{}\"/>\n  </testcase>\n", escaped(e.outcome.error ? e.outcome.error->what() : ""));
+      cases += fmt::format(">\n    <error type=\"file\" message=\"{}\"/>\n  </testcase>\n",
+                           escaped(e.outcome.error ? e.outcome.error->what() : ""));
     }
   }
-  return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"weft audit\" tests=\"{}\" failures=\"{}\" errors=\"{}\">\n{}</testsuite>\n",
-                     entries.size(), failures, errors, cases);
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"weft audit\" tests=\"{}\" failures=\"{}\" "
+      "errors=\"{}\">\n{}</testsuite>\n",
+      entries.size(), failures, errors, cases);
 }
 
 }  // namespace weft::app

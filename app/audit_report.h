@@ -1,8 +1,8 @@
 #pragma once
+#include "pipeline/audit_files.h"
+
 #include <string>
 #include <vector>
-
-#include "pipeline/audit_files.h"
 
 namespace weft::app {
 

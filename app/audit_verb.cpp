@@ -1,14 +1,14 @@
-#include <fmt/format.h>
+#include "audit_report.h"
+#include "command.h"
+#include "pipeline/profile_file.h"
+#include "verbs.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <iterator>
 #include <sstream>
 
-#include "audit_report.h"
-#include "command.h"
-#include "pipeline/profile_file.h"
-#include "verbs.h"
+#include <fmt/format.h>
 
 namespace po = boost::program_options;
 
@@ -37,8 +37,9 @@ std::vector<Printer> printers_of(const Command& command, Console& console) {
   }
   const auto& m = base.settings.machine;
   if (command.profiles.empty() && command.settings.empty())
-    console.warning({"audit_default_machine", fmt::format("no profile was given: audited against {:g} x {:g} x {:g} mm", to_mm(m.machine_width),
-                                                          to_mm(m.machine_depth), to_mm(m.machine_height))});
+    console.warning({"audit_default_machine",
+                     fmt::format("no profile was given: audited against {:g} x {:g} x {:g} mm", to_mm(m.machine_width),
+                                 to_mm(m.machine_depth), to_mm(m.machine_height))});
   std::string name = m.machine_name;
   if (name.empty()) name = command.profiles.empty() ? "default" : command.profiles.back().string();
   out.push_back({name, base.settings});
@@ -51,12 +52,16 @@ void tell(Console& console, const AuditEntry& entry, bool name_printer) {
   const auto& r = *entry.outcome.report;
   for (const auto& notice : r.notices) console.warning({notice.code, where + ": " + notice.message});
   std::string opaque;
-  for (const auto& o : r.opaque) opaque += fmt::format("{}{} ({}x, first on line {})", opaque.empty() ? "" : ", ", o.name, o.count, o.first_line);
+  for (const auto& o : r.opaque)
+    opaque += fmt::format("{}{} ({}x, first on line {})", opaque.empty() ? "" : ", ", o.name, o.count, o.first_line);
   if (!opaque.empty()) console.detail(fmt::format("{}: cannot be followed through {}", where, opaque));
   for (const auto& f : r.findings) console.detail(fmt::format("{}: {}", where, audit::describe(f)));
   for (const auto& t : r.totals)
-    console.detail(fmt::format("{}: {} x {}{}{}, worst {:.3f} mm", where, t.count, t.feature.empty() ? "move" : t.feature,
-                               t.kind == audit::Finding::Kind::damaged ? " damaged" : t.kind == audit::Finding::Kind::no_go ? fmt::format(" inside no-go area {}", t.area) : " beyond ",
+    console.detail(fmt::format("{}: {} x {}{}{}, worst {:.3f} mm", where, t.count,
+                               t.feature.empty() ? "move" : t.feature,
+                               t.kind == audit::Finding::Kind::damaged ? " damaged"
+                               : t.kind == audit::Finding::Kind::no_go ? fmt::format(" inside no-go area {}", t.area)
+                                                                       : " beyond ",
                                t.kind == audit::Finding::Kind::no_go ? "" : audit::name_of(t.side), to_mm(t.worst)));
   if (r.clean())
     console.info(fmt::format("{}: pass, {} ({:.1f} %)", where, audit::summary(r), 100 * r.coverage()));
@@ -68,18 +73,22 @@ void tell(Console& console, const AuditEntry& entry, bool name_printer) {
 
 int audit_verb(const Words& words) {
   po::options_description options("Options of weft audit");
-  options.add_options()
-    ("against", po::value<std::vector<std::string>>()->multitoken()->value_name("FILE..."), "printer profiles: says of each whether the files may run there")
-    ("format", po::value<std::string>()->value_name("json|junit")->default_value("json"), "form of the report");
+  options.add_options()("against", po::value<std::vector<std::string>>()->multitoken()->value_name("FILE..."),
+                        "printer profiles: says of each whether the files may run there")(
+      "format", po::value<std::string>()->value_name("json|junit")->default_value("json"), "form of the report");
   const auto command = parse_command(words, options);
   if (command.help) {
     std::ostringstream out;
-    out << "weft audit FILE.gcode... -p PROFILE: checks any slicer's G-code against a build volume\n\n" << options << "\n" << common_help();
+    out << "weft audit FILE.gcode... -p PROFILE: checks any slicer's G-code against a build volume\n\n"
+        << options << "\n"
+        << common_help();
     return fmt::print("{}", out.str()), 0;
   }
   const auto format = command.options["format"].as<std::string>();
-  if (format != "json" && format != "junit") throw Error{Error::Kind::usage, fmt::format("'{}' is not one of json, junit", format), "--format"};
-  if (command.inputs.empty()) throw Error{Error::Kind::usage, "no G-code file was given", {}, "as in weft audit part.gcode -p printer.ini"};
+  if (format != "json" && format != "junit")
+    throw Error{Error::Kind::usage, fmt::format("'{}' is not one of json, junit", format), "--format"};
+  if (command.inputs.empty())
+    throw Error{Error::Kind::usage, "no G-code file was given", {}, "as in weft audit part.gcode -p printer.ini"};
 
   Console console(command.console);
   const auto printers = printers_of(command, console);

@@ -169,8 +169,8 @@ int conclude(Console& console, const Finished& finished, const StageCache& cache
   const auto text = fmt::format(
       "{} jobs: {} made, {} unchanged, {} failed{}; {} layers in {}, {:.0f} layers/s, {:.2f} jobs/s, peak {:.0f} MB",
       p.jobs, p.made, p.unchanged, p.failed, collected.missing ? fmt::format(", {} not run", collected.missing) : "",
-      p.layers, short_duration(p.seconds), p.layers_per_s, p.seconds > 0 ? static_cast<double>(p.made) / p.seconds : 0.0,
-      peak_memory_mb());
+      p.layers, short_duration(p.seconds), p.layers_per_s,
+      p.seconds > 0 ? static_cast<double>(p.made) / p.seconds : 0.0, peak_memory_mb());
   console.info(text);
   console.detail("cache: " + told(cache));
   if (cache.unwritten() > 0)

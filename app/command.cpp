@@ -1,6 +1,9 @@
 #include "command.h"
 
-#include <fmt/format.h>
+#include "pipeline/profile_file.h"
+#include "pipeline/write_file.h"
+#include "settings/catalogue.h"
+#include "settings/value.h"
 
 #include <algorithm>
 #include <cctype>
@@ -10,10 +13,7 @@
 #include <set>
 #include <sstream>
 
-#include "pipeline/profile_file.h"
-#include "pipeline/write_file.h"
-#include "settings/catalogue.h"
-#include "settings/value.h"
+#include <fmt/format.h>
 
 namespace po = boost::program_options;
 
@@ -22,20 +22,23 @@ namespace {
 
 po::options_description common_options() {
   po::options_description out("Options of every verb");
-  out.add_options()
-    ("profile,p", po::value<std::vector<std::string>>()->value_name("FILE"), "an ini profile; repeatable, a later one overrides an earlier one")
-    ("load", po::value<std::vector<std::string>>()->value_name("FILE"), "the same")
-    ("preset", po::value<std::vector<std::string>>()->value_name("KIND=NAME"), "which preset of a PrusaSlicer bundle: print=NAME, filament=NAME, printer=NAME; repeatable")
-    ("strict", po::bool_switch(), "what a PrusaSlicer profile would lose is an error, not a warning")
-    ("set,s", po::value<std::vector<std::string>>()->value_name("KEY=VALUE"), "one setting; repeatable; overrides every profile. `--key VALUE` does the same")
-    ("output,o", po::value<std::string>()->value_name("PATH"), "where the result goes; - is standard output")
-    ("report", po::value<std::string>()->value_name("FILE"), "machine-readable JSON report; - is standard output")
-    ("threads,j", po::value<unsigned>()->value_name("N"), "worker threads (default: all cores); the output does not depend on it")
-    ("quiet,q", po::bool_switch(), "errors only")
-    ("verbose,v", po::bool_switch(), "debug detail")
-    ("log-format", po::value<std::string>()->value_name("text|json")->default_value("text"), "form of the messages on standard error")
-    ("progress", po::value<std::string>()->value_name("auto|always|never")->default_value("auto"), "auto: a bar on a terminal, nothing in a pipe")
-    ("help,h", po::bool_switch(), "this text");
+  out.add_options()("profile,p", po::value<std::vector<std::string>>()->value_name("FILE"),
+                    "an ini profile; repeatable, a later one overrides an earlier one")(
+      "load", po::value<std::vector<std::string>>()->value_name("FILE"), "the same")(
+      "preset", po::value<std::vector<std::string>>()->value_name("KIND=NAME"),
+      "which preset of a PrusaSlicer bundle: print=NAME, filament=NAME, printer=NAME; repeatable")(
+      "strict", po::bool_switch(), "what a PrusaSlicer profile would lose is an error, not a warning")(
+      "set,s", po::value<std::vector<std::string>>()->value_name("KEY=VALUE"),
+      "one setting; repeatable; overrides every profile. `--key VALUE` does the same")(
+      "output,o", po::value<std::string>()->value_name("PATH"), "where the result goes; - is standard output")(
+      "report", po::value<std::string>()->value_name("FILE"), "machine-readable JSON report; - is standard output")(
+      "threads,j", po::value<unsigned>()->value_name("N"),
+      "worker threads (default: all cores); the output does not depend on it")(
+      "quiet,q", po::bool_switch(), "errors only")("verbose,v", po::bool_switch(), "debug detail")(
+      "log-format", po::value<std::string>()->value_name("text|json")->default_value("text"),
+      "form of the messages on standard error")(
+      "progress", po::value<std::string>()->value_name("auto|always|never")->default_value("auto"),
+      "auto: a bar on a terminal, nothing in a pipe")("help,h", po::bool_switch(), "this text");
   return out;
 }
 
@@ -61,7 +64,8 @@ po::options_description setting_options() {
 std::vector<std::string> normalised(const std::vector<std::string>& words) {
   std::vector<std::string> out;
   for (const auto& word : words) {
-    const bool number = word.size() > 1 && word[0] == '-' && (std::isdigit(static_cast<unsigned char>(word[1])) != 0 || word[1] == '.');
+    const bool number =
+        word.size() > 1 && word[0] == '-' && (std::isdigit(static_cast<unsigned char>(word[1])) != 0 || word[1] == '.');
     if (number && !out.empty() && out.back().rfind("--", 0) == 0 && out.back().find('=') == std::string::npos) {
       out.back() += "=" + word;
     } else if (word.rfind("--", 0) == 0) {
@@ -87,16 +91,21 @@ E choice(const std::string& option, const std::string& text, std::initializer_li
 std::pair<std::string, std::string> assignment(const std::string& text) {
   const auto equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
-    throw Error{Error::Kind::usage, fmt::format("'{}' is not KEY=VALUE", text), "--set", "as in --set layer_height=0.2"};
+    throw Error{Error::Kind::usage, fmt::format("'{}' is not KEY=VALUE", text), "--set",
+                "as in --set layer_height=0.2"};
   return {std::string(value::trimmed(text.substr(0, equals))), text.substr(equals + 1)};
 }
 
 void take_preset(prusaslicer::PresetChoice& presets, const std::string& text) {
   const auto equals = text.find('=');
   const auto kind = text.substr(0, equals);
-  auto* name = kind == "print" ? &presets.print : kind == "filament" ? &presets.filament : kind == "printer" ? &presets.printer : nullptr;
+  auto* name = kind == "print"      ? &presets.print
+               : kind == "filament" ? &presets.filament
+               : kind == "printer"  ? &presets.printer
+                                    : nullptr;
   if (!name || equals == std::string::npos || equals + 1 == text.size())
-    throw Error{Error::Kind::usage, fmt::format("'{}' is not print=NAME, filament=NAME or printer=NAME", text), "--preset"};
+    throw Error{Error::Kind::usage, fmt::format("'{}' is not print=NAME, filament=NAME or printer=NAME", text),
+                "--preset"};
   *name = text.substr(equals + 1);
 }
 
@@ -104,7 +113,8 @@ void take_preset(prusaslicer::PresetChoice& presets, const std::string& text) {
   if (const auto* unknown = dynamic_cast<const po::unknown_option*>(&problem)) {
     const auto name = unknown->get_option_name();
     const auto near = nearest_setting(name.substr(std::min(name.find_first_not_of('-'), name.size())));
-    throw Error{Error::Kind::usage, "unknown option", name, near.empty() ? "see --help" : fmt::format("did you mean --{}?", dashed(near))};
+    throw Error{Error::Kind::usage, "unknown option", name,
+                near.empty() ? "see --help" : fmt::format("did you mean --{}?", dashed(near))};
   }
   throw Error{Error::Kind::usage, problem.what(), {}, "see --help"};
 }
@@ -122,16 +132,21 @@ Command parse_command(const std::vector<std::string>& words, const po::options_d
   Command command;
   try {
     const auto parsed = po::command_line_parser(normalised(words))
-                            .options(all).positional(positional)
-                            .style(po::command_line_style::unix_style & ~po::command_line_style::allow_guessing).run();
+                            .options(all)
+                            .positional(positional)
+                            .style(po::command_line_style::unix_style & ~po::command_line_style::allow_guessing)
+                            .run();
     po::store(parsed, command.options);
     po::notify(command.options);
     for (const auto& option : parsed.options) {
-      if (option.string_key == "set") command.settings.push_back(assignment(option.value.at(0)));
+      if (option.string_key == "set")
+        command.settings.push_back(assignment(option.value.at(0)));
       else if (settings.find_nothrow(option.string_key, false))
         command.settings.emplace_back(option.string_key, option.value.empty() ? "true" : option.value[0]);
-      else if (option.string_key == "profile" || option.string_key == "load") command.profiles.emplace_back(option.value.at(0));
-      else if (option.string_key == "input") command.inputs.push_back(option.value.at(0));
+      else if (option.string_key == "profile" || option.string_key == "load")
+        command.profiles.emplace_back(option.value.at(0));
+      else if (option.string_key == "input")
+        command.inputs.push_back(option.value.at(0));
     }
   } catch (const po::error& problem) {
     rethrow_as_usage(problem);
@@ -141,14 +156,18 @@ Command parse_command(const std::vector<std::string>& words, const po::options_d
   if (o.count("report")) command.report = o["report"].as<std::string>();
   if (o.count("threads")) {
     command.threads = o["threads"].as<unsigned>();
-    if (command.threads == 0 || command.threads > 1024) throw Error{Error::Kind::usage, "must be 1 … 1024", "--threads"};
+    if (command.threads == 0 || command.threads > 1024)
+      throw Error{Error::Kind::usage, "must be 1 … 1024", "--threads"};
   }
   command.import.strict = o["strict"].as<bool>();
   if (o.count("preset"))
     for (const auto& text : o["preset"].as<std::vector<std::string>>()) take_preset(command.import.presets, text);
   command.help = o["help"].as<bool>();
-  command.console.verbosity = o["quiet"].as<bool>() ? Verbosity::quiet : o["verbose"].as<bool>() ? Verbosity::detail : Verbosity::normal;
-  command.console.format = choice<LogFormat>("--log-format", o["log-format"].as<std::string>(), {{"text", LogFormat::text}, {"json", LogFormat::json}});
+  command.console.verbosity = o["quiet"].as<bool>()     ? Verbosity::quiet
+                              : o["verbose"].as<bool>() ? Verbosity::detail
+                                                        : Verbosity::normal;
+  command.console.format = choice<LogFormat>("--log-format", o["log-format"].as<std::string>(),
+                                             {{"text", LogFormat::text}, {"json", LogFormat::json}});
   command.console.progress = choice<ProgressMode>(
       "--progress", o["progress"].as<std::string>(),
       {{"auto", ProgressMode::automatic}, {"always", ProgressMode::always}, {"never", ProgressMode::never}});
@@ -178,7 +197,8 @@ Point parse_point(const std::string& text, const std::string& option) {
   } catch (const std::invalid_argument&) {
     point.clear();
   }
-  if (point.size() != 1) throw Error{Error::Kind::usage, fmt::format("'{}' is not X,Y in mm", text), option, "as in " + option + " 110,110"};
+  if (point.size() != 1)
+    throw Error{Error::Kind::usage, fmt::format("'{}' is not X,Y in mm", text), option, "as in " + option + " 110,110"};
   return point.front();
 }
 

@@ -1,12 +1,13 @@
 #pragma once
-#include <boost/program_options.hpp>
+#include "console.h"
+#include "settings/profile.h"
+
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "console.h"
-#include "settings/profile.h"
+#include <boost/program_options.hpp>
 
 namespace weft::app {
 
@@ -26,7 +27,8 @@ struct Command {
 /// Parses the words behind the verb.
 /// @param verb_options what this verb understands beside the common options
 /// @throws Error{usage} naming the option, with the nearest known one
-Command parse_command(const std::vector<std::string>& words, const boost::program_options::options_description& verb_options);
+Command parse_command(const std::vector<std::string>& words,
+                      const boost::program_options::options_description& verb_options);
 
 /// The help text of the options that every verb understands.
 std::string common_help();

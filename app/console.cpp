@@ -1,21 +1,24 @@
 #include "console.h"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
+
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 namespace weft::app {
 
 Console::Console(ConsoleOptions options) : options_(options) {
   const bool terminal = ::isatty(STDERR_FILENO) == 1;
-  shows_progress_ = options.verbosity != Verbosity::quiet &&
-                    (options.progress == ProgressMode::always || (options.progress == ProgressMode::automatic && terminal));
+  shows_progress_ =
+      options.verbosity != Verbosity::quiet &&
+      (options.progress == ProgressMode::always || (options.progress == ProgressMode::automatic && terminal));
 }
 
-Console::~Console() { wipe_progress(); }
+Console::~Console() {
+  wipe_progress();
+}
 
 void Console::log(std::string_view level, std::string_view message, std::string_view code) {
   wipe_progress();
@@ -31,8 +34,12 @@ void Console::log(std::string_view level, std::string_view message, std::string_
   }
 }
 
-void Console::error(const Error& error) { log("error", error.what()); }
-void Console::internal_error(std::string_view what) { log("error", fmt::format("internal error: {}; this is a bug, please report it", what)); }
+void Console::error(const Error& error) {
+  log("error", error.what());
+}
+void Console::internal_error(std::string_view what) {
+  log("error", fmt::format("internal error: {}; this is a bug, please report it", what));
+}
 void Console::warning(const Notice& notice) {
   if (options_.verbosity != Verbosity::quiet) log("warning", notice.message, notice.code);
 }
@@ -50,7 +57,8 @@ void Console::progress(std::string_view stage, double share) {
   last_shown_ = now;
   shown_share_ = share;
   if (options_.format == LogFormat::json) {
-    fmt::print(stderr, "{}\n", nlohmann::ordered_json{{"level", "progress"}, {"stage", stage}, {"share", share}}.dump());
+    fmt::print(stderr, "{}\n",
+               nlohmann::ordered_json{{"level", "progress"}, {"stage", stage}, {"share", share}}.dump());
     return;
   }
   draw_bar(share, stage);
@@ -58,7 +66,8 @@ void Console::progress(std::string_view stage, double share) {
 
 void Console::progress_of(double share, std::string_view words, std::string_view facts) {
   const bool json = options_.format == LogFormat::json;
-  const bool wanted = json ? options_.progress != ProgressMode::never && options_.verbosity != Verbosity::quiet : shows_progress_;
+  const bool wanted =
+      json ? options_.progress != ProgressMode::never && options_.verbosity != Verbosity::quiet : shows_progress_;
   const auto now = std::chrono::steady_clock::now();
   if (!wanted || now - last_shown_ < std::chrono::milliseconds(json ? 1000 : 100)) return;
   last_shown_ = now;
@@ -72,7 +81,8 @@ void Console::draw_bar(double share, std::string_view words) {
   constexpr int cells = 30;
   const int full = static_cast<int>(std::clamp(share, 0.0, 1.0) * cells);
   fmt::print(stderr, "\r[{:#>{}}{:.>{}}] {:3.0f} % {:<12}", "", full, "", cells - full, share * 100, words);
-  if (words.size() < last_words_) fmt::print(stderr, "{:{}}", "", last_words_ - words.size());  // nothing of the longer line stays
+  if (words.size() < last_words_)
+    fmt::print(stderr, "{:{}}", "", last_words_ - words.size());  // nothing of the longer line stays
   last_words_ = words.size();
   std::fflush(stderr);
   progress_on_screen_ = true;

@@ -1,10 +1,10 @@
 #pragma once
+#include "core/error.h"
+#include "core/notice.h"
+
 #include <chrono>
 #include <string>
 #include <string_view>
-
-#include "core/error.h"
-#include "core/notice.h"
 
 namespace weft::app {
 
@@ -35,8 +35,8 @@ class Console {
 
   /// Shows `share` (0 … 1, never falling) of the work as done; at most ten times a second.
   void progress(std::string_view stage, double share);
-  /// The same with words of one's own behind the bar, or with facts (a JSON object) for --log-format json, where it is told
-  /// once a second and whatever --progress says unless it is never.
+  /// The same with words of one's own behind the bar, or with facts (a JSON object) for --log-format json, where it is
+  /// told once a second and whatever --progress says unless it is never.
   void progress_of(double share, std::string_view words, std::string_view facts);
 
  private:

@@ -1,12 +1,12 @@
-#include <fmt/format.h>
-
-#include <cstdio>
-#include <nlohmann/json.hpp>
-#include <sstream>
-
 #include "command.h"
 #include "mesh/read.h"
 #include "verbs.h"
+
+#include <cstdio>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace po = boost::program_options;
 
@@ -19,7 +19,8 @@ Json facts_of(const mesh::Object& object) {
   const auto box = box_of(object.mesh);
   const auto size = box.size();
   Json repairs = Json::array();
-  for (const auto& notice : mesh::notices_of(object.repairs, object.name.empty() ? "object" : object.name)) repairs.push_back(notice.message);
+  for (const auto& notice : mesh::notices_of(object.repairs, object.name.empty() ? "object" : object.name))
+    repairs.push_back(notice.message);
   return {{"name", object.name},
           {"triangles", object.mesh.triangles.size()},
           {"vertices", object.mesh.vertices.size()},
@@ -33,19 +34,22 @@ Json facts_of(const mesh::Object& object) {
 Json facts_of(const mesh::Loaded& loaded) {
   Json objects = Json::array();
   for (const auto& object : loaded.objects) objects.push_back(facts_of(object));
-  return {{"file", loaded.path}, {"format", mesh::name_of(loaded.format)}, {"sha256", loaded.sha256}, {"unit", loaded.unit},
-          {"triangles_in_file", loaded.triangles_in_file}, {"objects", std::move(objects)}};
+  return {{"file", loaded.path}, {"format", mesh::name_of(loaded.format)},        {"sha256", loaded.sha256},
+          {"unit", loaded.unit}, {"triangles_in_file", loaded.triangles_in_file}, {"objects", std::move(objects)}};
 }
 
 std::string as_text(const Json& model) {
-  std::string out = fmt::format("{}: {}, {} triangles in the file, unit {}\n  sha256 {}\n", model["file"].get<std::string>(), model["format"].get<std::string>(),
-                                model["triangles_in_file"].get<std::size_t>(), model["unit"].get<std::string>(), model["sha256"].get<std::string>());
+  std::string out =
+      fmt::format("{}: {}, {} triangles in the file, unit {}\n  sha256 {}\n", model["file"].get<std::string>(),
+                  model["format"].get<std::string>(), model["triangles_in_file"].get<std::size_t>(),
+                  model["unit"].get<std::string>(), model["sha256"].get<std::string>());
   for (const auto& o : model["objects"]) {
     const auto name = o["name"].get<std::string>();
-    out += fmt::format("  {}: {:.3f} x {:.3f} x {:.3f} mm, from ({:.3f}, {:.3f}, {:.3f}), {:.2f} mm³, {} triangles, {} vertices\n",
-                       name.empty() ? "object" : name, o["size"][0].get<double>(), o["size"][1].get<double>(), o["size"][2].get<double>(),
-                       o["min"][0].get<double>(), o["min"][1].get<double>(), o["min"][2].get<double>(), o["volume_mm3"].get<double>(),
-                       o["triangles"].get<std::size_t>(), o["vertices"].get<std::size_t>());
+    out += fmt::format(
+        "  {}: {:.3f} x {:.3f} x {:.3f} mm, from ({:.3f}, {:.3f}, {:.3f}), {:.2f} mm³, {} triangles, {} vertices\n",
+        name.empty() ? "object" : name, o["size"][0].get<double>(), o["size"][1].get<double>(),
+        o["size"][2].get<double>(), o["min"][0].get<double>(), o["min"][1].get<double>(), o["min"][2].get<double>(),
+        o["volume_mm3"].get<double>(), o["triangles"].get<std::size_t>(), o["vertices"].get<std::size_t>());
     if (o["repairs"].empty()) out += "    closed and sound: nothing to repair\n";
     for (const auto& repair : o["repairs"]) out += fmt::format("    {}\n", repair.get<std::string>());
   }
@@ -56,7 +60,8 @@ std::string as_text(const Json& model) {
 
 int inspect(const Words& words) {
   po::options_description none("Options of weft inspect");
-  none.add_options()("format", po::value<std::string>()->value_name("text|json")->default_value("text"), "form of the facts");
+  none.add_options()("format", po::value<std::string>()->value_name("text|json")->default_value("text"),
+                     "form of the facts");
   const auto command = parse_command(words, none);
   if (command.help) {
     std::ostringstream out;
@@ -65,12 +70,15 @@ int inspect(const Words& words) {
   }
   if (command.inputs.empty()) throw Error{Error::Kind::usage, "no model was given", "weft inspect"};
   const auto format = command.options["format"].as<std::string>();
-  if (format != "text" && format != "json") throw Error{Error::Kind::usage, fmt::format("'{}' is not one of text, json", format), "--format"};
+  if (format != "text" && format != "json")
+    throw Error{Error::Kind::usage, fmt::format("'{}' is not one of text, json", format), "--format"};
   Json models = Json::array();
   for (const auto& path : command.inputs) models.push_back(facts_of(mesh::read_file(path)));
   std::string out;
-  if (format == "json") out = models.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-  else for (const auto& model : models) out += as_text(model);
+  if (format == "json")
+    out = models.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  else
+    for (const auto& model : models) out += as_text(model);
   write_output(command.output.value_or("-"), out);
   if (command.report) write_output(*command.report, models.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   return 0;

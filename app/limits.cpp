@@ -2,10 +2,6 @@
 
 #include "jobs/memory.h"
 
-#include <fmt/format.h>
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
@@ -13,6 +9,10 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 namespace weft::app {
 namespace {
@@ -25,7 +25,9 @@ void note(Reached what) {
   auto expected = Reached::nothing;
   reached_first.compare_exchange_strong(expected, what);
 }
-extern "C" void note_signal(int) { note(Reached::signal); }
+extern "C" void note_signal(int) {
+  note(Reached::signal);
+}
 
 }  // namespace
 
@@ -59,10 +61,11 @@ bool Limits::reached() const {
 Error Limits::error() const {
   switch (reached_first.load()) {
     case Reached::timeout:
-      return {Error::Kind::interrupted, fmt::format("stopped after {:g} s; nothing was written", timeout_s_), "--timeout", "give it more time, or a coarser layer_height"};
+      return {Error::Kind::interrupted, fmt::format("stopped after {:g} s; nothing was written", timeout_s_),
+              "--timeout", "give it more time, or a coarser layer_height"};
     case Reached::memory:
-      return {Error::Kind::interrupted, fmt::format("stopped above {:g} MB; nothing was written", max_memory_mb_), "--max-memory",
-              "give it more memory, or a coarser mesh or layer_height"};
+      return {Error::Kind::interrupted, fmt::format("stopped above {:g} MB; nothing was written", max_memory_mb_),
+              "--max-memory", "give it more memory, or a coarser mesh or layer_height"};
     default:
       return {Error::Kind::interrupted, "interrupted", {}, "nothing was written"};
   }
@@ -112,7 +115,8 @@ void explain_termination() {
     // What the thread library throws away is no longer there to be asked; a limit on memory makes it the likely cause.
     rlimit limit{};
     const bool limited = ::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
-    const std::string_view text = limited ? "weft: error: the memory that the system grants is used up; nothing was written; raise the limit, or use fewer threads with -j\n"
+    const std::string_view text = limited ? "weft: error: the memory that the system grants is used up; nothing was "
+                                            "written; raise the limit, or use fewer threads with -j\n"
                                           : "weft: internal error: terminated; this is a bug, please report it\n";
     if (::write(STDERR_FILENO, text.data(), text.size()) < 0) std::_Exit(1);
     std::_Exit(limited ? exit_status(Error::Kind::interrupted) : 1);

@@ -1,4 +1,7 @@
 #pragma once
+#include "core/error.h"
+#include "pipeline/report.h"
+
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -7,9 +10,6 @@
 #include <optional>
 #include <string>
 #include <thread>
-
-#include "core/error.h"
-#include "pipeline/report.h"
 
 namespace weft::app {
 
@@ -65,8 +65,8 @@ class Watchdog {
   std::thread thread_;
 };
 
-/// Makes std::terminate say what happened where the system refused memory or a thread while one was being made, which the
-/// thread library does not report otherwise: an error of one line and status 130; 1 for anything else.
+/// Makes std::terminate say what happened where the system refused memory or a thread while one was being made, which
+/// the thread library does not report otherwise: an error of one line and status 130; 1 for anything else.
 void explain_termination();
 
 }  // namespace weft::app

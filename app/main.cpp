@@ -1,14 +1,14 @@
-#include <fmt/format.h>
+#include "command.h"
+#include "core/version.h"
+#include "limits.h"
+#include "verbs.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
 
-#include "command.h"
-#include "core/version.h"
-#include "limits.h"
-#include "verbs.h"
+#include <fmt/format.h>
 
 namespace {
 using namespace weft;
@@ -16,8 +16,10 @@ using namespace weft::app;
 
 std::string overview() {
   std::string out = "weft: turns triangle meshes and ini profiles into audited G-code\n\n";
-  for (const auto& verb : verbs) out += fmt::format("  weft {:<9} {}\n{:17}{}\n", verb.name, verb.usage, "", verb.purpose);
-  return out + "\n" + common_help() + "\nEvery setting is an option too, as in --layer-height 0.2; `weft settings` lists them.\n";
+  for (const auto& verb : verbs)
+    out += fmt::format("  weft {:<9} {}\n{:17}{}\n", verb.name, verb.usage, "", verb.purpose);
+  return out + "\n" + common_help() +
+         "\nEvery setting is an option too, as in --layer-height 0.2; `weft settings` lists them.\n";
 }
 
 const Verb* find_verb(const std::string& name) {
@@ -43,7 +45,8 @@ int run(Words words) {
 Console early_console(const Words& words) {
   ConsoleOptions options;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i] == "--log-format=json" || (words[i] == "--log-format" && i + 1 < words.size() && words[i + 1] == "json"))
+    if (words[i] == "--log-format=json" ||
+        (words[i] == "--log-format" && i + 1 < words.size() && words[i + 1] == "json"))
       options.format = LogFormat::json;
     if (words[i] == "-q" || words[i] == "--quiet") options.verbosity = Verbosity::quiet;
   }

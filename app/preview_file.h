@@ -1,8 +1,8 @@
 #pragma once
+#include "preview/preview.h"
+
 #include <string>
 #include <string_view>
-
-#include "preview/preview.h"
 
 namespace weft::app {
 
@@ -10,6 +10,7 @@ namespace weft::app {
 preview::Kind preview_kind(const std::string& destination);
 
 /// Draws finished G-code to a file of that kind. @throws Error{file}, Error{usage}
-void write_preview(const std::string& destination, std::string_view gcode, Um filament_diameter, const std::string& title);
+void write_preview(const std::string& destination, std::string_view gcode, Um filament_diameter,
+                   const std::string& title);
 
 }  // namespace weft::app

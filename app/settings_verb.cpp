@@ -1,13 +1,13 @@
-#include <fmt/format.h>
-
-#include <cstdio>
-#include <nlohmann/json.hpp>
-
 #include "command.h"
 #include "core/join.h"
 #include "labels.h"
 #include "settings/catalogue.h"
 #include "verbs.h"
+
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace po = boost::program_options;
 
@@ -17,13 +17,16 @@ namespace {
 std::string range_of(const CatalogueEntry& e) {
   if (!e.choices.empty()) return joined(e.choices, " | ");
   if (e.least.empty()) return e.type == "flag" ? "true | false" : std::string(e.type);
-  return fmt::format("{} … {}{}{}{}", e.least, e.most, e.unit.empty() ? "" : " ", e.unit, e.automatic ? ", or auto" : "");
+  return fmt::format("{} … {}{}{}{}", e.least, e.most, e.unit.empty() ? "" : " ", e.unit,
+                     e.automatic ? ", or auto" : "");
 }
 
 std::string as_json(const std::vector<const CatalogueEntry*>& entries, const Labels& labels) {
   auto out = nlohmann::ordered_json::array();
   for (const auto* e : entries) {
-    nlohmann::ordered_json row{{"key", e->key}, {"label", labels.of(e->key)}, {"section", e->section}, {"type", e->type}, {"unit", e->unit}, {"default", e->default_text}};
+    nlohmann::ordered_json row{{"key", e->key},         {"label", labels.of(e->key)},
+                               {"section", e->section}, {"type", e->type},
+                               {"unit", e->unit},       {"default", e->default_text}};
     if (!e->least.empty()) row["min"] = e->least, row["max"] = e->most;
     if (!e->choices.empty()) row["choices"] = e->choices;
     row["auto"] = e->automatic;
@@ -40,12 +43,13 @@ std::string as_markdown(const std::vector<const CatalogueEntry*>& entries, const
   for (const auto* e : entries) {
     if (e->section != section) {
       section = e->section;
-      out += fmt::format("{}## {}\n\n| key |{} default | range | meaning |\n|---|{}---|---|---|\n", out.empty() ? "" : "\n", section,
-                         labels ? " label |" : "", labels ? "---|" : "");
+      out += fmt::format("{}## {}\n\n| key |{} default | range | meaning |\n|---|{}---|---|---|\n",
+                         out.empty() ? "" : "\n", section, labels ? " label |" : "", labels ? "---|" : "");
     }
     std::string range = range_of(*e);
     for (auto at = range.find('|'); at != std::string::npos; at = range.find('|', at + 2)) range.replace(at, 1, "\\|");
-    out += fmt::format("| `{}` |{} {} | {} | {} |\n", e->key, labels ? fmt::format(" {} |", labels->of(e->key)) : "", e->default_text, range, e->meaning);
+    out += fmt::format("| `{}` |{} {} | {} | {} |\n", e->key, labels ? fmt::format(" {} |", labels->of(e->key)) : "",
+                       e->default_text, range, e->meaning);
   }
   return out;
 }
@@ -54,8 +58,10 @@ std::string as_plain(const std::vector<const CatalogueEntry*>& entries, const La
   std::string out, section;
   for (const auto* e : entries) {
     if (e->section != section) out += fmt::format("{}[{}]\n", out.empty() ? "" : "\n", section = e->section);
-    out += fmt::format("{} = {}{}{}\n    {}{} ({})\n", e->key, e->default_text, e->unit.empty() || e->unit == "%" || e->default_text == "auto" ? "" : " ",
-                       e->unit == "%" || e->default_text == "auto" ? "" : e->unit, labels ? labels->of(e->key) + ": " : "", e->meaning, range_of(*e));
+    out += fmt::format("{} = {}{}{}\n    {}{} ({})\n", e->key, e->default_text,
+                       e->unit.empty() || e->unit == "%" || e->default_text == "auto" ? "" : " ",
+                       e->unit == "%" || e->default_text == "auto" ? "" : e->unit,
+                       labels ? labels->of(e->key) + ": " : "", e->meaning, range_of(*e));
   }
   return out;
 }
@@ -64,8 +70,9 @@ std::string as_plain(const std::vector<const CatalogueEntry*>& entries, const La
 
 int settings(const Words& words) {
   po::options_description options("Options of weft settings");
-  options.add_options()("format", po::value<std::string>()->value_name("text|json|markdown")->default_value("text"), "form of the list")(
-      "lang", po::value<std::string>()->value_name("LANGUAGE"), "names settings in en, fr, ja, zh_CN or zh_TW");
+  options.add_options()("format", po::value<std::string>()->value_name("text|json|markdown")->default_value("text"),
+                        "form of the list")("lang", po::value<std::string>()->value_name("LANGUAGE"),
+                                            "names settings in en, fr, ja, zh_CN or zh_TW");
   const auto command = parse_command(words, options);
   if (command.help) {
     std::ostringstream out;
@@ -78,7 +85,11 @@ int settings(const Words& words) {
   for (const auto& key : command.inputs) {
     const auto* e = find_setting(key);
     const auto near = nearest_setting(key);
-    if (!e) throw Error{Error::Kind::settings, fmt::format("unknown setting '{}'", key), {}, near.empty() ? "" : fmt::format("did you mean '{}'?", near)};
+    if (!e)
+      throw Error{Error::Kind::settings,
+                  fmt::format("unknown setting '{}'", key),
+                  {},
+                  near.empty() ? "" : fmt::format("did you mean '{}'?", near)};
     entries.push_back(e);
   }
   const auto format = command.options["format"].as<std::string>();

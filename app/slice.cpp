@@ -1,11 +1,3 @@
-#include <fmt/format.h>
-
-#include <csignal>
-#include <cmath>
-#include <map>
-#include <new>
-#include <sstream>
-
 #include "batch_run.h"
 #include "command.h"
 #include "core/figures.h"
@@ -16,6 +8,14 @@
 #include "preview_file.h"
 #include "verbs.h"
 
+#include <cmath>
+#include <csignal>
+#include <map>
+#include <new>
+#include <sstream>
+
+#include <fmt/format.h>
+
 namespace po = boost::program_options;
 
 namespace weft::app {
@@ -23,19 +23,21 @@ namespace {
 
 po::options_description slice_options() {
   po::options_description out("Options of weft slice");
-  out.add_options()
-    ("center", po::value<std::string>()->value_name("X,Y"), "put the centre of the models' bounding box there (default: centre of the bed)")
-    ("keep-position", po::bool_switch(), "keep the coordinates of the file")
-    ("scale", po::value<std::string>()->value_name("F"), "uniform scale: 2, 0.5, 25.4 or 50%")
-    ("rotate", po::value<double>()->value_name("DEG")->default_value(0.0, "0"), "rotation about Z, counter-clockwise")
-    ("copies", po::value<int>()->value_name("N")->default_value(1), "N copies, arranged on the bed")
-    ("spacing", po::value<double>()->value_name("MM")->default_value(6.0, "6"), "between copies, and between models")
-    ("duplicate", po::value<int>()->value_name("N"), "the same")
-    ("audit", po::value<std::string>()->value_name("reject|annotate")->default_value("reject"),
-     "what the boundary audit does with a move outside the build volume. It cannot be turned off")
-    ("timeout", po::value<double>()->value_name("S")->default_value(0, "none"), "stop after so many seconds, with status 130 and a report of what was done")
-    ("max-memory", po::value<double>()->value_name("MB")->default_value(0, "none"), "stop above so much resident memory, in the same way")
-    ("preview", po::value<std::string>()->value_name("FILE"), "also write a preview (html, svg or png)");
+  out.add_options()("center", po::value<std::string>()->value_name("X,Y"),
+                    "put the centre of the models' bounding box there (default: centre of the bed)")(
+      "keep-position", po::bool_switch(), "keep the coordinates of the file")(
+      "scale", po::value<std::string>()->value_name("F"), "uniform scale: 2, 0.5, 25.4 or 50%")(
+      "rotate", po::value<double>()->value_name("DEG")->default_value(0.0, "0"), "rotation about Z, counter-clockwise")(
+      "copies", po::value<int>()->value_name("N")->default_value(1), "N copies, arranged on the bed")(
+      "spacing", po::value<double>()->value_name("MM")->default_value(6.0, "6"), "between copies, and between models")(
+      "duplicate", po::value<int>()->value_name("N"), "the same")(
+      "audit", po::value<std::string>()->value_name("reject|annotate")->default_value("reject"),
+      "what the boundary audit does with a move outside the build volume. It cannot be turned off")(
+      "timeout", po::value<double>()->value_name("S")->default_value(0, "none"),
+      "stop after so many seconds, with status 130 and a report of what was done")(
+      "max-memory", po::value<double>()->value_name("MB")->default_value(0, "none"),
+      "stop above so much resident memory, in the same way")("preview", po::value<std::string>()->value_name("FILE"),
+                                                             "also write a preview (html, svg or png)");
   add_cache_options(out);
   return out;
 }
@@ -51,7 +53,8 @@ double parse_scale(std::string text) {
   }
   if (percent) factor /= 100;
   if (!(factor >= 1e-6 && factor <= 1e6))
-    throw Error{Error::Kind::usage, fmt::format("'{}' is not a factor above 0", text), "--scale", "as in --scale 2 or --scale 50%"};
+    throw Error{Error::Kind::usage, fmt::format("'{}' is not a factor above 0", text), "--scale",
+                "as in --scale 2 or --scale 50%"};
   return factor;
 }
 
@@ -59,16 +62,19 @@ Placement placement_of(const po::variables_map& o) {
   Placement p;
   if (o.count("center")) p.centre = parse_point(o["center"].as<std::string>(), "--center");
   p.keep_position = o["keep-position"].as<bool>();
-  if (p.keep_position && p.centre) throw Error{Error::Kind::usage, "contradicts --center", "--keep-position", "give one of the two"};
+  if (p.keep_position && p.centre)
+    throw Error{Error::Kind::usage, "contradicts --center", "--keep-position", "give one of the two"};
   if (o.count("scale")) p.scale = parse_scale(o["scale"].as<std::string>());
   p.rotate_deg = o["rotate"].as<double>();
   if (!(std::abs(p.rotate_deg) <= 36000)) throw Error{Error::Kind::usage, "must be an angle in degrees", "--rotate"};
   p.copies = o.count("duplicate") ? o["duplicate"].as<int>() : o["copies"].as<int>();
-  if (p.copies < 1 || p.copies > 10000) throw Error{Error::Kind::usage, fmt::format("{} is outside 1 … 10000", p.copies), "--copies"};
+  if (p.copies < 1 || p.copies > 10000)
+    throw Error{Error::Kind::usage, fmt::format("{} is outside 1 … 10000", p.copies), "--copies"};
   const double spacing_mm = o["spacing"].as<double>();
   if (!(spacing_mm >= 0 && spacing_mm <= 1000)) throw Error{Error::Kind::usage, "must be 0 … 1000 mm", "--spacing"};
   p.spacing = from_mm(spacing_mm);
-  if (p.copies > 1 && p.keep_position) throw Error{Error::Kind::usage, "contradicts --copies", "--keep-position", "copies are arranged on the bed"};
+  if (p.copies > 1 && p.keep_position)
+    throw Error{Error::Kind::usage, "contradicts --copies", "--keep-position", "copies are arranged on the bed"};
   return p;
 }
 
@@ -81,7 +87,8 @@ Job job_of(const Command& command, const Settings& settings) {
   job.hash_gcode = command.report.has_value();
   const auto mode = command.options["audit"].as<std::string>();
   if (mode != "reject" && mode != "annotate")
-    throw Error{Error::Kind::usage, fmt::format("'{}' is not one of reject, annotate", mode), "--audit", "the audit cannot be turned off"};
+    throw Error{Error::Kind::usage, fmt::format("'{}' is not one of reject, annotate", mode), "--audit",
+                "the audit cannot be turned off"};
   job.audit = mode == "reject" ? audit::Mode::reject : audit::Mode::annotate;
   return job;
 }
@@ -105,23 +112,28 @@ void say_last(const Command& command, const Error& error, Report known) {
 /// The value of an option that limits something. @throws Error{usage}
 double limit_of(const po::variables_map& options, const std::string& name) {
   const double value = options[name].as<double>();
-  if (!(value >= 0 && value <= 1e9)) throw Error{Error::Kind::usage, fmt::format("{:g} is outside 0 … 1e9", value), "--" + name, "0 is no limit"};
+  if (!(value >= 0 && value <= 1e9))
+    throw Error{Error::Kind::usage, fmt::format("{:g} is outside 0 … 1e9", value), "--" + name, "0 is no limit"};
   return value;
 }
 
-/// The first `most` of each kind, and how many more there are: thousands of layers must not bury what matters. The report
-/// has them all.
+/// The first `most` of each kind, and how many more there are: thousands of layers must not bury what matters. The
+/// report has them all.
 void warn(Console& console, const Notices& notices, std::size_t most) {
   std::map<std::string, std::size_t> said;
   for (const auto& notice : notices)
     if (++said[notice.code] <= most) console.warning(notice);
   for (const auto& [code, count] : said)
-    if (count > most) console.warning({code, fmt::format("{} more of the kind {}; -v shows them, --report lists them", count - most, code)});
+    if (count > most)
+      console.warning(
+          {code, fmt::format("{} more of the kind {}; -v shows them, --report lists them", count - most, code)});
 }
 
 std::string summary(const Report& r) {
-  return fmt::format("{} layers, {:.2f} mm high, {} to print, {:.2f} m of filament ({:.1f} g); audit: {}, {} moves checked", r.layers, r.height_mm,
-                     short_duration(r.print_time_s), r.filament_mm / 1000, r.filament_g, r.audit.verdict, r.audit.checked_moves);
+  return fmt::format(
+      "{} layers, {:.2f} mm high, {} to print, {:.2f} m of filament ({:.1f} g); audit: {}, {} moves checked", r.layers,
+      r.height_mm, short_duration(r.print_time_s), r.filament_mm / 1000, r.filament_g, r.audit.verdict,
+      r.audit.checked_moves);
 }
 
 }  // namespace
@@ -134,10 +146,15 @@ int slice(const Words& words) {
     out << "weft slice MODEL... -p PROFILE [-s KEY=VALUE]... -o OUT.gcode\n\n" << options << "\n" << common_help();
     return fmt::print("{}", out.str()), 0;
   }
-  if (command.inputs.empty()) throw Error{Error::Kind::usage, "no model was given", "weft slice", "as in weft slice part.stl -p printer.ini -o part.gcode"};
-  if (!command.output) throw Error{Error::Kind::usage, "where should the G-code go?", "weft slice", "add -o OUT.gcode, or -o - for standard output"};
+  if (command.inputs.empty())
+    throw Error{Error::Kind::usage, "no model was given", "weft slice",
+                "as in weft slice part.stl -p printer.ini -o part.gcode"};
+  if (!command.output)
+    throw Error{Error::Kind::usage, "where should the G-code go?", "weft slice",
+                "add -o OUT.gcode, or -o - for standard output"};
   if (command.output == "-" && command.report == "-")
-    throw Error{Error::Kind::usage, "G-code and report cannot both go to standard output", "--report", "name a file for one of them"};
+    throw Error{Error::Kind::usage, "G-code and report cannot both go to standard output", "--report",
+                "name a file for one of them"};
 
   const auto preview = command.options.count("preview") ? command.options["preview"].as<std::string>() : std::string();
   if (!preview.empty()) (void)preview_kind(preview);  // refused before the work, not after it
@@ -184,7 +201,8 @@ int slice(const Words& words) {
     return 0;
   } catch (const std::bad_alloc&) {
     watchdog.dismiss();
-    throw failed({Error::Kind::interrupted, "the machine's memory is used up", command.inputs.front(), "nothing was written; try a coarser mesh or layer_height, or fewer copies"});
+    throw failed({Error::Kind::interrupted, "the machine's memory is used up", command.inputs.front(),
+                  "nothing was written; try a coarser mesh or layer_height, or fewer copies"});
   } catch (const Error& error) {
     watchdog.dismiss();
     if (report.status == Report::Status::rejected) throw;

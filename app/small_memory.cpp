@@ -1,14 +1,15 @@
 /// Memory for small things: operator new and delete of the program.
 ///
-/// A layer takes and frees some ten thousand pieces of up to 200 bytes: points of a clipper, vertices of a line. Here they
-/// lie in pages of pieces of one size. A thread takes pieces from pages of its own, without a lock, and puts them back
-/// there; what another thread gives back waits in a list of the page until its owner runs short. A page without pieces in
-/// use is any thread's again, and goes to the system when many are idle. Pieces have no head, and small ones that
-/// live long do not keep what lies around them, as they do in glibc's heap: it takes 5 % of the time of a slice more.
+/// A layer takes and frees some ten thousand pieces of up to 200 bytes: points of a clipper, vertices of a line. Here
+/// they lie in pages of pieces of one size. A thread takes pieces from pages of its own, without a lock, and puts them
+/// back there; what another thread gives back waits in a list of the page until its owner runs short. A page without
+/// pieces in use is any thread's again, and goes to the system when many are idle. Pieces have no head, and small ones
+/// that live long do not keep what lies around them, as they do in glibc's heap: it takes 5 % of the time of a slice
+/// more.
 ///
-/// All pages lie in one range of addresses, by which operator delete knows its own. What is larger, and everything where
-/// the system grants no range, is malloc's. Source of the pages' lists: Leijen, Zorn & de Moura 2019, "Mimalloc: free list
-/// sharding in action".
+/// All pages lie in one range of addresses, by which operator delete knows its own. What is larger, and everything
+/// where the system grants no range, is malloc's. Source of the pages' lists: Leijen, Zorn & de Moura 2019, "Mimalloc:
+/// free list sharding in action".
 ///
 /// Not where a sanitizer watches memory: it has operators of its own.
 
@@ -36,12 +37,12 @@
 
 namespace {
 
-constexpr std::size_t step = 16;                    ///< bytes; sizes of pieces are multiples of it: they are aligned
-constexpr std::size_t kinds = 16;                   ///< of sizes: up to 256 bytes
-constexpr std::size_t page_bytes = 4096;            ///< the least that the system takes back
+constexpr std::size_t step = 16;          ///< bytes; sizes of pieces are multiples of it: they are aligned
+constexpr std::size_t kinds = 16;         ///< of sizes: up to 256 bytes
+constexpr std::size_t page_bytes = 4096;  ///< the least that the system takes back
 constexpr std::size_t most_bytes = std::size_t{4} << 30;  ///< of addresses, which cost nothing
-constexpr std::size_t head_bytes = 64;              ///< of a page
-constexpr std::size_t idle_pages = 16;              ///< may be kept, and of those that were ever used this share:
+constexpr std::size_t head_bytes = 64;                    ///< of a page
+constexpr std::size_t idle_pages = 16;                    ///< may be kept, and of those that were ever used this share:
 constexpr std::size_t idle_share = 64;
 
 struct Piece {
@@ -97,7 +98,8 @@ class Range {
 
   void give(Page* memory) {
     const std::lock_guard lock(mutex_);
-    const std::size_t page = (reinterpret_cast<std::uintptr_t>(memory) - base_.load(std::memory_order_relaxed)) / page_bytes;
+    const std::size_t page =
+        (reinterpret_cast<std::uintptr_t>(memory) - base_.load(std::memory_order_relaxed)) / page_bytes;
     idle_[page / 64] |= bit_of(page);
     dirty_[page / 64] |= bit_of(page);
     first_ = std::min(first_, page / 64);
@@ -172,14 +174,16 @@ struct Heap {
     Piece* const piece = page->free;
     page->free = piece->next;
     ++page->used;
-    if (page->free == nullptr) [[unlikely]] unlist(page);
+    if (page->free == nullptr) [[unlikely]]
+      unlist(page);
     return piece;
   }
 
   void give(Page* page, void* memory) {
     page->free = new (memory) Piece{page->free};
     --page->used;
-    if (!page->listed || page->used == 0) [[unlikely]] has_room(page);
+    if (!page->listed || page->used == 0) [[unlikely]]
+      has_room(page);
   }
 
  private:
@@ -203,8 +207,8 @@ struct Heap {
     range.give(page);
   }
 
-  /// Takes over what other threads have returned. A page cannot go while they may still reach it: a piece that they hold is
-  /// in use.
+  /// Takes over what other threads have returned. A page cannot go while they may still reach it: a piece that they
+  /// hold is in use.
   void collect() {
     for (Page* page = returned.exchange(nullptr, std::memory_order_acquire); page != nullptr;) {
       Page* const next = page->next_returned;  // from the exchange on the page may be put into the list anew
@@ -222,8 +226,8 @@ struct Heap {
   bool add_page(std::size_t kind) {
     void* const memory = range.take();
     if (memory == nullptr) return false;
-    Page* const page = new (memory)
-        Page{this, nullptr, nullptr, nullptr, nullptr, nullptr, 0, static_cast<std::uint8_t>(kind), false};
+    Page* const page =
+        new (memory) Page{this, nullptr, nullptr, nullptr, nullptr, nullptr, 0, static_cast<std::uint8_t>(kind), false};
     const std::size_t bytes = (kind + 1) * step;
     for (std::size_t at = head_bytes + (page_bytes - head_bytes) / bytes * bytes; at > head_bytes;) {
       at -= bytes;
@@ -270,7 +274,8 @@ Heap* find_heap() {
 /// Of a piece of another thread's page. Who returns the first piece puts the page on its owner's list.
 void return_to_owner(Page* page, void* memory) {
   Piece* const piece = new (memory) Piece{page->returned.load(std::memory_order_relaxed)};
-  Heap* const owner = page->owner;  // until the piece is returned the page cannot go, and after that only its owner may look
+  Heap* const owner =
+      page->owner;  // until the piece is returned the page cannot go, and after that only its owner may look
   Piece* before = piece->next;
   while (!page->returned.compare_exchange_weak(before, piece, std::memory_order_acq_rel, std::memory_order_relaxed))
     piece->next = before;

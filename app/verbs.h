@@ -28,12 +28,14 @@ inline constexpr std::array verbs{
     Verb{"slice", slice, "MODEL... -p PROFILE [-s KEY=VALUE]... -o OUT.gcode", "turn models into audited G-code"},
     Verb{"audit", audit_verb, "FILE.gcode... -p PROFILE", "check any slicer's G-code against a build volume"},
     Verb{"batch", batch, "JOBS -p PROFILE -o DIR", "many independent slice jobs: a list, a folder or a pattern"},
-    Verb{"sweep", sweep, "MODEL -p PROFILE --vary KEY=V1,V2,... -o DIR", "one model with many settings, compared on a page"},
+    Verb{"sweep", sweep, "MODEL -p PROFILE --vary KEY=V1,V2,... -o DIR",
+         "one model with many settings, compared on a page"},
     Verb{"verify", verify, "FILE.gcode [MODEL...]", "slice again from what the file says of itself, and compare"},
     Verb{"preview", preview, "FILE.gcode -o OUT.(html|svg|png)", "look at toolpaths"},
     Verb{"inspect", inspect, "MODEL...", "mesh facts and what a repair would do"},
     Verb{"profile", profile, "check|import|show FILE...", "validate, translate from PrusaSlicer, print resolved"},
-    Verb{"settings", settings, "[--format text|json|markdown] [KEY...]", "every setting: type, unit, default, range, meaning"},
+    Verb{"settings", settings, "[--format text|json|markdown] [KEY...]",
+         "every setting: type, unit, default, range, meaning"},
 };
 
 }  // namespace weft::app

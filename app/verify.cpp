@@ -1,9 +1,3 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <filesystem>
-#include <sstream>
-
 #include "command.h"
 #include "core/hash.h"
 #include "core/version.h"
@@ -12,13 +6,20 @@
 #include "pipeline/provenance.h"
 #include "verbs.h"
 
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+#include <fmt/format.h>
+
 namespace po = boost::program_options;
 
 namespace weft::app {
 namespace {
 
 /// The model of that name and content: among those the user names, else beside the G-code, else in the folder at hand.
-std::string find_model(const Provenance::Model& wanted, const std::vector<std::string>& named, const std::filesystem::path& gcode) {
+std::string find_model(const Provenance::Model& wanted, const std::vector<std::string>& named,
+                       const std::filesystem::path& gcode) {
   auto candidates = named;
   if (candidates.empty()) candidates = {(gcode.parent_path() / wanted.name).string(), wanted.name};
   std::string other;
@@ -27,8 +28,12 @@ std::string find_model(const Provenance::Model& wanted, const std::vector<std::s
     if (sha256(mesh::FileBytes(path).view()) == wanted.sha256) return path;
     if (std::filesystem::path(path).filename() == wanted.name) other = path;
   }
-  if (!other.empty()) throw Error{Error::Kind::model, fmt::format("is not the file that {} was made of: its sha256 is another", gcode.string()), other, "it was changed since"};
-  throw Error{Error::Kind::file, fmt::format("the model {} was not found", wanted.name), gcode.string(), "name it behind the G-code: weft verify FILE.gcode MODEL..."};
+  if (!other.empty())
+    throw Error{Error::Kind::model,
+                fmt::format("is not the file that {} was made of: its sha256 is another", gcode.string()), other,
+                "it was changed since"};
+  throw Error{Error::Kind::file, fmt::format("the model {} was not found", wanted.name), gcode.string(),
+              "name it behind the G-code: weft verify FILE.gcode MODEL..."};
 }
 
 /// The first line in which they differ, counted from 1, and what stands there.
@@ -40,7 +45,8 @@ std::string first_difference(std::string_view made, std::string_view found) {
   };
   const auto at = static_cast<std::size_t>(a - made.begin());
   const auto number = 1 + std::count(made.begin(), a, '\n');
-  return fmt::format("line {}: it says '{}' where weft makes '{}'", number, b == found.end() ? "" : line_at(found, std::min(at, found.size() - 1)),
+  return fmt::format("line {}: it says '{}' where weft makes '{}'", number,
+                     b == found.end() ? "" : line_at(found, std::min(at, found.size() - 1)),
                      a == made.end() ? "" : line_at(made, std::min(at, made.size() - 1)));
 }
 
@@ -50,18 +56,25 @@ int verify(const Words& words) {
   const po::options_description none("Options of weft verify");
   const auto command = parse_command(words, none);
   if (command.help)
-    return fmt::print("weft verify FILE.gcode [MODEL...]\n\nSlices again from the settings, the placement and the model that the file names, and compares every byte.\n\n{}", common_help()), 0;
-  if (command.inputs.empty()) throw Error{Error::Kind::usage, "no G-code was given", "weft verify", "as in weft verify part.gcode part.stl"};
+    return fmt::print(
+               "weft verify FILE.gcode [MODEL...]\n\nSlices again from the settings, the placement and the model that "
+               "the file names, and compares every byte.\n\n{}",
+               common_help()),
+           0;
+  if (command.inputs.empty())
+    throw Error{Error::Kind::usage, "no G-code was given", "weft verify", "as in weft verify part.gcode part.stl"};
   Console console(command.console);
   const Limits limits(0, 0);
   const auto& path = command.inputs.front();
   const mesh::FileBytes file(path);
   auto made_of = provenance_of(file.view(), path);
   if (made_of.version != version)
-    throw Error{Error::Kind::file, fmt::format("was made by weft {}, and this is {}", made_of.version, version), path, "another version may lay other paths: verify it with its own"};
+    throw Error{Error::Kind::file, fmt::format("was made by weft {}, and this is {}", made_of.version, version), path,
+                "another version may lay other paths: verify it with its own"};
 
   Job job;
-  for (const auto& model : made_of.models) job.models.push_back(find_model(model, {command.inputs.begin() + 1, command.inputs.end()}, path));
+  for (const auto& model : made_of.models)
+    job.models.push_back(find_model(model, {command.inputs.begin() + 1, command.inputs.end()}, path));
   job.settings = std::move(made_of.settings);
   job.placement = made_of.placement;
   job.audit = made_of.audit;
@@ -73,7 +86,9 @@ int verify(const Words& words) {
   const auto again = run(job, watch, report);
   if (!again) throw Error{Error::Kind::audit, report.error, path};
   if (again->gcode() != file.view())
-    throw Error{Error::Kind::file, "is not what weft makes of its model and settings; " + first_difference(again->gcode(), file.view()), path, "it was changed after it was made"};
+    throw Error{Error::Kind::file,
+                "is not what weft makes of its model and settings; " + first_difference(again->gcode(), file.view()),
+                path, "it was changed after it was made"};
   console.info(fmt::format("{}: byte for byte what weft {} makes of {}", path, version, job.models.front()));
   return 0;
 }

@@ -5,7 +5,8 @@
 
 namespace weft::test {
 
-/// A rectangle, from its corner with the smallest coordinates to that with the largest: the last two are no width and depth.
+/// A rectangle, from its corner with the smallest coordinates to that with the largest: the last two are no width and
+/// depth.
 inline Region rectangle(Point min, Point max) {
   if (min.x > max.x || min.y > max.y) throw std::invalid_argument("a rectangle's corners are the wrong way round");
   return {{min, {max.x, min.y}, max, {min.x, max.y}}, {}};

@@ -35,11 +35,14 @@ HeaderPlace header_place(std::string_view gcode) {
   return {end + 1, 0};
 }
 
-std::string_view line_end_of(std::string_view gcode) { return gcode.substr(0, gcode.find('\n')).ends_with('\r') ? "\r\n" : "\n"; }
+std::string_view line_end_of(std::string_view gcode) {
+  return gcode.substr(0, gcode.find('\n')).ends_with('\r') ? "\r\n" : "\n";
+}
 
 std::string header_line(std::string_view gcode, const HeaderPlace& place, const Report& report) {
   const auto line_end = line_end_of(gcode);
-  return fmt::format("{}{}{}{}", place.needs_line_feed_before ? line_end : "", header_key, header_value(report), line_end);
+  return fmt::format("{}{}{}{}", place.needs_line_feed_before ? line_end : "", header_key, header_value(report),
+                     line_end);
 }
 
 /// The text with the verdict in its header and the marks before their lines. Findings are renumbered to its lines.

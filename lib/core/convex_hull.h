@@ -12,8 +12,8 @@ namespace weft {
 /// Cost: O(n log n). Exact. Source: Andrew 1979, "Another efficient algorithm for convex hulls in two dimensions".
 Ring convex_hull(std::vector<Point> points);
 
-/// The outermost points in eight directions. What lies strictly within the octagon of them is no corner of the hull, and need
-/// not be sorted. Source: Akl & Toussaint 1978, "A fast convex hull algorithm".
+/// The outermost points in eight directions. What lies strictly within the octagon of them is no corner of the hull,
+/// and need not be sorted. Source: Akl & Toussaint 1978, "A fast convex hull algorithm".
 class Outermost {
  public:
   void add(Point p) {

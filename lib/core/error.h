@@ -28,12 +28,18 @@ class Error : public std::runtime_error {
 /// The exit status of each kind, as the command line promises it.
 constexpr int exit_status(Error::Kind kind) {
   switch (kind) {
-    case Error::Kind::usage: return 2;
-    case Error::Kind::settings: return 3;
-    case Error::Kind::model: return 4;
-    case Error::Kind::audit: return 5;
-    case Error::Kind::file: return 6;
-    case Error::Kind::interrupted: return 130;
+    case Error::Kind::usage:
+      return 2;
+    case Error::Kind::settings:
+      return 3;
+    case Error::Kind::model:
+      return 4;
+    case Error::Kind::audit:
+      return 5;
+    case Error::Kind::file:
+      return 6;
+    case Error::Kind::interrupted:
+      return 130;
   }
   return 1;
 }

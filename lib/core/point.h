@@ -1,10 +1,10 @@
 #pragma once
+#include "core/microns.h"
+
 #include <algorithm>
 #include <cmath>
 #include <compare>
 #include <cstdint>
-
-#include "core/microns.h"
 
 namespace weft {
 
@@ -15,9 +15,15 @@ struct Point {
   friend constexpr auto operator<=>(Point, Point) = default;
 };
 
-constexpr Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }
-constexpr Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
-constexpr Point operator-(Point a) { return {-a.x, -a.y}; }
+constexpr Point operator+(Point a, Point b) {
+  return {a.x + b.x, a.y + b.y};
+}
+constexpr Point operator-(Point a, Point b) {
+  return {a.x - b.x, a.y - b.y};
+}
+constexpr Point operator-(Point a) {
+  return {-a.x, -a.y};
+}
 
 /// A place in the machine.
 struct Point3 {
@@ -25,7 +31,9 @@ struct Point3 {
   friend constexpr bool operator==(Point3, Point3) = default;
   friend constexpr auto operator<=>(Point3, Point3) = default;
 };
-constexpr Point flat(Point3 p) { return {p.x, p.y}; }
+constexpr Point flat(Point3 p) {
+  return {p.x, p.y};
+}
 
 /// Twice the signed area of the triangle abc; > 0 when c lies left of a->b. Exact.
 constexpr std::int64_t orient(Point a, Point b, Point c) {
@@ -50,7 +58,9 @@ constexpr bool segments_touch(Point a, Point b, Point c, Point d) {
 }
 
 /// Dot product of two difference vectors, µm². Exact.
-constexpr std::int64_t dot(Point a, Point b) { return std::int64_t{a.x} * b.x + std::int64_t{a.y} * b.y; }
+constexpr std::int64_t dot(Point a, Point b) {
+  return std::int64_t{a.x} * b.x + std::int64_t{a.y} * b.y;
+}
 
 /// Squared distance, µm². Exact.
 constexpr std::int64_t distance2(Point a, Point b) {
@@ -59,9 +69,12 @@ constexpr std::int64_t distance2(Point a, Point b) {
 }
 
 /// Distance in fractional microns.
-inline double distance(Point a, Point b) { return std::sqrt(static_cast<double>(distance2(a, b))); }
+inline double distance(Point a, Point b) {
+  return std::sqrt(static_cast<double>(distance2(a, b)));
+}
 
-/// The point at fraction t of a->b, to the nearest micron; ties away from a, so that a moved line gives the moved point.
+/// The point at fraction t of a->b, to the nearest micron; ties away from a, so that a moved line gives the moved
+/// point.
 inline Point lerp(Point a, Point b, double t) {
   return {a.x + rounded(t * (static_cast<double>(b.x) - a.x)), a.y + rounded(t * (static_cast<double>(b.y) - a.y))};
 }

@@ -1,9 +1,9 @@
 #pragma once
+#include "core/point.h"
+
 #include <algorithm>
 #include <span>
 #include <vector>
-
-#include "core/point.h"
 
 namespace weft {
 

@@ -17,8 +17,8 @@ inline constexpr Um arc = 5_um;
 /// How far a bead's path may be moved to be printed with fewer moves. motion/resample.
 inline constexpr Um path = 4_um;
 
-/// A segment along which a bead's band changes by more than this is cut, because firmware extrudes evenly along a segment.
-/// motion/resample.
+/// A segment along which a bead's band changes by more than this is cut, because firmware extrudes evenly along a
+/// segment. motion/resample.
 inline constexpr Um band_step = 20_um;
 
 /// No piece of such a cut is shorter: firmware would choke on the moves, and plastic does not follow. motion/resample.

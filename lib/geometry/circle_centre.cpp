@@ -6,7 +6,8 @@
 namespace weft::geometry::detail {
 namespace {
 
-/// Cosine of an angle to a line that is as good as at right angles to it: a quotient by it would be off by as much more.
+/// Cosine of an angle to a line that is as good as at right angles to it: a quotient by it would be off by as much
+/// more.
 constexpr double least_slant = 1e-4;
 /// Distance from a line that may be rounding, µm: coordinates are below 2²⁴ µm, and of them 2⁻⁵³ a few times.
 constexpr double on_line_um = 1e-6;
@@ -62,8 +63,7 @@ std::optional<Centre> of_points_and_edge(const GraphSite& p, const GraphSite& q,
   const GraphSite &o = swapped ? q : p, &other = swapped ? p : q;
   const double sense = height_p > 0 ? 1.0 : -1.0;
   const double h = sense * (swapped ? height_q : height_p), other_h = sense * (swapped ? height_p : height_q);
-  const double dx = (other.ax - o.ax) * line.ux + (other.ay - o.ay) * line.uy, dy = other_h - h,
-               d2 = dx * dx + dy * dy;
+  const double dx = (other.ax - o.ax) * line.ux + (other.ay - o.ay) * line.uy, dy = other_h - h, d2 = dx * dx + dy * dy;
   // dy x² + 2 h dx x − h (dy h + d²) = 0; the sign of the root is that of the order of the three around the circle
   const double half = h * dx, root = (swapped ? sense : -sense) * std::sqrt(h * other_h * d2);
   const double x = (root > 0) == (half < 0) ? (root - half) / dy : h * (dy * h + d2) / (half + root);

@@ -11,9 +11,9 @@ struct Centre {
 };
 
 /// Centre of the circle that touches three sites in counter-clockwise order and crosses none of their edges, in double,
-/// by closed forms: about a tenth of the cost of CGAL's interval arithmetic. Nothing where edges are so placed that the side of
-/// them on which the circle lies is not plain.
-/// Post: without a bound of its error, and not proven to be that circle; who relies on it checks.
+/// by closed forms: about a tenth of the cost of CGAL's interval arithmetic. Nothing where edges are so placed that the
+/// side of them on which the circle lies is not plain. Post: without a bound of its error, and not proven to be that
+/// circle; who relies on it checks.
 std::optional<Centre> circle_centre(const GraphSite& a, const GraphSite& b, const GraphSite& c);
 
 }  // namespace weft::geometry::detail

@@ -59,7 +59,8 @@ struct Diagram {
   std::vector<Vortex> vertices;
 };
 
-/// Distances that differ by less are equal, µm: what is left of the outline's shaking after the first step of refinement.
+/// Distances that differ by less are equal, µm: what is left of the outline's shaking after the first step of
+/// refinement.
 constexpr double exact_um = 1e-4;
 
 /// Gauss-Newton on the three distances, from where CGAL's construction left the vertex of the shaken outline.

@@ -59,7 +59,8 @@ GridRings rings_of(const Region& region, Point origin) {
 /// A number that looks random, and is the same for the same point. Source: Steele, Lea & Flood 2014, "Fast splittable
 /// pseudorandom number generators" (the mixing function of SplitMix64).
 std::uint64_t mixed(GridPoint p) {
-  std::uint64_t z = static_cast<std::uint64_t>(p.x) * 0x9E3779B97F4A7C15u + static_cast<std::uint64_t>(p.y) * 0xD1B54A32D192ED03u;
+  std::uint64_t z =
+      static_cast<std::uint64_t>(p.x) * 0x9E3779B97F4A7C15u + static_cast<std::uint64_t>(p.y) * 0xD1B54A32D192ED03u;
   z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
   z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
   return z ^ (z >> 31);

@@ -13,7 +13,7 @@ struct GridPoint {
   friend constexpr bool operator==(GridPoint, GridPoint) = default;
   friend constexpr auto operator<=>(GridPoint, GridPoint) = default;
 };
-inline constexpr std::int64_t grid_steps = 64;  ///< a micron, where crossings are united
+inline constexpr std::int64_t grid_steps = 64;      ///< a micron, where crossings are united
 inline constexpr std::int64_t shaken_steps = 4096;  ///< a micron, of an outline's points
 
 struct Outline {
@@ -23,9 +23,8 @@ struct Outline {
 };
 
 /// Where that keeps it simple, every point is moved by up to 1/256 µm, at random by its place: parts that were drawn
-/// symmetric lie on the lattice with four and more edges touching one circle, and there CGAL decides by exact arithmetic,
-/// at seven times the cost (8,000 regular octagons).
-/// Pre: |coordinates - origin| <= 2²⁴ µm.
+/// symmetric lie on the lattice with four and more edges touching one circle, and there CGAL decides by exact
+/// arithmetic, at seven times the cost (8,000 regular octagons). Pre: |coordinates - origin| <= 2²⁴ µm.
 Outline simple_outline(const Region& region, Point origin);
 
 }  // namespace weft::geometry::detail

@@ -141,7 +141,7 @@ class SegmentGraph : public GraphBase {
 
   Data_structure& structure() { return const_cast<Data_structure&>(tds()); }  // CGAL inherits it privately
 
-  double scale_ = 1;            ///< of coordinates, µm
+  double scale_ = 1;          ///< of coordinates, µm
   bool knows_sites_ = false;  ///< vertices carry them
 
   // The boundary of the faces that are entered, counter-clockwise: a ring of edges linked through their faces' data.

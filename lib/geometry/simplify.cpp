@@ -94,7 +94,8 @@ void drop_collinear_of_line(Polyline& line) {
 
 Polyline simplified_line(std::span<const Point> line, Um bound) {
   if (line.size() < 3 || bound <= 0) return {line.begin(), line.end()};
-  // Where a line steps back, as at a gap that was closed, the chord goes on to the first point beyond, if that is not far.
+  // Where a line steps back, as at a gap that was closed, the chord goes on to the first point beyond, if that is not
+  // far.
   constexpr std::size_t most_short = 8;
   Polyline out{line[0]};
   Cone cone(line[0], bound);

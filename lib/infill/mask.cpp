@@ -233,8 +233,8 @@ std::unique_ptr<Word[]> Mask::grown_rows(Rows of, int cells, bool outside) const
     }
     grow_along({to, words_}, cells);
   }
-  // Each row takes what is up to twice `cells` above it, for they lie `cells` too low. What a row has of n rows it has of
-  // 2 n by one more look, n rows up.
+  // Each row takes what is up to twice `cells` above it, for they lie `cells` too low. What a row has of n rows it has
+  // of 2 n by one more look, n rows up.
   for (std::size_t done = 1, by = 0; done < 2 * reach + 1; done += by) {
     by = std::min(done, 2 * reach + 1 - done);
     Word* const to = rows.get();
@@ -264,7 +264,8 @@ Mask Mask::shrunk(int cells) const {
   const Rows set = rows_set();
   if (set.empty()) return out;
   const auto reach = static_cast<std::size_t>(cells);
-  const Rows around{set.from - std::min(set.from, reach), std::min(set.to + reach, static_cast<std::size_t>(grid_.rows))};
+  const Rows around{set.from - std::min(set.from, reach),
+                    std::min(set.to + reach, static_cast<std::size_t>(grid_.rows))};
   const auto rows = grown_rows(around, cells, true);
   const Word* const outside = &rows[(set.from + reach - around.from) * words_];
   for (std::size_t i = 0, from = set.from * words_, n = (set.to - set.from) * words_; i < n; ++i)

@@ -32,9 +32,8 @@ std::size_t BoxTree::build(std::size_t begin, std::size_t end) {
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   const std::size_t middle = begin + (end - begin) / 2;
   const auto place = [&](std::size_t i) { return boxes_.begin() + static_cast<std::ptrdiff_t>(i); };
-  std::nth_element(place(begin), place(middle), place(end), [axis](const Box3& a, const Box3& b) {
-    return twice_middle(a, axis) < twice_middle(b, axis);
-  });
+  std::nth_element(place(begin), place(middle), place(end),
+                   [axis](const Box3& a, const Box3& b) { return twice_middle(a, axis) < twice_middle(b, axis); });
   build(begin, middle);
   const std::size_t second = build(middle, end);
   nodes_[at].second = second;

@@ -12,8 +12,8 @@ class BoxTree {
   /// Cost: n log n.
   explicit BoxTree(std::vector<Box3> boxes);
 
-  /// Whether `box` lies in one of them; their faces may touch. Cost: log n where they lie side by side, up to n where they
-  /// lie in each other and none holds it.
+  /// Whether `box` lies in one of them; their faces may touch. Cost: log n where they lie side by side, up to n where
+  /// they lie in each other and none holds it.
   bool any_contains(const Box3& box) const;
 
  private:

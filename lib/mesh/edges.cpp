@@ -47,7 +47,8 @@ Edges::Edges(const Mesh& mesh) : mesh_(mesh), range_bits_(range_bits_for(mesh.ve
     for (std::size_t t = blocks.begin(block); t < blocks.end(block); ++t) {
       const Triangle& corners = mesh.triangles[t];
       for (std::uint32_t i = 0; i < 3; ++i)
-        see(of_block[std::min(corners[i], corners[next_corner[i]]) >> range_bits_], 4 * static_cast<std::uint32_t>(t) + i);
+        see(of_block[std::min(corners[i], corners[next_corner[i]]) >> range_bits_],
+            4 * static_cast<std::uint32_t>(t) + i);
     }
   };
   tasks::for_each_index(blocks.count(), [&](std::size_t block) {

@@ -8,8 +8,8 @@
 
 namespace weft::mesh {
 
-/// Who meets whom at the edges of a mesh: the sides of its triangles, by ranges of vertices, so that ranges can be looked at
-/// side by side. Refers to the mesh.
+/// Who meets whom at the edges of a mesh: the sides of its triangles, by ranges of vertices, so that ranges can be
+/// looked at side by side. Refers to the mesh.
 class Edges {
  public:
   /// A triangle at an edge.
@@ -26,9 +26,9 @@ class Edges {
 
   std::size_t ranges() const { return starts_.size() - 1; }
 
-  /// The sides of a range edge by edge: in order of the lower, then of the upper vertex, then of triangles. Ranges are in
-  /// order of the lower vertex.
-  /// Cost: linear but for vertices of very many edges, which are sorted. Thread: any number at once.
+  /// The sides of a range edge by edge: in order of the lower, then of the upper vertex, then of triangles. Ranges are
+  /// in order of the lower vertex. Cost: linear but for vertices of very many edges, which are sorted. Thread: any
+  /// number at once.
   std::vector<Side> sides(std::size_t range) const;
 
  private:

@@ -20,8 +20,8 @@ struct Shell {
   bool scrap() const { return open_edges >= triangles; }
 };
 
-/// What the triangles of each shell give together: add(part, t) for the triangles of a block, merge(shell, part) block by
-/// block, so that what is summed up is the same on any number of threads.
+/// What the triangles of each shell give together: add(part, t) for the triangles of a block, merge(shell, part) block
+/// by block, so that what is summed up is the same on any number of threads.
 template <class Part, class Add, class Merge>
 void sum_by_shell(const ShellForest& shells, std::size_t triangles, Add add, Merge merge) {
   struct Run {

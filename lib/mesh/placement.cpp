@@ -76,7 +76,7 @@ std::vector<PlacedModel> place(std::vector<Loaded> models, const PlacementOption
                 "leave out --copies or --keep-position");
   std::vector<PlacedModel> placed;
   std::vector<Point> homes(models.size());
-  for (std::size_t i = 0; i < models.size(); ++i) 
+  for (std::size_t i = 0; i < models.size(); ++i)
     placed.push_back(at_origin(std::move(models[i]), options.rotate_deg, homes[i]));
   if (options.keep_position) {
     for (std::size_t i = 0; i < models.size(); ++i) placed[i].instances = {homes[i]};

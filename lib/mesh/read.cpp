@@ -42,7 +42,8 @@ struct Reader {
 Reader reader_for(const Source& source) {
   if (is_binary_stl(source.bytes)) return {Format::stl_binary, read_binary_stl};
   if (is_text(source.bytes) && is_ascii_stl(source.bytes)) return {Format::stl_ascii, read_ascii_stl};
-  if (is_text(source.bytes) && is_obj(source.bytes)) return {Format::obj, [](const Source& obj) { return read_obj(obj); }};
+  if (is_text(source.bytes) && is_obj(source.bytes))
+    return {Format::obj, [](const Source& obj) { return read_obj(obj); }};
   if (is_3mf(source.bytes)) return {Format::three_mf, read_3mf};
   throw unknown(source);
 }

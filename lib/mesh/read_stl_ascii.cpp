@@ -128,8 +128,8 @@ std::size_t facet_end(std::string_view text, std::size_t from) {
   return text.size();
 }
 
-/// The text in parts, side by side; nothing when one is not just as it would be read in its turn: then it says nothing of
-/// what is wrong, which may have begun before.
+/// The text in parts, side by side; nothing when one is not just as it would be read in its turn: then it says nothing
+/// of what is wrong, which may have begun before.
 std::optional<Body> read_in_parts(const Source& source) {
   constexpr std::size_t part_bytes = 1 << 19;
   const std::string_view text = source.bytes;

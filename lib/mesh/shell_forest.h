@@ -6,9 +6,9 @@
 
 namespace weft::mesh {
 
-/// Which triangles hang together, and which of them to turn round so that all of a shell agree: a union-find that also holds
-/// the way of each triangle. Trees are rooted at their first triangle, so that nothing depends on the order of unions.
-/// Source: Anderson & Woll 1991, "Wait-free parallel algorithms for the union-find problem".
+/// Which triangles hang together, and which of them to turn round so that all of a shell agree: a union-find that also
+/// holds the way of each triangle. Trees are rooted at their first triangle, so that nothing depends on the order of
+/// unions. Source: Anderson & Woll 1991, "Wait-free parallel algorithms for the union-find problem".
 class ShellForest {
  public:
   /// Pre: fewer than 2^28 triangles.
@@ -35,7 +35,8 @@ class ShellForest {
   Place find(std::uint32_t triangle);
   std::uint32_t word(std::size_t triangle) const { return words_[triangle].load(std::memory_order_relaxed); }
 
-  /// Of each triangle: 2 * one nearer to the root + whether they disagree. Once numbered: 2 * shell + whether it is turned.
+  /// Of each triangle: 2 * one nearer to the root + whether they disagree. Once numbered: 2 * shell + whether it is
+  /// turned.
   std::vector<std::atomic<std::uint32_t>> words_;
 };
 

@@ -53,7 +53,8 @@ Mesh welded(const PartReader& reader) {
   };
   const auto renumber = [&](std::size_t i) {
     const Place& place = places[i % places.size()];
-    const auto to = mesh.triangles.begin() + static_cast<std::ptrdiff_t>(place.first);  // which does not move: see reserve
+    const auto to =
+        mesh.triangles.begin() + static_cast<std::ptrdiff_t>(place.first);  // which does not move: see reserve
     std::transform(place.part.triangles.begin(), place.part.triangles.end(), to, [&](const Triangle& t) {
       return Triangle{place.numbers[t[0]], place.numbers[t[1]], place.numbers[t[2]]};
     });

@@ -24,7 +24,9 @@ double length_mm(const Bead& bead) {
 
 double volume_mm3(const Bead& bead, Um height) {
   double um_mm2 = 0;
-  for_each_segment(bead, [&](const Junction& a, const Junction& b) { um_mm2 += distance(a.at, b.at) * mean_area_mm2(a, b, to_mm(height)); });
+  for_each_segment(bead, [&](const Junction& a, const Junction& b) {
+    um_mm2 += distance(a.at, b.at) * mean_area_mm2(a, b, to_mm(height));
+  });
   return um_mm2 / 1000.0;
 }
 

@@ -1,10 +1,10 @@
 #pragma once
+#include "core/polygon.h"
+
 #include <array>
 #include <cstdint>
 #include <string_view>
 #include <vector>
-
-#include "core/polygon.h"
 
 namespace weft {
 
@@ -13,8 +13,8 @@ enum class Role : std::uint8_t {
   outer_wall,
   inner_wall,
   overhang_wall,
-  infill,         ///< sparse
-  solid_infill,   ///< inside, or a bottom
+  infill,        ///< sparse
+  solid_infill,  ///< inside, or a bottom
   top_skin,
   bridge,
   gap_fill,
@@ -46,18 +46,23 @@ inline constexpr std::array role_names{
     RoleName{Role::support_interface, "support_interface", "Support material interface"},
     RoleName{Role::wipe_tower, "wipe_tower", "Wipe tower"},
 };
-static_assert([] {
-  for (std::size_t i = 0; i < role_names.size(); ++i)
-    if (role_names[i].role != static_cast<Role>(i)) return false;
-  return true;
-}(), "row i of role_names is role i");
-constexpr const RoleName& name_of(Role role) { return role_names[static_cast<std::size_t>(role)]; }
+static_assert(
+    [] {
+      for (std::size_t i = 0; i < role_names.size(); ++i)
+        if (role_names[i].role != static_cast<Role>(i)) return false;
+      return true;
+    }(),
+    "row i of role_names is role i");
+constexpr const RoleName& name_of(Role role) {
+  return role_names[static_cast<std::size_t>(role)];
+}
 
 /// One vertex of a bead's centreline.
 struct Junction {
   Point at;
-  Um width = 0;      ///< band: volume = width × layer height × length × flow (model/flow.h)
-  float flow = 1.F;  ///< share of the band's volume that is really extruded; width and flow vary linearly between junctions
+  Um width = 0;  ///< band: volume = width × layer height × length × flow (model/flow.h)
+  float flow =
+      1.F;  ///< share of the band's volume that is really extruded; width and flow vary linearly between junctions
   friend bool operator==(const Junction&, const Junction&) = default;
 };
 
@@ -66,9 +71,10 @@ struct Bead {
   std::vector<Junction> path;  ///< at least two; a closed bead does not repeat its first junction
   Role role = Role::outer_wall;
   bool closed = false;
-  std::uint16_t inset = 0;    ///< walls: 0 is the outermost, counted inwards
-  std::uint32_t part = 0;     ///< index of the region of the layer it belongs to: beads of a part are printed together
-  std::uint32_t sequence = 0; ///< fills: beads of equal non-zero value are printed in their order in the list (monotonic skin)
+  std::uint16_t inset = 0;  ///< walls: 0 is the outermost, counted inwards
+  std::uint32_t part = 0;   ///< index of the region of the layer it belongs to: beads of a part are printed together
+  std::uint32_t sequence =
+      0;  ///< fills: beads of equal non-zero value are printed in their order in the list (monotonic skin)
   friend bool operator==(const Bead&, const Bead&) = default;
 };
 using Beads = std::vector<Bead>;

@@ -1,9 +1,9 @@
 #pragma once
+#include "core/microns.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "core/microns.h"
 
 /// How much plastic a bead holds. One convention for the whole program:
 ///
@@ -31,7 +31,9 @@ inline double spacing_mm(double width_mm, double height_mm, double overlap_facto
 }
 
 /// The band of a line width: the width of the rectangle of equal volume. Post: area = band × height.
-inline Um band(Um line_width, Um height) { return from_mm(spacing_mm(to_mm(line_width), to_mm(height))); }
+inline Um band(Um line_width, Um height) {
+  return from_mm(spacing_mm(to_mm(line_width), to_mm(height)));
+}
 
 /// The line width of a band; the inverse of `band` up to the rounding to microns.
 inline Um line_width(Um band_width, Um height) {
@@ -42,7 +44,9 @@ inline Um line_width(Um band_width, Um height) {
 }
 
 /// Automatic width of outer walls: 1.05 × nozzle, narrow for a fine surface.
-inline Um automatic_outer_width(Um nozzle) { return rounded(1.05 * nozzle); }
+inline Um automatic_outer_width(Um nozzle) {
+  return rounded(1.05 * nozzle);
+}
 
 /// Automatic width of everything else: the line that a strand of the nozzle's own cross-section makes at that height,
 /// at most 1.7 × nozzle (sparse infill takes any width) and at least the nozzle.
@@ -54,9 +58,13 @@ inline Um automatic_width(Um nozzle, Um height, bool capped = true) {
 }
 
 /// A strand over air is a circle of the nozzle's diameter, mm². Laid side by side its spacing is the diameter.
-inline double bridge_area_mm2(Um nozzle) { return std::numbers::pi / 4.0 * to_mm(nozzle) * to_mm(nozzle); }
+inline double bridge_area_mm2(Um nozzle) {
+  return std::numbers::pi / 4.0 * to_mm(nozzle) * to_mm(nozzle);
+}
 
 /// The flow ratio that gives a bead of band `nozzle` and that height the volume of a bridge strand.
-inline double bridge_flow(Um nozzle, Um height) { return bridge_area_mm2(nozzle) / (to_mm(nozzle) * to_mm(height)); }
+inline double bridge_flow(Um nozzle, Um height) {
+  return bridge_area_mm2(nozzle) / (to_mm(nozzle) * to_mm(height));
+}
 
 }  // namespace weft::flow

@@ -1,9 +1,9 @@
 #pragma once
-#include <vector>
-
 #include "core/notice.h"
 #include "core/polygon.h"
 #include "model/bead.h"
+
+#include <vector>
 
 namespace weft {
 

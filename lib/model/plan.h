@@ -1,23 +1,25 @@
 #pragma once
+#include "core/notice.h"
+#include "model/bead.h"
+
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "core/notice.h"
-#include "model/bead.h"
-
 namespace weft {
 
-/// Lays a bead down from its first junction to its last (a closed bead has its first junction repeated at the end here).
+/// Lays a bead down from its first junction to its last (a closed bead has its first junction repeated at the end
+/// here).
 struct Extrude {
   std::vector<Junction> path;
   Role role = Role::outer_wall;
-  Um height = 0;                        ///< of the layer at this place
-  double speed_mm_s = 0;                ///< set by motion; 0 before
-  std::vector<float> segment_speed_mm_s{};  ///< set by motion where speed varies along the path: one a segment; else empty
-  double acceleration_mm_s2 = 0;          ///< set by motion; 0: whatever the firmware has
-  /// Of a ramp: how far below the layer's z each junction lies, one a junction; else empty. Flow is the band's share that
-  /// is laid there, so that volume is as for any bead. Such a bead is not resampled.
+  Um height = 0;          ///< of the layer at this place
+  double speed_mm_s = 0;  ///< set by motion; 0 before
+  std::vector<float>
+      segment_speed_mm_s{};       ///< set by motion where speed varies along the path: one a segment; else empty
+  double acceleration_mm_s2 = 0;  ///< set by motion; 0: whatever the firmware has
+  /// Of a ramp: how far below the layer's z each junction lies, one a junction; else empty. Flow is the band's share
+  /// that is laid there, so that volume is as for any bead. Such a bead is not resampled.
   std::vector<Um> below{};
 };
 
@@ -29,8 +31,8 @@ inline Point3 place_of(const Extrude& bead, std::size_t i, Um z) {
 /// Moves without extruding, through the points in order; starts where the last step ended.
 struct Travel {
   std::vector<Point3> path;
-  double speed_mm_s = 0;      ///< set by motion
-  bool crosses_wall = false;  ///< leaves the part it was in; such a travel is retracted
+  double speed_mm_s = 0;          ///< set by motion
+  bool crosses_wall = false;      ///< leaves the part it was in; such a travel is retracted
   double z_speed_mm_s = 0;        ///< set by motion: what the vertical share of speed_mm_s may be
   double acceleration_mm_s2 = 0;  ///< set by motion; 0: whatever the firmware has
 };
@@ -39,18 +41,24 @@ struct Travel {
 struct Retract {
   Polyline wipe;
   double wipe_speed_mm_s = 0;  ///< set by motion
-  double before_wipe = 1;      ///< set by motion: share drawn back before the wipe begins, so that the extruder keeps up
+  double before_wipe = 1;  ///< set by motion: share drawn back before the wipe begins, so that the extruder keeps up
   friend bool operator==(const Retract&, const Retract&) = default;
 };
 /// Pushes it forward again.
 struct Prime {};
 
 /// Part-cooling fan, 0 … 1.
-struct SetFan { double share = 0; };
+struct SetFan {
+  double share = 0;
+};
 
 /// Everything until the next ObjectEnd belongs to that object (index into PrintPlan::objects).
-struct ObjectStart { std::uint32_t object = 0; };
-struct ObjectEnd { std::uint32_t object = 0; };
+struct ObjectStart {
+  std::uint32_t object = 0;
+};
+struct ObjectEnd {
+  std::uint32_t object = 0;
+};
 
 using Step = std::variant<Extrude, Travel, Retract, Prime, SetFan, ObjectStart, ObjectEnd>;
 

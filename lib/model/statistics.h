@@ -1,9 +1,9 @@
 #pragma once
+#include "model/bead.h"
+
 #include <array>
 #include <cstdint>
 #include <vector>
-
-#include "model/bead.h"
 
 namespace weft {
 
@@ -16,18 +16,18 @@ struct Statistics {
 
   struct Walls {
     std::int64_t beads = 0;
-    double variable_width_mm = 0;      ///< length along which a wall's width changes
-    double flow_compensated_mm = 0;    ///< length printed with a flow ratio below 1
+    double variable_width_mm = 0;    ///< length along which a wall's width changes
+    double flow_compensated_mm = 0;  ///< length printed with a flow ratio below 1
     double min_flow_ratio = 1;
-    Um min_width = max_coord;          ///< least line width of a wall; max_coord when there is none
+    Um min_width = max_coord;  ///< least line width of a wall; max_coord when there is none
   } walls;
 
   struct Travels {
     double mm = 0, s = 0;
-    std::int64_t moves = 0;            ///< Travel steps
+    std::int64_t moves = 0;  ///< Travel steps
     std::int64_t retractions = 0;
     std::int64_t wall_crossings = 0;
-    double retraction_s = 0;           ///< retracting, priming and wiping
+    double retraction_s = 0;  ///< retracting, priming and wiping
   } travel;
 
   double filament_mm = 0, filament_mm3 = 0, filament_g = 0;  ///< with material_flow and extra prime

@@ -9,7 +9,8 @@ namespace weft::motion {
 namespace {
 
 constexpr double volume_share = 0.005;
-constexpr double volume_most = 2;  // mm²·µm at height 1 mm, a square of 45 µm: or on a long segment a share would be a gap
+constexpr double volume_most =
+    2;  // mm²·µm at height 1 mm, a square of 45 µm: or on a long segment a share would be a gap
 
 /// A junction in the numbers that errors are computed with, µm: it is looked at again and again.
 struct Spot {

@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-/// Results of stages as bytes, without loss: what a cache on disk holds, and what waits for a later stage, since packed it
-/// takes a third of the memory. Whole numbers take as many bytes as they need, points are differences from the point
+/// Results of stages as bytes, without loss: what a cache on disk holds, and what waits for a later stage, since packed
+/// it takes a third of the memory. Whole numbers take as many bytes as they need, points are differences from the point
 /// before. Of their own version: `codec_version` is part of every key.
 namespace weft::pipeline {
 

@@ -7,8 +7,8 @@
 
 namespace weft::pipeline {
 
-/// Gives back to the system what has been used and freed in pieces, before as much is taken again. Cost: 0.3 to 0.4 ms, and
-/// faults of the pages that are used again.
+/// Gives back to the system what has been used and freed in pieces, before as much is taken again. Cost: 0.3 to 0.4 ms,
+/// and faults of the pages that are used again.
 inline void give_back_memory() {
 #ifdef __GLIBC__
   malloc_trim(0);

@@ -16,11 +16,11 @@
 #include "tasks/parallel.h"
 #include "tasks/tasks.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace weft {
 namespace {
@@ -33,9 +33,10 @@ std::size_t room_for(const std::vector<gcode::LayerDigest>& layers) {
   return bytes;
 }
 
-/// The text of the file, audited as it grows. Each layer's steps are unpacked to be written, and let go of: plan and text
-/// are never both there as a whole.
-void write_gcode(const gcode::Job& job, PrintPlan& plan, std::vector<std::string> packed, audit::Check& check, Report& report) {
+/// The text of the file, audited as it grows. Each layer's steps are unpacked to be written, and let go of: plan and
+/// text are never both there as a whole.
+void write_gcode(const gcode::Job& job, PrintPlan& plan, std::vector<std::string> packed, audit::Check& check,
+                 Report& report) {
   const Stopwatch stopwatch(report.timings_ms.gcode);
   const gcode::Writer writer(job);
   check.reserve(room_for(job.digests));
@@ -62,11 +63,12 @@ void note_statistics(const Statistics& s, Report& report) {
   report.filament_mm = s.filament_mm;
   report.filament_mm3 = s.filament_mm3;
   report.filament_g = s.filament_g;
-  for (std::size_t i = 0; i < s.features.size(); ++i) report.features[i] = {s.features[i].mm, s.features[i].mm3, s.features[i].s};
-  report.walls = {static_cast<std::size_t>(s.walls.beads), s.walls.variable_width_mm, s.walls.flow_compensated_mm, s.walls.min_flow_ratio,
-                  s.walls.min_width == max_coord ? 0.0 : to_mm(s.walls.min_width)};
-  report.travel = {s.travel.mm, static_cast<std::size_t>(s.travel.moves), static_cast<std::size_t>(s.travel.retractions),
-                   static_cast<std::size_t>(s.travel.wall_crossings)};
+  for (std::size_t i = 0; i < s.features.size(); ++i)
+    report.features[i] = {s.features[i].mm, s.features[i].mm3, s.features[i].s};
+  report.walls = {static_cast<std::size_t>(s.walls.beads), s.walls.variable_width_mm, s.walls.flow_compensated_mm,
+                  s.walls.min_flow_ratio, s.walls.min_width == max_coord ? 0.0 : to_mm(s.walls.min_width)};
+  report.travel = {s.travel.mm, static_cast<std::size_t>(s.travel.moves),
+                   static_cast<std::size_t>(s.travel.retractions), static_cast<std::size_t>(s.travel.wall_crossings)};
 }
 
 void note_audit(const audit::Report& a, Report& report) {
@@ -76,8 +78,15 @@ void note_audit(const audit::Report& a, Report& report) {
   out.not_audited = static_cast<std::size_t>(a.unaudited_moves);
   out.violation_count = static_cast<std::size_t>(a.violation_count);
   for (const auto& f : a.findings)
-    out.violations.push_back({std::string(audit::name_of(f.move)), f.feature, std::string(audit::name_of(f.side)), f.object, f.text,
-                              {to_mm(f.at.x), to_mm(f.at.y), to_mm(f.at.z)}, to_mm(f.outside), f.layer, static_cast<std::size_t>(f.line)});
+    out.violations.push_back({std::string(audit::name_of(f.move)),
+                              f.feature,
+                              std::string(audit::name_of(f.side)),
+                              f.object,
+                              f.text,
+                              {to_mm(f.at.x), to_mm(f.at.y), to_mm(f.at.z)},
+                              to_mm(f.outside),
+                              f.layer,
+                              static_cast<std::size_t>(f.line)});
   report.warnings.insert(report.warnings.end(), a.notices.begin(), a.notices.end());
 }
 
@@ -103,8 +112,12 @@ void refuse_emptiness(const Job& job, const Box3& box, const std::vector<Printed
     for (const auto& layer : object)
       if (!layer.beads.empty()) return;
   const auto size = box.size();
-  throw Error{Error::Kind::model, fmt::format("holds nothing to print: it is {:.3f} × {:.3f} × {:.3f} mm", to_mm(size.x), to_mm(size.y), to_mm(size.z)),
-              job.models.front(), "is it drawn in metres or inches? --scale 1000 or --scale 25.4; else look at layer_height and wall_line_count"};
+  throw Error{
+      Error::Kind::model,
+      fmt::format("holds nothing to print: it is {:.3f} × {:.3f} × {:.3f} mm", to_mm(size.x), to_mm(size.y),
+                  to_mm(size.z)),
+      job.models.front(),
+      "is it drawn in metres or inches? --scale 1000 or --scale 25.4; else look at layer_height and wall_line_count"};
 }
 
 /// The program.

@@ -155,18 +155,14 @@ PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject
   prepared.reserve(count);
   travel::Linker linker(settings.travel);
   tasks::parallel_in_order(
-      count,
-      [&](std::size_t i) {
-        return travel::prepare_order(settings.travel, std::move(inputs[i]));
-      },
+      count, [&](std::size_t i) { return travel::prepare_order(settings.travel, std::move(inputs[i])); },
       [&](std::size_t i, travel::Prepared layer) {
         prepared.push_back(std::move(layer));
         linker.add(prepared[i], i > 0 ? &prepared[i - 1] : nullptr);
       });
   const auto linked = linker.linked();
-  auto ordered = tasks::parallel_map(count, [&](std::size_t i) {
-    return travel::order(settings.travel, prepared[i], linked[i]);
-  });
+  auto ordered =
+      tasks::parallel_map(count, [&](std::size_t i) { return travel::order(settings.travel, prepared[i], linked[i]); });
   auto planned = plan_moves(settings, std::move(prepared), std::move(ordered), plan.notices);
   for (auto& layer : planned) {
     out.statistics.append(layer.statistics);

@@ -8,10 +8,10 @@
 #include "preview/thumbnail.h"
 #include "tasks/parallel.h"
 
-#include <fmt/format.h>
-
 #include <filesystem>
 #include <iterator>
+
+#include <fmt/format.h>
 
 namespace weft::pipeline {
 namespace {
@@ -42,15 +42,18 @@ mesh::Loaded read_model(const std::string& path, double scale, StageCache* cache
   if (!cache) return mesh::read_file(path, {.scale = scale});
   const mesh::FileBytes file(path);
   const auto hash = sha256(file.view());
-  return cached(cache, [&] { return StageKey("read", 1).with(path).with(hash).with(scale); },
-                [&] { return mesh::read(file.view(), path, {.scale = scale, .sha256 = hash}); }).take();
+  return cached(
+             cache, [&] { return StageKey("read", 1).with(path).with(hash).with(scale); },
+             [&] { return mesh::read(file.view(), path, {.scale = scale, .sha256 = hash}); })
+      .take();
 }
 
 }  // namespace
 
 std::vector<PlacedObject> place_models(const Job& job, Report& report, StageCache* cache) {
   const Stopwatch stopwatch(report.timings_ms.read);
-  auto loaded = tasks::parallel_map(job.models.size(), [&](std::size_t i) { return read_model(job.models[i], job.placement.scale, cache); });
+  auto loaded = tasks::parallel_map(
+      job.models.size(), [&](std::size_t i) { return read_model(job.models[i], job.placement.scale, cache); });
   std::vector<PlacedObject> out;
   for (const auto& model : loaded) {
     note_model(model, report);
@@ -60,8 +63,11 @@ std::vector<PlacedObject> place_models(const Job& job, Report& report, StageCach
   const auto& machine = job.settings.machine;
   const mesh::Plate plate{print_surface(machine), machine.bed_exclude_areas, machine.machine_height};
   auto placed = mesh::place(std::move(loaded),
-                            {.rotate_deg = job.placement.rotate_deg, .keep_position = job.placement.keep_position, .center = job.placement.centre,
-                             .copies = job.placement.copies, .spacing = job.placement.spacing},
+                            {.rotate_deg = job.placement.rotate_deg,
+                             .keep_position = job.placement.keep_position,
+                             .center = job.placement.centre,
+                             .copies = job.placement.copies,
+                             .spacing = job.placement.spacing},
                             plate);
   // What does not fit is told before an hour of slicing; to annotate, the audit must see it.
   if (job.audit == audit::Mode::reject) mesh::check_fits(placed, plate, job.settings.audit.audit_tolerance);

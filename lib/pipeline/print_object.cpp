@@ -1,12 +1,11 @@
-#include "pipeline/cached.h"
-#include "pipeline/stages.h"
-#include "pipeline/stopwatch.h"
-#include "tasks/parallel.h"
-
 #include "geometry/boolean.h"
 #include "infill/infill.h"
 #include "infill/shells.h"
+#include "pipeline/cached.h"
+#include "pipeline/stages.h"
+#include "pipeline/stopwatch.h"
 #include "slice/slice.h"
+#include "tasks/parallel.h"
 #include "walls/walls.h"
 
 #include <algorithm>
@@ -18,22 +17,31 @@
 namespace weft::pipeline {
 namespace {
 
-void append(Notices& to, Notices from) { std::move(from.begin(), from.end(), std::back_inserter(to)); }
+void append(Notices& to, Notices from) {
+  std::move(from.begin(), from.end(), std::back_inserter(to));
+}
 
-// Versions of stages: a change of what a stage makes of the same input needs no new one, because keys hold the build of weft;
-// a change of what its key holds does.
+// Versions of stages: a change of what a stage makes of the same input needs no new one, because keys hold the build of
+// weft; a change of what its key holds does.
 StageKey slice_key(const Settings& settings, const Mesh& mesh) {
   const auto bytes = [](const auto& items) {
     return std::string_view(reinterpret_cast<const char*>(items.data()), items.size() * sizeof(items[0]));
   };
-  return StageKey("slice", 1).with(sha256(bytes(mesh.vertices))).with(sha256(bytes(mesh.triangles))).with(settings.layers, layer_schema);
+  return StageKey("slice", 1)
+      .with(sha256(bytes(mesh.vertices)))
+      .with(sha256(bytes(mesh.triangles)))
+      .with(settings.layers, layer_schema);
 }
 StageKey walls_key(const Settings& settings, const std::string& slice) {
   return StageKey("walls", 1).with(slice).with(settings.walls, wall_schema).with(settings.machine.nozzle_diameter);
 }
 StageKey fill_key(const Settings& settings, const std::string& walls) {
-  return StageKey("infill", 1).with(walls).with(settings.shells, shell_schema).with(settings.infill, infill_schema)
-      .with(settings.machine.nozzle_diameter).with(settings.walls.wall_line_width_x);
+  return StageKey("infill", 1)
+      .with(walls)
+      .with(settings.shells, shell_schema)
+      .with(settings.infill, infill_schema)
+      .with(settings.machine.nozzle_diameter)
+      .with(settings.walls.wall_line_width_x);
 }
 
 using Cuts = std::vector<slice::Cut>;
@@ -42,9 +50,7 @@ using Fills = std::vector<FilledLayer>;
 
 Cuts slice_object(const Settings& settings, const PlacedObject& object) {
   const slice::Cutter cutter(object.mesh, slice::planes(settings.layers, box_of(object.mesh).max.z));
-  return tasks::parallel_map(cutter.size(), [&](std::size_t i) {
-    return cutter.cut(i, settings.layers.resolution);
-  });
+  return tasks::parallel_map(cutter.size(), [&](std::size_t i) { return cutter.cut(i, settings.layers.resolution); });
 }
 
 /// The settings of the first layer, whose lines may have a width of their own.
@@ -59,15 +65,19 @@ Settings of_first_layer(Settings settings) {
 Walls build_walls(const Settings& settings, const Settings& first, const Cuts& cuts) {
   return tasks::parallel_map(cuts.size(), [&](std::size_t i) {
     const Regions over_air = i > 0 ? geometry::subtract(cuts[i].layer.regions, cuts[i - 1].layer.regions) : Regions{};
-    return walls::build((i == 0 ? first : settings).walls,
-                        {.layer = cuts[i].layer, .index = i, .nozzle_diameter = settings.machine.nozzle_diameter, .over_air = &over_air});
+    return walls::build((i == 0 ? first : settings).walls, {.layer = cuts[i].layer,
+                                                            .index = i,
+                                                            .nozzle_diameter = settings.machine.nozzle_diameter,
+                                                            .over_air = &over_air});
   });
 }
 
-/// What fills the inside of each layer. Layers are taken in runs, so that the skin's neighbours are looked at once a run.
+/// What fills the inside of each layer. Layers are taken in runs, so that the skin's neighbours are looked at once a
+/// run.
 std::vector<infill::LayerAreas> find_areas(const Settings& settings, const Cuts& cuts, const Walls& walls) {
   std::vector<infill::ShellLayer> seen(cuts.size());
-  for (std::size_t i = 0; i < cuts.size(); ++i) seen[i] = {cuts[i].layer.z, cuts[i].layer.height, &cuts[i].layer.regions, &walls[i].inside};
+  for (std::size_t i = 0; i < cuts.size(); ++i)
+    seen[i] = {cuts[i].layer.z, cuts[i].layer.height, &cuts[i].layer.regions, &walls[i].inside};
   const infill::ShellObject object{seen, infill::box_of(seen), settings.machine.nozzle_diameter};
   constexpr std::size_t run = 8;
   auto runs = tasks::parallel_map((cuts.size() + run - 1) / run, [&](std::size_t r) {
@@ -87,10 +97,14 @@ Fills fill_object(const Settings& settings, const Settings& first, const Cuts& c
   return tasks::parallel_map(cuts.size(), [&](std::size_t i) {
     const auto& layer = cuts[i].layer;
     const auto& s = i == 0 ? first : settings;
-    auto filled = infill::fill(s.infill, s.shells, {.areas = areas[i], .index = i, .z = layer.z, .height = layer.height,
-                                                    .nozzle = settings.machine.nozzle_diameter,
-                                                    .wall_line_width = s.walls.wall_line_width_x.value_or(0),
-                                                    .origin = box.empty() ? Point{} : box.centre()});
+    auto filled = infill::fill(s.infill, s.shells,
+                               {.areas = areas[i],
+                                .index = i,
+                                .z = layer.z,
+                                .height = layer.height,
+                                .nozzle = settings.machine.nozzle_diameter,
+                                .wall_line_width = s.walls.wall_line_width_x.value_or(0),
+                                .origin = box.empty() ? Point{} : box.centre()});
     FilledLayer out{{}, {}, {}, std::move(filled.beads), std::move(filled.notices)};
     for (auto& part : std::exchange(areas[i], {})) {
       out.skin.insert(out.skin.end(), part.top.begin(), part.top.end());
@@ -104,7 +118,8 @@ Fills fill_object(const Settings& settings, const Settings& first, const Cuts& c
 
 }  // namespace
 
-PrintedLayers print_object(const Settings& settings, const PlacedObject& object, const Watch& watch, Report& report, StageCache* cache) {
+PrintedLayers print_object(const Settings& settings, const PlacedObject& object, const Watch& watch, Report& report,
+                           StageCache* cache) {
   std::optional<Stopwatch> stopwatch(std::in_place, report.timings_ms.slice);
   const auto sliced_by = [&] { return slice_key(settings, object.mesh); };
   auto sliced = cached(cache, sliced_by, [&] { return slice_object(settings, object); });
@@ -113,12 +128,15 @@ PrintedLayers print_object(const Settings& settings, const PlacedObject& object,
   watch.progress("walls", 0.15);
   stopwatch.emplace(report.timings_ms.walls);
   const auto walls_by = [&] { return walls_key(settings, sliced_by().hash()); };
-  const auto first = of_first_layer(settings);  // a function of what the keys hold: all of layers, walls, shells and infill
+  const auto first =
+      of_first_layer(settings);  // a function of what the keys hold: all of layers, walls, shells and infill
   auto walled = cached(cache, walls_by, [&] { return build_walls(settings, first, *sliced); });
 
   watch.progress("infill", 0.5);
   stopwatch.emplace(report.timings_ms.infill);
-  auto filled = cached(cache, [&] { return fill_key(settings, walls_by().hash()); }, [&] { return fill_object(settings, first, *sliced, *walled); });
+  auto filled = cached(
+      cache, [&] { return fill_key(settings, walls_by().hash()); },
+      [&] { return fill_object(settings, first, *sliced, *walled); });
 
   auto cuts = std::move(sliced).take();
   auto walls = std::move(walled).take();
@@ -128,7 +146,13 @@ PrintedLayers print_object(const Settings& settings, const PlacedObject& object,
   for (std::size_t i = 0; i < out.size(); ++i) {
     auto& layer = cuts[i].layer;
     auto& fill = fills[i];
-    out[i] = {layer.z, layer.height, std::move(layer.regions), std::move(fill.skin), std::move(fill.top), std::move(fill.sparse), std::move(walls[i].beads)};
+    out[i] = {layer.z,
+              layer.height,
+              std::move(layer.regions),
+              std::move(fill.skin),
+              std::move(fill.top),
+              std::move(fill.sparse),
+              std::move(walls[i].beads)};
     std::move(fill.beads.begin(), fill.beads.end(), std::back_inserter(out[i].beads));
     append(report.warnings, std::move(fill.notices));
   }

@@ -26,6 +26,8 @@ std::string profile_text(const std::filesystem::path& path) {
   }
 }
 
-void apply_profile(Profile& profile, const std::filesystem::path& path, const ImportOptions& options) { apply_text(profile, profile_text(path), path, options); }
+void apply_profile(Profile& profile, const std::filesystem::path& path, const ImportOptions& options) {
+  apply_text(profile, profile_text(path), path, options);
+}
 
 }  // namespace weft

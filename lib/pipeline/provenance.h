@@ -24,7 +24,8 @@ struct Provenance {
 std::string provenance_lines(const std::vector<Report::Model>& models, const Placement& placement);
 
 /// Reads them back. @param path for messages
-/// @throws Error{file} when the text is not weft's, or lacks what is needed; Error{settings} for settings that this version
+/// @throws Error{file} when the text is not weft's, or lacks what is needed; Error{settings} for settings that this
+/// version
 ///         does not know
 Provenance provenance_of(std::string_view gcode, const std::string& path);
 

@@ -1,11 +1,10 @@
 #include "pipeline/report.h"
 
-#include <sys/resource.h>
-
-#include <nlohmann/json.hpp>
-
 #include "core/figures.h"
 #include "core/version.h"
+
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
 
 namespace weft {
 namespace {
@@ -14,9 +13,12 @@ using Json = nlohmann::ordered_json;
 
 std::string_view name_of(Report::Status status) {
   switch (status) {
-    case Report::Status::ok: return "ok";
-    case Report::Status::rejected: return "rejected";
-    case Report::Status::failed: break;
+    case Report::Status::ok:
+      return "ok";
+    case Report::Status::rejected:
+      return "rejected";
+    case Report::Status::failed:
+      break;
   }
   return "failed";
 }
@@ -24,7 +26,11 @@ std::string_view name_of(Report::Status status) {
 Json models_of(const Report& r) {
   Json out = Json::array();
   for (const auto& m : r.models)
-    out.push_back({{"file", m.file}, {"sha256", m.sha256}, {"triangles", m.triangles}, {"volume_mm3", rounded3(m.volume_mm3)}, {"repairs", m.repairs}});
+    out.push_back({{"file", m.file},
+                   {"sha256", m.sha256},
+                   {"triangles", m.triangles},
+                   {"volume_mm3", rounded3(m.volume_mm3)},
+                   {"repairs", m.repairs}});
   return out;
 }
 
@@ -40,11 +46,20 @@ Json features_of(const Report& r) {
 Json audit_of(const Report::Audit& a) {
   Json violations = Json::array();
   for (const auto& v : a.violations)
-    violations.push_back({{"move", v.move}, {"feature", v.feature}, {"object", v.object}, {"side", v.side},
+    violations.push_back({{"move", v.move},
+                          {"feature", v.feature},
+                          {"object", v.object},
+                          {"side", v.side},
                           {"at", {rounded3(v.at_mm[0]), rounded3(v.at_mm[1]), rounded3(v.at_mm[2])}},
-                          {"outside_mm", rounded3(v.outside_mm)}, {"layer", v.layer}, {"line", v.line}, {"text", v.line_text}});
-  return {{"verdict", a.verdict}, {"checked_moves", a.checked_moves}, {"not_audited", a.not_audited},
-          {"violations", std::move(violations)}, {"violation_count", a.violation_count}};
+                          {"outside_mm", rounded3(v.outside_mm)},
+                          {"layer", v.layer},
+                          {"line", v.line},
+                          {"text", v.line_text}});
+  return {{"verdict", a.verdict},
+          {"checked_moves", a.checked_moves},
+          {"not_audited", a.not_audited},
+          {"violations", std::move(violations)},
+          {"violation_count", a.violation_count}};
 }
 
 Json warnings_of(const Notices& notices) {
@@ -66,22 +81,27 @@ std::string to_json(const Report& r) {
   out["print_time_s"] = rounded3(r.print_time_s);
   out["filament"] = {{"mm", rounded3(r.filament_mm)}, {"mm3", rounded3(r.filament_mm3)}, {"g", rounded3(r.filament_g)}};
   out["features"] = features_of(r);
-  out["walls"] = {{"beads", r.walls.beads}, {"variable_width_mm", rounded3(r.walls.variable_width_mm)},
-                  {"flow_compensated_mm", rounded3(r.walls.flow_compensated_mm)}, {"min_flow_ratio", rounded3(r.walls.min_flow_ratio)},
+  out["walls"] = {{"beads", r.walls.beads},
+                  {"variable_width_mm", rounded3(r.walls.variable_width_mm)},
+                  {"flow_compensated_mm", rounded3(r.walls.flow_compensated_mm)},
+                  {"min_flow_ratio", rounded3(r.walls.min_flow_ratio)},
                   {"min_width_mm", rounded3(r.walls.min_width_mm)}};
-  out["travel"] = {{"mm", rounded3(r.travel.mm)}, {"moves", r.travel.moves}, {"retractions", r.travel.retractions},
+  out["travel"] = {{"mm", rounded3(r.travel.mm)},
+                   {"moves", r.travel.moves},
+                   {"retractions", r.travel.retractions},
                    {"wall_crossings", r.travel.wall_crossings}};
   out["audit"] = audit_of(r.audit);
   out["warnings"] = warnings_of(r.warnings);
   const auto& t = r.timings_ms;
-  out["timings_ms"] = {{"read", rounded3(t.read)}, {"slice", rounded3(t.slice)}, {"walls", rounded3(t.walls)}, {"infill", rounded3(t.infill)},
-                       {"travel", rounded3(t.travel)}, {"gcode", rounded3(t.gcode)}, {"audit", rounded3(t.audit)}, {"total", rounded3(t.total)}};
+  out["timings_ms"] = {{"read", rounded3(t.read)},     {"slice", rounded3(t.slice)},   {"walls", rounded3(t.walls)},
+                       {"infill", rounded3(t.infill)}, {"travel", rounded3(t.travel)}, {"gcode", rounded3(t.gcode)},
+                       {"audit", rounded3(t.audit)},   {"total", rounded3(t.total)}};
   out["peak_memory_mb"] = rounded3(r.peak_memory_mb);
   return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 double peak_memory_mb() {
-  struct rusage usage{};
+  struct rusage usage {};
   ::getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }

@@ -28,23 +28,26 @@ struct PrintedLayer {
   Regions skin;     ///< top, bottom and other solid fill
   Regions top;      ///< seen from above
   Regions sparse;
-  Beads beads;      ///< walls of each part in the order they are printed, then fills
+  Beads beads;  ///< walls of each part in the order they are printed, then fills
 };
 using PrintedLayers = std::vector<PrintedLayer>;
 
 /// Slice, walls, shells and infill of one object.
 /// @param cache may be null
-PrintedLayers print_object(const Settings& settings, const PlacedObject& object, const Watch& watch, Report& report, StageCache* cache);
+PrintedLayers print_object(const Settings& settings, const PlacedObject& object, const Watch& watch, Report& report,
+                           StageCache* cache);
 
 /// A plan of which each layer's steps wait as bytes (codec.h), which take a third of the memory.
 struct PlannedPlate {
-  PrintPlan plan;                            ///< without steps
-  std::vector<std::string> packed;           ///< the layers, with them
+  PrintPlan plan;                   ///< without steps
+  std::vector<std::string> packed;  ///< the layers, with them
   std::vector<gcode::LayerDigest> digests;
   Statistics statistics;
 };
 
-/// The whole plate as steps: copies put in their places, adhesion around them, order, seams and travels, speeds and times.
-PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects, std::vector<PrintedLayers> layers, Report& report);
+/// The whole plate as steps: copies put in their places, adhesion around them, order, seams and travels, speeds and
+/// times.
+PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects,
+                        std::vector<PrintedLayers> layers, Report& report);
 
 }  // namespace weft::pipeline

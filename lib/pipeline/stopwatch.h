@@ -9,7 +9,9 @@ class Stopwatch {
   explicit Stopwatch(double& total_ms) : total_ms_(total_ms) {}
   Stopwatch(const Stopwatch&) = delete;
   Stopwatch& operator=(const Stopwatch&) = delete;
-  ~Stopwatch() { total_ms_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin_).count(); }
+  ~Stopwatch() {
+    total_ms_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin_).count();
+  }
 
  private:
   double& total_ms_;

@@ -1,16 +1,16 @@
 #include "pipeline/write_file.h"
 
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
+#include "core/error.h"
 
 #include <cerrno>
 #include <cstring>
 #include <string>
 #include <utility>
 
-#include "core/error.h"
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace weft {
 namespace {
@@ -35,7 +35,10 @@ class Descriptor {
 };
 
 [[noreturn]] void fail(const std::filesystem::path& path, int error) {
-  const char* hint = error == ENOSPC || error == EDQUOT ? "free some space" : error == ENOENT ? "does the folder exist?" : error == EPIPE ? "the reader went away" : "check the path and its permissions";
+  const char* hint = error == ENOSPC || error == EDQUOT ? "free some space"
+                     : error == ENOENT                  ? "does the folder exist?"
+                     : error == EPIPE                   ? "the reader went away"
+                                                        : "check the path and its permissions";
   throw Error{Error::Kind::file, fmt::format("cannot be written ({})", std::strerror(error)), path.string(), hint};
 }
 
@@ -51,9 +54,10 @@ void write_all(int fd, std::string_view bytes, const std::filesystem::path& path
 }  // namespace
 
 void write_file(const std::filesystem::path& destination, std::string_view bytes) {
-  struct stat status{};
+  struct stat status {};
   if (::stat(destination.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
-    if (S_ISDIR(status.st_mode)) throw Error{Error::Kind::file, "is a folder", destination.string(), "name a file in it"};
+    if (S_ISDIR(status.st_mode))
+      throw Error{Error::Kind::file, "is a folder", destination.string(), "name a file in it"};
     Descriptor file(::open(destination.c_str(), O_WRONLY | O_CLOEXEC), {});
     if (file.get() < 0) fail(destination, errno);
     return write_all(file.get(), bytes, destination);

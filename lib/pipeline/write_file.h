@@ -4,8 +4,8 @@
 
 namespace weft {
 
-/// Writes beside the destination and renames when every byte is there: the file is the old one or the new one, never half.
-/// A destination that exists and is no regular file (a pipe, /dev/null) is written straight.
+/// Writes beside the destination and renames when every byte is there: the file is the old one or the new one, never
+/// half. A destination that exists and is no regular file (a pipe, /dev/null) is written straight.
 /// @throws Error{file}; the destination is then as it was
 void write_file(const std::filesystem::path& destination, std::string_view bytes);
 

@@ -1,31 +1,37 @@
 #include "settings/catalogue.h"
 
-#include <fmt/format.h>
+#include "settings/near.h"
 
 #include <algorithm>
 #include <array>
 #include <stdexcept>
 
-#include "settings/near.h"
+#include <fmt/format.h>
 
 namespace weft {
 namespace {
 
 template <class T>
-struct OptionalOf : std::false_type { using type = T; };
+struct OptionalOf : std::false_type {
+  using type = T;
+};
 template <class T>
-struct OptionalOf<std::optional<T>> : std::true_type { using type = T; };
+struct OptionalOf<std::optional<T>> : std::true_type {
+  using type = T;
+};
 
 template <class T>
 std::vector<std::string_view> choice_names() {
   std::vector<std::string_view> names;
   if constexpr (std::is_enum_v<T>) {
-    static_assert([] {
-      constexpr auto choices = choices_of(T{});
-      for (std::size_t i = 0; i < choices.size(); ++i)
-        if (choices[i].value != static_cast<T>(i)) return false;
-      return true;
-    }(), "row i of choices_of is value i");
+    static_assert(
+        [] {
+          constexpr auto choices = choices_of(T{});
+          for (std::size_t i = 0; i < choices.size(); ++i)
+            if (choices[i].value != static_cast<T>(i)) return false;
+          return true;
+        }(),
+        "row i of choices_of is value i");
     for (const auto& choice : choices_of(T{})) names.push_back(choice.name);
   }
   return names;
@@ -57,17 +63,28 @@ T parse_value(std::string_view text, Unit unit) {
 
 template <class T>
 std::string_view type_name(Unit unit) {
-  if constexpr (OptionalOf<T>::value) return type_name<typename OptionalOf<T>::type>(unit);
-  else if constexpr (std::is_enum_v<T>) return "choice";
-  else if constexpr (std::is_same_v<T, bool>) return "flag";
-  else if constexpr (std::is_same_v<T, Um>) return unit == Unit::mm ? "length" : "integer";
-  else if constexpr (std::is_same_v<T, double>) return "number";
-  else if constexpr (std::is_same_v<T, std::string>) return "text";
-  else if constexpr (std::is_same_v<T, LengthOrShare>) return "length or %";
-  else if constexpr (std::is_same_v<T, SpeedOrShare>) return "speed or %";
-  else if constexpr (std::is_same_v<T, Ring>) return "points";
-  else if constexpr (std::is_same_v<T, PictureSizes>) return "sizes";
-  else return "polygons";
+  if constexpr (OptionalOf<T>::value)
+    return type_name<typename OptionalOf<T>::type>(unit);
+  else if constexpr (std::is_enum_v<T>)
+    return "choice";
+  else if constexpr (std::is_same_v<T, bool>)
+    return "flag";
+  else if constexpr (std::is_same_v<T, Um>)
+    return unit == Unit::mm ? "length" : "integer";
+  else if constexpr (std::is_same_v<T, double>)
+    return "number";
+  else if constexpr (std::is_same_v<T, std::string>)
+    return "text";
+  else if constexpr (std::is_same_v<T, LengthOrShare>)
+    return "length or %";
+  else if constexpr (std::is_same_v<T, SpeedOrShare>)
+    return "speed or %";
+  else if constexpr (std::is_same_v<T, Ring>)
+    return "points";
+  else if constexpr (std::is_same_v<T, PictureSizes>)
+    return "sizes";
+  else
+    return "polygons";
 }
 
 /// The unit to print a number with where its symbol is written behind it anyway: `%` would stand there twice.
@@ -85,8 +102,9 @@ void check_range(const T& v, const Bound& least, const Bound& most, Unit unit) {
   } else if constexpr (std::is_same_v<T, SpeedOrShare>) {
     if (!v.is_share) check_range(v.value, least, most, unit);
   } else if (v < least || v > most) {
-    throw std::invalid_argument(fmt::format("{}{}{} is outside {} … {}{}{}", print_value(v, bare(unit)), unit == Unit::none ? "" : " ", symbol_of(unit),
-                                            print_value(least, bare(unit)), print_value(most, bare(unit)), unit == Unit::none ? "" : " ", symbol_of(unit)));
+    throw std::invalid_argument(fmt::format(
+        "{}{}{} is outside {} … {}{}{}", print_value(v, bare(unit)), unit == Unit::none ? "" : " ", symbol_of(unit),
+        print_value(least, bare(unit)), print_value(most, bare(unit)), unit == Unit::none ? "" : " ", symbol_of(unit)));
   }
 }
 

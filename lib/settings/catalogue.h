@@ -1,19 +1,19 @@
 #pragma once
+#include "settings/settings.h"
+
 #include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "settings/settings.h"
 
 namespace weft {
 
 /// One setting as text: what `weft settings` prints, and the way in and out for every file and option.
 struct CatalogueEntry {
   std::string_view section, key, type, unit, meaning, prusa;
-  std::string default_text, least, most;      ///< least and most are empty where there is no range
-  std::vector<std::string_view> choices;      ///< of an enumeration
-  bool automatic = false;                     ///< `auto` is a value
+  std::string default_text, least, most;  ///< least and most are empty where there is no range
+  std::vector<std::string_view> choices;  ///< of an enumeration
+  bool automatic = false;                 ///< `auto` is a value
   std::function<std::string(const Settings&)> print;
   /// @throws std::invalid_argument with one clause: wrong type, or out of range
   std::function<void(Settings&, std::string_view)> parse;

@@ -1,21 +1,23 @@
 #pragma once
-#include <array>
-
 #include "settings/schema.h"
+
+#include <array>
 
 namespace weft {
 
 /// How the objects of a print are named, so that one of them can be cancelled.
 enum class ObjectLabels { none, firmware, comments };
 constexpr auto choices_of(ObjectLabels) {
-  return std::array{Choice<ObjectLabels>{ObjectLabels::none, "none"}, Choice<ObjectLabels>{ObjectLabels::firmware, "firmware"},
+  return std::array{Choice<ObjectLabels>{ObjectLabels::none, "none"},
+                    Choice<ObjectLabels>{ObjectLabels::firmware, "firmware"},
                     Choice<ObjectLabels>{ObjectLabels::comments, "comments"}};
 }
 
 /// Whose comments the file speaks in, so that viewers and print servers find layers, features and metadata.
 enum class CommentDialect { prusaslicer, cura, orca };
 constexpr auto choices_of(CommentDialect) {
-  return std::array{Choice<CommentDialect>{CommentDialect::prusaslicer, "prusaslicer"}, Choice<CommentDialect>{CommentDialect::cura, "cura"},
+  return std::array{Choice<CommentDialect>{CommentDialect::prusaslicer, "prusaslicer"},
+                    Choice<CommentDialect>{CommentDialect::cura, "cura"},
                     Choice<CommentDialect>{CommentDialect::orca, "orca"}};
 }
 
@@ -38,33 +40,44 @@ struct GcodeSettings {
 };
 
 inline constexpr std::tuple gcode_schema{
-    setting("relative_extrusion", &GcodeSettings::relative_extrusion, "E is relative (M83); off: absolute (M82), from zero in each layer.",
-            "use_relative_e_distances"),
+    setting("relative_extrusion", &GcodeSettings::relative_extrusion,
+            "E is relative (M83); off: absolute (M82), from zero in each layer.", "use_relative_e_distances"),
     setting("machine_start_gcode", &GcodeSettings::machine_start_gcode,
-            "G-code before the print, with placeholders such as {material_print_temperature_layer_0}. Temperatures that it neither sets nor "
+            "G-code before the print, with placeholders such as {material_print_temperature_layer_0}. Temperatures "
+            "that it neither sets nor "
             "mentions are set around it.",
             "start_gcode"),
     setting("machine_end_gcode", &GcodeSettings::machine_end_gcode, "G-code after the print.", "end_gcode"),
-    setting("before_layer_gcode", &GcodeSettings::before_layer_gcode, "G-code before the move to each layer: {layer_num}, {layer_z}.",
-            "before_layer_gcode"),
-    setting("layer_gcode", &GcodeSettings::layer_gcode, "G-code after the move to each layer: {layer_num}, {layer_z}.", "layer_gcode"),
+    setting("before_layer_gcode", &GcodeSettings::before_layer_gcode,
+            "G-code before the move to each layer: {layer_num}, {layer_z}.", "before_layer_gcode"),
+    setting("layer_gcode", &GcodeSettings::layer_gcode, "G-code after the move to each layer: {layer_num}, {layer_z}.",
+            "layer_gcode"),
     setting("tool_change_gcode", &GcodeSettings::tool_change_gcode,
-            "G-code at changes of the tool: {previous_extruder}, {next_extruder}. Checked; without effect while there is one extruder.", "toolchange_gcode"),
+            "G-code at changes of the tool: {previous_extruder}, {next_extruder}. Checked; without effect while there "
+            "is one extruder.",
+            "toolchange_gcode"),
     setting("between_objects_gcode", &GcodeSettings::between_objects_gcode,
-            "G-code between objects that are printed one after the other, before the first layer of the next.", "between_objects_gcode"),
+            "G-code between objects that are printed one after the other, before the first layer of the next.",
+            "between_objects_gcode"),
     setting("gcode_variables", &GcodeSettings::gcode_variables,
-            "Further names that custom G-code may use: lines `name = value`, lists between commas, texts in quotes. On import from PrusaSlicer, those "
+            "Further names that custom G-code may use: lines `name = value`, lists between commas, texts in quotes. On "
+            "import from PrusaSlicer, those "
             "of its keys that the custom G-code names."),
     setting("gcode_label_objects", &GcodeSettings::gcode_label_objects,
-            "Objects are named in the file: firmware (EXCLUDE_OBJECT for Klipper, M486 for others), comments, or none.", "gcode_label_objects"),
+            "Objects are named in the file: firmware (EXCLUDE_OBJECT for Klipper, M486 for others), comments, or none.",
+            "gcode_label_objects"),
     setting("gcode_comment_dialect", &GcodeSettings::gcode_comment_dialect,
-            "Whose comments the file speaks in: prusaslicer, cura or orca. Print servers and viewers tell by them what they read."),
+            "Whose comments the file speaks in: prusaslicer, cura or orca. Print servers and viewers tell by them what "
+            "they read."),
     setting("gcode_progress", &GcodeSettings::gcode_progress,
             "Progress and remaining time are written as M73, for Marlin, Klipper and RepRapFirmware."),
     setting("gcode_machine_limits", &GcodeSettings::gcode_machine_limits,
-            "The machine's limits of speed, acceleration and jerk are written at the top, in the firmware's commands; Klipper has none."),
-    setting("gcode_flow_comments", &GcodeSettings::gcode_flow_comments, "Moves of beads with flow compensation carry their ratio as a comment."),
-    setting("thumbnails", &GcodeSettings::thumbnails, "Sizes of the pictures of the plate in the head of the file, PNG; empty: none.", "thumbnails"),
+            "The machine's limits of speed, acceleration and jerk are written at the top, in the firmware's commands; "
+            "Klipper has none."),
+    setting("gcode_flow_comments", &GcodeSettings::gcode_flow_comments,
+            "Moves of beads with flow compensation carry their ratio as a comment."),
+    setting("thumbnails", &GcodeSettings::thumbnails,
+            "Sizes of the pictures of the plate in the head of the file, PNG; empty: none.", "thumbnails"),
 };
 static_assert(complete<GcodeSettings>(gcode_schema));
 

@@ -1,10 +1,10 @@
 #include "settings/gcode_variables.h"
 
-#include <fmt/format.h>
+#include "settings/value.h"
 
 #include <stdexcept>
 
-#include "settings/value.h"
+#include <fmt/format.h>
 
 namespace weft {
 namespace {
@@ -50,12 +50,15 @@ std::vector<GcodeVariable> parse_gcode_variables(std::string_view text) {
     if (line.empty()) continue;
     const auto equals = line.find('=');
     const auto name = trimmed(line.substr(0, equals));
-    if (equals == std::string_view::npos || name.empty() || name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789") != std::string_view::npos)
+    if (equals == std::string_view::npos || name.empty() ||
+        name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789") !=
+            std::string_view::npos)
       throw std::invalid_argument(fmt::format("line {}, '{}', is not 'name = value'", number, line.substr(0, 40)));
     GcodeVariable variable{std::string(name), {}};
     for (auto rest = trimmed(line.substr(equals + 1)); !rest.empty();)
       if (!take_element(rest, variable.elements.emplace_back()))
-        throw std::invalid_argument(fmt::format("line {}: '{}' is not a value or a list of values", number, trimmed(line.substr(equals + 1)).substr(0, 40)));
+        throw std::invalid_argument(fmt::format("line {}: '{}' is not a value or a list of values", number,
+                                                trimmed(line.substr(equals + 1)).substr(0, 40)));
     out.push_back(std::move(variable));
   }
   return out;
@@ -65,8 +68,10 @@ std::string quoted_variable(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') out += '\\';
-    if (c == '\n') out += "\\n";
-    else out += c;
+    if (c == '\n')
+      out += "\\n";
+    else
+      out += c;
   }
   return out + "\"";
 }

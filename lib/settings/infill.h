@@ -35,10 +35,10 @@ inline constexpr std::tuple infill_schema{
     setting("infill_angle", &InfillSettings::infill_angle, Unit::degrees, -360, 360,
             "Direction of sparse lines, against X; the pattern lines is turned by 90° on every second layer.",
             "fill_angle"),
-    setting(
-        "infill_overlap", &InfillSettings::infill_overlap, Unit::mm, 0_mm, 5_mm,
-        "How far the ends of skin and infill lines reach into the innermost wall, to bond with it; a share is of that wall's line width.",
-        "infill_overlap"),
+    setting("infill_overlap", &InfillSettings::infill_overlap, Unit::mm, 0_mm, 5_mm,
+            "How far the ends of skin and infill lines reach into the innermost wall, to bond with it; a share is of "
+            "that wall's line width.",
+            "infill_overlap"),
     setting(
         "infill_connect_lines", &InfillSettings::infill_connect_lines,
         "Neighbouring lines, solid ones too, are joined along the wall instead of travelling from one to the next."),

@@ -1,11 +1,11 @@
 #include "settings/ini.h"
 
-#include <fmt/format.h>
+#include "core/error.h"
+#include "settings/value.h"
 
 #include <algorithm>
 
-#include "core/error.h"
-#include "settings/value.h"
+#include <fmt/format.h>
 
 namespace weft {
 namespace {
@@ -64,7 +64,8 @@ std::vector<IniEntry> parse_ini(std::string_view text, const std::string& path) 
       continue;
     }
     const auto equals = line.find('=');
-    if (equals == std::string_view::npos) refuse(fmt::format("'{}' is not 'key = value'", line.substr(0, 60)), "comments begin with ';' or '#'");
+    if (equals == std::string_view::npos)
+      refuse(fmt::format("'{}' is not 'key = value'", line.substr(0, 60)), "comments begin with ';' or '#'");
     const auto key = value::trimmed(line.substr(0, equals));
     if (key.empty()) refuse("there is no key before '='", "");
     entries.push_back({section, std::string(key), std::string(value::trimmed(line.substr(equals + 1))), number});

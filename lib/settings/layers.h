@@ -7,17 +7,19 @@ using namespace weft::literals;
 /// How the model is cut.
 struct LayerSettings {
   Um layer_height = 0.2_mm;
-  std::optional<Um> initial_layer_height;  ///< auto: layer_height
+  std::optional<Um> initial_layer_height;      ///< auto: layer_height
   std::optional<Um> initial_layer_line_width;  ///< auto: as in the other layers
   Um resolution = 0.0125_mm;
 };
 
 inline constexpr std::tuple layer_schema{
-    setting("layer_height", &LayerSettings::layer_height, Unit::mm, 0.02_mm, 2_mm, "Height of a layer.", "layer_height"),
+    setting("layer_height", &LayerSettings::layer_height, Unit::mm, 0.02_mm, 2_mm, "Height of a layer.",
+            "layer_height"),
     setting("initial_layer_height", &LayerSettings::initial_layer_height, Unit::mm, 0.02_mm, 2_mm,
             "Height of the first layer; auto is layer_height.", "first_layer_height"),
     setting("initial_layer_line_width", &LayerSettings::initial_layer_line_width, Unit::mm, 0.05_mm, 5_mm,
-            "Line width of everything in the first layer; auto is that of the other layers.", "first_layer_extrusion_width"),
+            "Line width of everything in the first layer; auto is that of the other layers.",
+            "first_layer_extrusion_width"),
     setting("resolution", &LayerSettings::resolution, Unit::mm, 0_mm, 1_mm,
             "How far a simplified outline may stand off the model's.", "gcode_resolution"),
 };

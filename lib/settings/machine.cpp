@@ -1,10 +1,10 @@
 #include "settings/machine.h"
 
+#include "core/tolerances.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "core/tolerances.h"
 
 namespace weft {
 namespace {
@@ -14,7 +14,9 @@ Ring counter_clockwise(Ring ring) {
   return ring;
 }
 
-Ring box_ring(const Box& box) { return {box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}}; }
+Ring box_ring(const Box& box) {
+  return {box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}};
+}
 
 /// Chords of n corners stand off the circle by radius · (1 − cos(π/n)).
 Ring circle(Point centre, Um radius) {
@@ -36,7 +38,8 @@ bool on_segment(Point a, Point b, Point p) {
 bool touch(Point a, Point b, Point c, Point d) {
   const auto left = [](Point p, Point q, Point r) { return orient(p, q, r) > 0; };
   const bool apart = on_segment(a, b, c) || on_segment(a, b, d) || on_segment(c, d, a) || on_segment(c, d, b);
-  return apart || (orient(a, b, c) != 0 && orient(a, b, d) != 0 && left(a, b, c) != left(a, b, d) && left(c, d, a) != left(c, d, b));
+  return apart || (orient(a, b, c) != 0 && orient(a, b, d) != 0 && left(a, b, c) != left(a, b, d) &&
+                   left(c, d, a) != left(c, d, b));
 }
 
 }  // namespace
@@ -59,7 +62,9 @@ bool is_simple(const Ring& ring) {
   const std::size_t n = ring.size();
   const auto at = [&](std::size_t i) { return ring[i % n]; };
   for (std::size_t i = 0; i < n; ++i) {
-    if (at(i) == at(i + 1) || (n > 2 && (on_segment(at(i), at(i + 1), at(i + 2)) || on_segment(at(i + 1), at(i + 2), at(i))))) return false;
+    if (at(i) == at(i + 1) ||
+        (n > 2 && (on_segment(at(i), at(i + 1), at(i + 2)) || on_segment(at(i + 1), at(i + 2), at(i)))))
+      return false;
     for (std::size_t j = i + 2; j < n; ++j)
       if (!(i == 0 && j == n - 1) && touch(at(i), at(i + 1), at(j), at(j + 1))) return false;
   }

@@ -1,7 +1,7 @@
 #pragma once
-#include <array>
-
 #include "settings/schema.h"
+
+#include <array>
 
 namespace weft {
 using namespace weft::literals;
@@ -15,9 +15,10 @@ constexpr auto choices_of(BedShape) {
 /// The firmware that will read the file.
 enum class Firmware { marlin, marlin2, klipper, reprapfirmware, repetier, smoothie };
 constexpr auto choices_of(Firmware) {
-  return std::array{Choice<Firmware>{Firmware::marlin, "marlin"},     Choice<Firmware>{Firmware::marlin2, "marlin2"},
-                    Choice<Firmware>{Firmware::klipper, "klipper"},   Choice<Firmware>{Firmware::reprapfirmware, "reprapfirmware"},
-                    Choice<Firmware>{Firmware::repetier, "repetier"}, Choice<Firmware>{Firmware::smoothie, "smoothie"}};
+  return std::array{
+      Choice<Firmware>{Firmware::marlin, "marlin"},     Choice<Firmware>{Firmware::marlin2, "marlin2"},
+      Choice<Firmware>{Firmware::klipper, "klipper"},   Choice<Firmware>{Firmware::reprapfirmware, "reprapfirmware"},
+      Choice<Firmware>{Firmware::repetier, "repetier"}, Choice<Firmware>{Firmware::smoothie, "smoothie"}};
 }
 
 /// The printer: what it can reach, its nozzle, its limits.
@@ -51,11 +52,15 @@ struct MachineSettings {
 };
 
 inline constexpr std::tuple machine_schema{
-    setting("machine_name", &MachineSettings::machine_name, "Name of the printer, for comments and messages.", "printer_model"),
+    setting("machine_name", &MachineSettings::machine_name, "Name of the printer, for comments and messages.",
+            "printer_model"),
     setting("bed_shape", &MachineSettings::bed_shape, "Shape of the print surface."),
-    setting("machine_width", &MachineSettings::machine_width, Unit::mm, 1_mm, 10000_mm, "Extent of the print surface along X."),
-    setting("machine_depth", &MachineSettings::machine_depth, Unit::mm, 1_mm, 10000_mm, "Extent of the print surface along Y."),
-    setting("machine_height", &MachineSettings::machine_height, Unit::mm, 1_mm, 10000_mm, "Highest Z that may be printed at.", "max_print_height"),
+    setting("machine_width", &MachineSettings::machine_width, Unit::mm, 1_mm, 10000_mm,
+            "Extent of the print surface along X."),
+    setting("machine_depth", &MachineSettings::machine_depth, Unit::mm, 1_mm, 10000_mm,
+            "Extent of the print surface along Y."),
+    setting("machine_height", &MachineSettings::machine_height, Unit::mm, 1_mm, 10000_mm,
+            "Highest Z that may be printed at.", "max_print_height"),
     setting("machine_center_is_zero", &MachineSettings::machine_center_is_zero,
             "The origin is the centre of the print surface, not its front left corner."),
     setting("bed_polygon", &MachineSettings::bed_polygon, "Corners of the print surface when bed_shape is polygon."),
@@ -63,45 +68,61 @@ inline constexpr std::tuple machine_schema{
             "Areas that no move may enter below exclude_height: polygons separated by ';'."),
     setting("exclude_height", &MachineSettings::exclude_height, Unit::mm, 0_mm, 10000_mm,
             "Z up to which bed_exclude_areas hold; auto is machine_height."),
-    setting("machine_reach", &MachineSettings::machine_reach,
-            "Corners of the area that the nozzle can go to, two opposite ones or a polygon; empty is the print surface."),
-    setting("machine_reach_z_min", &MachineSettings::machine_reach_z_min, Unit::mm, -1000_mm, 1000_mm, "Lowest Z that the nozzle can go to."),
+    setting(
+        "machine_reach", &MachineSettings::machine_reach,
+        "Corners of the area that the nozzle can go to, two opposite ones or a polygon; empty is the print surface."),
+    setting("machine_reach_z_min", &MachineSettings::machine_reach_z_min, Unit::mm, -1000_mm, 1000_mm,
+            "Lowest Z that the nozzle can go to."),
     setting("machine_reach_z_max", &MachineSettings::machine_reach_z_max, Unit::mm, 1_mm, 10000_mm,
             "Highest Z that the nozzle can go to; auto is machine_height."),
     setting("home_position", &MachineSettings::home_position, "Where G28 leaves the nozzle, one point; auto: unknown."),
-    setting("nozzle_offsets", &MachineSettings::nozzle_offsets,
-            "Where each nozzle stands from the first, in order of tool number, when the firmware does not allow for it.", "extruder_offset"),
-    setting("nozzle_diameter", &MachineSettings::nozzle_diameter, Unit::mm, 0.05_mm, 5_mm, "Diameter of the nozzle's opening.", "nozzle_diameter"),
-    setting("firmware", &MachineSettings::firmware, "The firmware that reads the file; marlin is Marlin 1 and what descends from it.", "gcode_flavor"),
-    setting("machine_max_speed_x", &MachineSettings::machine_max_speed_x, Unit::mm_s, 1, 5000, "Speed limit of X.", "machine_max_feedrate_x"),
-    setting("machine_max_speed_y", &MachineSettings::machine_max_speed_y, Unit::mm_s, 1, 5000, "Speed limit of Y.", "machine_max_feedrate_y"),
-    setting("machine_max_speed_z", &MachineSettings::machine_max_speed_z, Unit::mm_s, 0.1, 5000, "Speed limit of Z.", "machine_max_feedrate_z"),
-    setting("machine_max_speed_e", &MachineSettings::machine_max_speed_e, Unit::mm_s, 0.1, 5000, "Speed limit of the extruder.", "machine_max_feedrate_e"),
-    setting("machine_max_acceleration_x", &MachineSettings::machine_max_acceleration_x, Unit::mm_s2, 1, 100000, "Acceleration limit of X.",
-            "machine_max_acceleration_x"),
-    setting("machine_max_acceleration_y", &MachineSettings::machine_max_acceleration_y, Unit::mm_s2, 1, 100000, "Acceleration limit of Y.",
-            "machine_max_acceleration_y"),
-    setting("machine_max_acceleration_z", &MachineSettings::machine_max_acceleration_z, Unit::mm_s2, 1, 100000, "Acceleration limit of Z.",
-            "machine_max_acceleration_z"),
+    setting(
+        "nozzle_offsets", &MachineSettings::nozzle_offsets,
+        "Where each nozzle stands from the first, in order of tool number, when the firmware does not allow for it.",
+        "extruder_offset"),
+    setting("nozzle_diameter", &MachineSettings::nozzle_diameter, Unit::mm, 0.05_mm, 5_mm,
+            "Diameter of the nozzle's opening.", "nozzle_diameter"),
+    setting("firmware", &MachineSettings::firmware,
+            "The firmware that reads the file; marlin is Marlin 1 and what descends from it.", "gcode_flavor"),
+    setting("machine_max_speed_x", &MachineSettings::machine_max_speed_x, Unit::mm_s, 1, 5000, "Speed limit of X.",
+            "machine_max_feedrate_x"),
+    setting("machine_max_speed_y", &MachineSettings::machine_max_speed_y, Unit::mm_s, 1, 5000, "Speed limit of Y.",
+            "machine_max_feedrate_y"),
+    setting("machine_max_speed_z", &MachineSettings::machine_max_speed_z, Unit::mm_s, 0.1, 5000, "Speed limit of Z.",
+            "machine_max_feedrate_z"),
+    setting("machine_max_speed_e", &MachineSettings::machine_max_speed_e, Unit::mm_s, 0.1, 5000,
+            "Speed limit of the extruder.", "machine_max_feedrate_e"),
+    setting("machine_max_acceleration_x", &MachineSettings::machine_max_acceleration_x, Unit::mm_s2, 1, 100000,
+            "Acceleration limit of X.", "machine_max_acceleration_x"),
+    setting("machine_max_acceleration_y", &MachineSettings::machine_max_acceleration_y, Unit::mm_s2, 1, 100000,
+            "Acceleration limit of Y.", "machine_max_acceleration_y"),
+    setting("machine_max_acceleration_z", &MachineSettings::machine_max_acceleration_z, Unit::mm_s2, 1, 100000,
+            "Acceleration limit of Z.", "machine_max_acceleration_z"),
     setting("machine_max_acceleration_e", &MachineSettings::machine_max_acceleration_e, Unit::mm_s2, 1, 100000,
             "Acceleration limit of the extruder.", "machine_max_acceleration_e"),
     setting("machine_junction_deviation", &MachineSettings::machine_junction_deviation, Unit::mm, 0.001, 1,
-            "Junction deviation of the planner; auto: the planner uses machine_max_jerk.", "machine_max_junction_deviation"),
+            "Junction deviation of the planner; auto: the planner uses machine_max_jerk.",
+            "machine_max_junction_deviation"),
     setting("machine_max_jerk", &MachineSettings::machine_max_jerk, Unit::mm_s, 0.1, 200,
-            "Speed at which X and Y may change in a corner (Marlin's jerk, Klipper's square corner velocity).", "machine_max_jerk_x"),
+            "Speed at which X and Y may change in a corner (Marlin's jerk, Klipper's square corner velocity).",
+            "machine_max_jerk_x"),
 };
 static_assert(complete<MachineSettings>(machine_schema));
 
-/// The print surface, counter-clockwise. A circle of diameter machine_width becomes an inscribed polygon that stands off it
-/// by at most tolerances::arc. Pre: a consistent machine (settings/profile.h).
+/// The print surface, counter-clockwise. A circle of diameter machine_width becomes an inscribed polygon that stands
+/// off it by at most tolerances::arc. Pre: a consistent machine (settings/profile.h).
 Ring print_surface(const MachineSettings& machine);
 
 /// The area that the nozzle can go to, counter-clockwise: machine_reach, or the print surface where that is empty.
 Ring reach_area(const MachineSettings& machine);
 
 /// Highest Z that the nozzle can go to, and Z up to which bed_exclude_areas hold.
-inline Um reach_z_max(const MachineSettings& machine) { return machine.machine_reach_z_max.value_or(machine.machine_height); }
-inline Um exclude_height(const MachineSettings& machine) { return machine.exclude_height.value_or(machine.machine_height); }
+inline Um reach_z_max(const MachineSettings& machine) {
+  return machine.machine_reach_z_max.value_or(machine.machine_height);
+}
+inline Um exclude_height(const MachineSettings& machine) {
+  return machine.exclude_height.value_or(machine.machine_height);
+}
 
 /// Do no two edges of the ring cross, touch or overlap, but for neighbours at their common corner? Exact. O(n²).
 bool is_simple(const Ring& ring);

@@ -1,9 +1,9 @@
 #include "settings/near.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <numeric>
+
+#include <fmt/format.h>
 
 namespace weft {
 namespace {
@@ -38,8 +38,10 @@ std::string did_you_mean(std::string_view wrong, const std::vector<std::string>&
   for (const auto& name : names) {
     const auto known = lower(name);
     const auto distance = edit_distance(wanted, known);
-    if (known.find(wanted) != std::string::npos) near.emplace_back(distance / 100, name);
-    else if (distance <= wanted.size() / 3 + 1) near.emplace_back(distance + 1, name);
+    if (known.find(wanted) != std::string::npos)
+      near.emplace_back(distance / 100, name);
+    else if (distance <= wanted.size() / 3 + 1)
+      near.emplace_back(distance + 1, name);
   }
   std::stable_sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   if (near.size() > 3) near.resize(3);
@@ -49,7 +51,8 @@ std::string did_you_mean(std::string_view wrong, const std::vector<std::string>&
     return out + (names.size() > 6 ? " …" : "");
   }
   std::string out = "did you mean";
-  for (std::size_t i = 0; i < near.size(); ++i) out += fmt::format("{} '{}'", i == 0 ? "" : i + 1 == near.size() ? " or" : ",", near[i].second);
+  for (std::size_t i = 0; i < near.size(); ++i)
+    out += fmt::format("{} '{}'", i == 0 ? "" : i + 1 == near.size() ? " or" : ",", near[i].second);
   return out + "?";
 }
 

@@ -1,17 +1,17 @@
 #include "settings/profile.h"
 
-#include <fmt/format.h>
+#include "core/error.h"
+#include "settings/catalogue.h"
+#include "settings/gcode_variables.h"
+#include "settings/ini.h"
+#include "settings/prusaslicer.h"
+#include "settings/prusaslicer_embedded.h"
 
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
 
-#include "core/error.h"
-#include "settings/catalogue.h"
-#include "settings/ini.h"
-#include "settings/prusaslicer.h"
-#include "settings/prusaslicer_embedded.h"
-#include "settings/gcode_variables.h"
+#include <fmt/format.h>
 
 namespace weft {
 namespace {
@@ -29,7 +29,8 @@ void refuse_twice(const std::vector<IniEntry>& entries, const std::string& path)
   for (const auto& e : entries) {
     const auto [first, is_new] = seen.emplace(e.key, e.line);
     if (!is_new)
-      throw Error{Error::Kind::settings, fmt::format("'{}' was already given on line {}", e.key, first->second), fmt::format("{}:{}", path, e.line), "keep one of the two"};
+      throw Error{Error::Kind::settings, fmt::format("'{}' was already given on line {}", e.key, first->second),
+                  fmt::format("{}:{}", path, e.line), "keep one of the two"};
   }
 }
 
@@ -47,52 +48,66 @@ prusaslicer::Translation apply_foreign(Profile& profile, Foreign foreign, const 
     if (const auto known = foreign.histories.find(a.theirs); known != foreign.histories.end())
       for (const auto& e : known->second)
         if (e.line != a.line)
-          profile.origins[a.key].push_back({fmt::format("{}:{}", path, e.line), e.value, fmt::format("[{}] {} = {}", e.section, e.key, e.value)});
-    apply_value(profile, a.key, a.text, a.line == 0 ? path + ", PrusaSlicer's default" : fmt::format("{}:{}", path, a.line));
+          profile.origins[a.key].push_back(
+              {fmt::format("{}:{}", path, e.line), e.value, fmt::format("[{}] {} = {}", e.section, e.key, e.value)});
+    apply_value(profile, a.key, a.text,
+                a.line == 0 ? path + ", PrusaSlicer's default" : fmt::format("{}:{}", path, a.line));
     profile.origins[a.key].back().source = a.source;
     if (a.key.starts_with("machine_reach"))
-      profile.notices.push_back({"reach_derived", fmt::format("{}: {} = {}: PrusaSlicer's profiles hold no reach, {}; set it to what the printer can do", path, a.key, a.text,
-                                                              a.source.substr(a.source.rfind(", and ") + 6))});
+      profile.notices.push_back(
+          {"reach_derived",
+           fmt::format("{}: {} = {}: PrusaSlicer's profiles hold no reach, {}; set it to what the printer can do", path,
+                       a.key, a.text, a.source.substr(a.source.rfind(", and ") + 6))});
   }
   profile.notices.insert(profile.notices.end(), foreign.notices.begin(), foreign.notices.end());
   return translated;
 }
 
 /// All the keys of one fate in one notice, each with its line, so that none is silent and none buries another.
-void note(Profile& profile, const char* code, const std::vector<prusaslicer::Remark>& remarks, const std::string& path, std::string_view what, std::size_t most) {
+void note(Profile& profile, const char* code, const std::vector<prusaslicer::Remark>& remarks, const std::string& path,
+          std::string_view what, std::size_t most) {
   if (remarks.empty()) return;
   std::string list;
   for (std::size_t i = 0; i < remarks.size() && i < most; ++i)
-    list += fmt::format("{}{} = {} (line {}{}{})", i == 0 ? "" : ", ", remarks[i].key, remarks[i].text.substr(0, 40), remarks[i].line, remarks[i].why.empty() ? "" : ": ", remarks[i].why);
-  if (remarks.size() > most) list += fmt::format(" and {} more, which `weft profile import` lists", remarks.size() - most);
+    list += fmt::format("{}{} = {} (line {}{}{})", i == 0 ? "" : ", ", remarks[i].key, remarks[i].text.substr(0, 40),
+                        remarks[i].line, remarks[i].why.empty() ? "" : ": ", remarks[i].why);
+  if (remarks.size() > most)
+    list += fmt::format(" and {} more, which `weft profile import` lists", remarks.size() - most);
   profile.notices.push_back({code, fmt::format("{}: {}: {}", path, what, list)});
 }
 
 void note_losses(Profile& profile, const prusaslicer::Translation& translated, const std::string& path) {
   note(profile, "prusaslicer_key_approximated", translated.approximated, path, "translated to the nearest", 1000);
-  note(profile, "prusaslicer_key_unsupported", translated.unsupported, path, "would change the print and has no effect here", 1000);
-  note(profile, "prusaslicer_key_unknown", translated.unknown, path, "not one of PrusaSlicer's keys, without effect", 12);
+  note(profile, "prusaslicer_key_unsupported", translated.unsupported, path,
+       "would change the print and has no effect here", 1000);
+  note(profile, "prusaslicer_key_unknown", translated.unknown, path, "not one of PrusaSlicer's keys, without effect",
+       12);
 }
 
 void refuse_losses(const prusaslicer::Translation& translated, const std::string& path) {
-  for (const auto& [list, what] : {std::pair{&translated.unsupported, "is not supported and would change the print"}, {&translated.approximated, "can only be translated to the nearest"},
+  for (const auto& [list, what] : {std::pair{&translated.unsupported, "is not supported and would change the print"},
+                                   {&translated.approximated, "can only be translated to the nearest"},
                                    {&translated.unknown, "is not one of PrusaSlicer's keys"}})
     if (!list->empty()) {
       const auto& r = list->front();
       const auto all = translated.unsupported.size() + translated.approximated.size() + translated.unknown.size();
-      throw Error{Error::Kind::settings, fmt::format("{} = {} {}", r.key, r.text.substr(0, 40), what), fmt::format("{}:{}", path, r.line),
-                  all > 1 ? fmt::format("--strict; {} more such lines, `weft profile import` lists them", all - 1) : "--strict"};
+      throw Error{Error::Kind::settings, fmt::format("{} = {} {}", r.key, r.text.substr(0, 40), what),
+                  fmt::format("{}:{}", path, r.line),
+                  all > 1 ? fmt::format("--strict; {} more such lines, `weft profile import` lists them", all - 1)
+                          : "--strict"};
     }
 }
 
 /// The text as lines of PrusaSlicer's family, or nothing when it is weft's own.
-std::optional<Foreign> foreign_of(std::string_view text, const std::string& path, const std::vector<IniEntry>& entries, bool embedded, const ImportOptions& options) {
+std::optional<Foreign> foreign_of(std::string_view text, const std::string& path, const std::vector<IniEntry>& entries,
+                                  bool embedded, const ImportOptions& options) {
   if (!embedded && prusaslicer::is_bundle(entries)) return chosen_of(entries, path, options);
   if (!prusaslicer::recognises(embedded ? std::string_view() : text, entries)) return std::nullopt;
   return Foreign{entries, {}, false, {}};
 }
 
-void apply_text(Profile& profile, std::string_view text, const std::filesystem::path& path, const ImportOptions& options, std::vector<std::filesystem::path>& chain) {
+void apply_text(Profile& profile, std::string_view text, const std::filesystem::path& path,
+                const ImportOptions& options, std::vector<std::filesystem::path>& chain) {
   const auto name = path.string();
   auto embedded = prusaslicer::embedded_config(text, name);
   const auto entries = embedded ? std::move(*embedded) : parse_ini(text, name);
@@ -110,10 +125,13 @@ void apply_text(Profile& profile, std::string_view text, const std::filesystem::
     const auto where = fmt::format("{}:{}", name, e.line);
     const auto canonical = std::filesystem::weakly_canonical(parent);
     for (const auto& above : chain)
-      if (above == canonical) throw Error{Error::Kind::settings, fmt::format("inherits '{}', which inherits this file", e.value), where, "break the circle"};
+      if (above == canonical)
+        throw Error{Error::Kind::settings, fmt::format("inherits '{}', which inherits this file", e.value), where,
+                    "break the circle"};
     if (chain.size() > 100) throw Error{Error::Kind::settings, "more than 100 generations of ancestors", where, {}};
     if (!std::filesystem::is_regular_file(parent))
-      throw Error{Error::Kind::settings, fmt::format("inherits '{}', which is not there", parent.string()), where, "the path is relative to this file"};
+      throw Error{Error::Kind::settings, fmt::format("inherits '{}', which is not there", parent.string()), where,
+                  "the path is relative to this file"};
     apply_text(profile, read_profile(parent), parent, options, chain);
   }
   for (const auto& e : entries)
@@ -125,26 +143,33 @@ void apply_text(Profile& profile, std::string_view text, const std::filesystem::
 
 std::string read_profile(const std::filesystem::path& path) {
   std::error_code error;
-  if (std::filesystem::is_directory(path, error)) throw Error{Error::Kind::file, "is a folder, not a profile", path.string(), "name an ini file in it"};
+  if (std::filesystem::is_directory(path, error))
+    throw Error{Error::Kind::file, "is a folder, not a profile", path.string(), "name an ini file in it"};
   std::ifstream in(path, std::ios::binary);
   if (!in) throw Error{Error::Kind::file, "cannot be read", path.string(), "check the path and its permissions"};
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-void apply_text(Profile& profile, std::string_view text, const std::filesystem::path& path, const ImportOptions& options) {
+void apply_text(Profile& profile, std::string_view text, const std::filesystem::path& path,
+                const ImportOptions& options) {
   std::vector<std::filesystem::path> chain;
   apply_text(profile, text, path, options, chain);
 }
 
-void apply_file(Profile& profile, const std::filesystem::path& path, const ImportOptions& options) { apply_text(profile, read_profile(path), path, options); }
+void apply_file(Profile& profile, const std::filesystem::path& path, const ImportOptions& options) {
+  apply_text(profile, read_profile(path), path, options);
+}
 
-prusaslicer::Translation import_prusaslicer(Profile& profile, std::string_view text, const std::filesystem::path& path, const ImportOptions& options) {
+prusaslicer::Translation import_prusaslicer(Profile& profile, std::string_view text, const std::filesystem::path& path,
+                                            const ImportOptions& options) {
   const auto name = path.string();
   auto embedded = prusaslicer::embedded_config(text, name);
   const auto entries = embedded ? std::move(*embedded) : parse_ini(text, name);
   if (embedded || !prusaslicer::is_bundle(entries)) refuse_twice(entries, name);
   auto foreign = foreign_of(text, name, entries, embedded.has_value(), options);
-  if (!foreign) throw Error{Error::Kind::settings, "holds no configuration of PrusaSlicer, SuperSlicer or Slic3r", name, "weft's own profiles need no import"};
+  if (!foreign)
+    throw Error{Error::Kind::settings, "holds no configuration of PrusaSlicer, SuperSlicer or Slic3r", name,
+                "weft's own profiles need no import"};
   const auto translated = apply_foreign(profile, std::move(*foreign), name);
   if (options.strict) refuse_losses(translated, name);
   return translated;
@@ -162,8 +187,9 @@ void apply_value(Profile& profile, const std::string& key, const std::string& te
   } catch (const std::invalid_argument& problem) {
     throw Error{Error::Kind::settings, fmt::format("{}: {}", entry->key, problem.what()), where,
                 entry->least.empty() ? fmt::format("default: {}", entry->default_text)
-                                     : fmt::format("range {} … {}{}{}, default {}{}", entry->least, entry->most, entry->unit.empty() ? "" : " ", entry->unit,
-                                                   entry->default_text, entry->automatic ? ", or auto" : "")};
+                                     : fmt::format("range {} … {}{}{}, default {}{}", entry->least, entry->most,
+                                                   entry->unit.empty() ? "" : " ", entry->unit, entry->default_text,
+                                                   entry->automatic ? ", or auto" : "")};
   }
   profile.origins[std::string(entry->key)].push_back({where, text, {}});
 }
@@ -183,13 +209,15 @@ void check_areas(const MachineSettings& machine, const Refuse& refuse) {
   if (machine.bed_shape == BedShape::polygon && !sound(machine.bed_polygon))
     refuse("bed_polygon", "the outline crosses itself or encloses nothing", hint);
   if (machine.bed_shape == BedShape::circle && machine.machine_width != machine.machine_depth)
-    refuse("machine_depth", fmt::format("{} mm is not machine_width {} mm", to_mm(machine.machine_depth), to_mm(machine.machine_width)),
+    refuse("machine_depth",
+           fmt::format("{} mm is not machine_width {} mm", to_mm(machine.machine_depth), to_mm(machine.machine_width)),
            "a bed of shape circle is as deep as it is wide");
   for (std::size_t i = 0; i < machine.bed_exclude_areas.size(); ++i)
     if (!sound(machine.bed_exclude_areas[i]))
       refuse("bed_exclude_areas", fmt::format("area {} crosses itself or encloses nothing", i + 1), hint);
   if (!machine.machine_reach.empty() && !sound(reach_area(machine)))
-    refuse("machine_reach", "the outline crosses itself or encloses nothing", "give two opposite corners of a box, or a polygon");
+    refuse("machine_reach", "the outline crosses itself or encloses nothing",
+           "give two opposite corners of a box, or a polygon");
   if (machine.machine_reach_z_min >= reach_z_max(machine))
     refuse("machine_reach_z_min", "is not below the highest Z of the reach", "lower it, or raise machine_reach_z_max");
   if (machine.home_position && machine.home_position->size() != 1)
@@ -205,12 +233,18 @@ void check_consistency(const Profile& profile) {
   };
   const auto nozzle = s.machine.nozzle_diameter;
   if (s.layers.layer_height > nozzle)
-    refuse("layer_height", fmt::format("{} mm is more than nozzle_diameter {} mm", to_mm(s.layers.layer_height), to_mm(nozzle)), "a bead cannot be higher than the nozzle is wide");
-  if (s.layers.initial_layer_height.value_or(0) > nozzle)
-    refuse("initial_layer_height", fmt::format("{} mm is more than nozzle_diameter {} mm", to_mm(*s.layers.initial_layer_height), to_mm(nozzle)),
+    refuse("layer_height",
+           fmt::format("{} mm is more than nozzle_diameter {} mm", to_mm(s.layers.layer_height), to_mm(nozzle)),
            "a bead cannot be higher than the nozzle is wide");
+  if (s.layers.initial_layer_height.value_or(0) > nozzle)
+    refuse(
+        "initial_layer_height",
+        fmt::format("{} mm is more than nozzle_diameter {} mm", to_mm(*s.layers.initial_layer_height), to_mm(nozzle)),
+        "a bead cannot be higher than the nozzle is wide");
   if (s.machine.bed_shape == BedShape::polygon && s.machine.bed_polygon.size() < 3)
-    refuse(profile.origins.count("bed_polygon") != 0 ? "bed_polygon" : "bed_shape", "a bed of shape polygon needs at least three corners in bed_polygon", "give them as 0x0, 220x0, 220x220, 0x220");
+    refuse(profile.origins.count("bed_polygon") != 0 ? "bed_polygon" : "bed_shape",
+           "a bed of shape polygon needs at least three corners in bed_polygon",
+           "give them as 0x0, 220x0, 220x220, 0x220");
   check_areas(s.machine, refuse);
   try {
     (void)parse_gcode_variables(s.gcode.gcode_variables);

@@ -1,13 +1,13 @@
 #pragma once
-#include <filesystem>
-#include <map>
-#include <string>
-#include <vector>
-
 #include "core/notice.h"
 #include "settings/prusaslicer.h"
 #include "settings/prusaslicer_bundle.h"
 #include "settings/settings.h"
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
 
 namespace weft {
 
@@ -21,7 +21,8 @@ struct Origin {
 /// Settings on their way from defaults through profiles and options, with the history of each value.
 struct Profile {
   Settings settings;
-  std::map<std::string, std::vector<Origin>> origins;  ///< by key; oldest first, the last one holds; absent: the default
+  std::map<std::string, std::vector<Origin>>
+      origins;  ///< by key; oldest first, the last one holds; absent: the default
   Notices notices;
 };
 
@@ -31,19 +32,23 @@ struct ImportOptions {
   bool strict = false;                ///< what would be lost is an error
 };
 
-/// Lays an ini file over `profile`. `inherits = other.ini` (relative to the file) is laid down before the file's own values.
-/// A configuration or bundle of PrusaSlicer's family, or G-code that holds one, is translated, with a notice for what it loses.
-/// @throws Error{file} when the file cannot be read; Error{settings} with path:line for unknown keys (with the nearest known
+/// Lays an ini file over `profile`. `inherits = other.ini` (relative to the file) is laid down before the file's own
+/// values. A configuration or bundle of PrusaSlicer's family, or G-code that holds one, is translated, with a notice
+/// for what it loses.
+/// @throws Error{file} when the file cannot be read; Error{settings} with path:line for unknown keys (with the nearest
+/// known
 ///         one), values of wrong type or range, a key given twice, an inheritance that is missing or runs in a circle
 void apply_file(Profile& profile, const std::filesystem::path& path, const ImportOptions& options = {});
 
 /// The same of a file's bytes. @param path for messages, and what inheritance is relative to
-void apply_text(Profile& profile, std::string_view text, const std::filesystem::path& path, const ImportOptions& options = {});
+void apply_text(Profile& profile, std::string_view text, const std::filesystem::path& path,
+                const ImportOptions& options = {});
 
 /// Lays a configuration of PrusaSlicer's family over `profile`: a config.ini, a bundle, or G-code that holds one.
 /// @return the fate of its lines
 /// @throws as apply_file; Error{settings} as well when the text is not PrusaSlicer's
-prusaslicer::Translation import_prusaslicer(Profile& profile, std::string_view text, const std::filesystem::path& path, const ImportOptions& options = {});
+prusaslicer::Translation import_prusaslicer(Profile& profile, std::string_view text, const std::filesystem::path& path,
+                                            const ImportOptions& options = {});
 
 /// The bytes of a profile. @throws Error{file}
 std::string read_profile(const std::filesystem::path& path);

@@ -1,6 +1,12 @@
 #include "settings/prusaslicer.h"
 
-#include <fmt/format.h>
+#include "core/error.h"
+#include "settings/prusaslicer_custom.h"
+#include "settings/prusaslicer_defaults.h"
+#include "settings/prusaslicer_keys.h"
+#include "settings/prusaslicer_lines.h"
+#include "settings/prusaslicer_text.h"
+#include "settings/value.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,13 +15,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "core/error.h"
-#include "settings/prusaslicer_custom.h"
-#include "settings/prusaslicer_defaults.h"
-#include "settings/prusaslicer_keys.h"
-#include "settings/prusaslicer_lines.h"
-#include "settings/prusaslicer_text.h"
-#include "settings/value.h"
+#include <fmt/format.h>
 
 namespace weft::prusaslicer {
 namespace {
@@ -52,12 +52,16 @@ class Translator {
 
  private:
   void set(std::string_view key, std::string text, const IniEntry& e) {
-    out_.assignments.push_back({std::string(key), std::move(text), e.line, e.key, fmt::format("{}{} = {}", e.section.empty() ? "" : "[" + e.section + "] ", e.key, e.value)});
+    out_.assignments.push_back(
+        {std::string(key), std::move(text), e.line, e.key,
+         fmt::format("{}{} = {}", e.section.empty() ? "" : "[" + e.section + "] ", e.key, e.value)});
   }
   void approximate(const IniEntry& e, std::string why) {
     if (e.line > 0) out_.approximated.push_back({e.key, e.value, e.line, std::move(why)});
   }
-  void unsupported(const IniEntry& e, std::string why) { out_.unsupported.push_back({e.key, e.value, e.line, std::move(why)}); }
+  void unsupported(const IniEntry& e, std::string why) {
+    out_.unsupported.push_back({e.key, e.value, e.line, std::move(why)});
+  }
 
   void copy(const SameRow& row) {
     const auto* e = lines_.look(row.theirs);
@@ -65,17 +69,24 @@ class Translator {
     e = lines_.find(row.theirs);
     if (e->value == "nil") return;
     switch (row.form) {
-      case Form::length: return set(row.ours, number(lines_.figure(*e).v, 3), *e);
-      case Form::number: return set(row.ours, number(lines_.figure(*e).v), *e);
-      case Form::times_100: return set(row.ours, number(lines_.figure(*e).v * 100), *e);
-      case Form::zero_is_auto: return set(row.ours, lines_.figure(*e).v == 0 ? "auto" : number(lines_.figure(*e).v, 3), *e);
+      case Form::length:
+        return set(row.ours, number(lines_.figure(*e).v, 3), *e);
+      case Form::number:
+        return set(row.ours, number(lines_.figure(*e).v), *e);
+      case Form::times_100:
+        return set(row.ours, number(lines_.figure(*e).v * 100), *e);
+      case Form::zero_is_auto:
+        return set(row.ours, lines_.figure(*e).v == 0 ? "auto" : number(lines_.figure(*e).v, 3), *e);
       case Form::share: {
         const auto f = lines_.figure(*e);
         return set(row.ours, number(f.v, 3) + (f.percent ? "%" : ""), *e);
       }
-      case Form::flag: return set(row.ours, lines_.flag(*e) ? "true" : "false", *e);
-      case Form::text: return set(row.ours, first_text(*e), *e);
-      case Form::choice: return choose(row, *e);
+      case Form::flag:
+        return set(row.ours, lines_.flag(*e) ? "true" : "false", *e);
+      case Form::text:
+        return set(row.ours, first_text(*e), *e);
+      case Form::choice:
+        return choose(row, *e);
     }
   }
   void choose(const SameRow& row, const IniEntry& e) {
@@ -107,16 +118,19 @@ class Translator {
       set("bed_shape", rectangle ? "rectangle" : "polygon", *e);
       set("bed_polygon", rectangle ? "" : value::print(bed, Unit::mm), *e);
       set("machine_center_is_zero", centred ? "true" : "false", *e);
-      if (size.x >= 1000 && size.y >= 1000) {  // of another shape, what surrounds it; less is nobody's bed and refused as a polygon
+      if (size.x >= 1000 &&
+          size.y >= 1000) {  // of another shape, what surrounds it; less is nobody's bed and refused as a polygon
         set("machine_width", value::print(size.x, Unit::mm), *e);
         set("machine_depth", value::print(size.y, Unit::mm), *e);
       }
     }
     for (const auto* axis : {"x", "y", "z", "e"})
-      for (const auto& [theirs, ours] : {std::pair{"machine_max_feedrate_", "machine_max_speed_"}, {"machine_max_acceleration_", "machine_max_acceleration_"}})
+      for (const auto& [theirs, ours] : {std::pair{"machine_max_feedrate_", "machine_max_speed_"},
+                                         {"machine_max_acceleration_", "machine_max_acceleration_"}})
         if (const auto* e = lines_.find(std::string(theirs) + axis)) limit(std::string(ours) + axis, *e);
     if (const auto* e = lines_.look("nozzle_diameter"); e && e->line > 0)
-      if (const auto n = elements_of(e->key, e->value).size(); n > 1) approximate(*e, fmt::format("weft prints with the first of {} extruders", n));
+      if (const auto n = elements_of(e->key, e->value).size(); n > 1)
+        approximate(*e, fmt::format("weft prints with the first of {} extruders", n));
     if (const auto* e = lines_.look("max_print_height"); e && lines_.figure(*e).v == 0) {
       lines_.find("max_print_height");
       done_.insert("max_print_height");
@@ -190,10 +204,16 @@ class Translator {
       known[row.theirs] = speed;
       set(row.ours, number(speed), *e);
     }
-    const auto speed_of = [&](std::string_view key, double otherwise) { return known.count(key) != 0 ? known[key] : otherwise; };
+    const auto speed_of = [&](std::string_view key, double otherwise) {
+      return known.count(key) != 0 ? known[key] : otherwise;
+    };
     if (const auto* e = lines_.find("small_perimeter_speed")) {
       const auto f = lines_.figure(*e);
-      set("speed_small_perimeter", f.v == 0 ? "auto" : f.percent ? number(f.of(speed_of("perimeter_speed", fastest))) : number(f.v), *e);
+      set("speed_small_perimeter",
+          f.v == 0    ? "auto"
+          : f.percent ? number(f.of(speed_of("perimeter_speed", fastest)))
+                      : number(f.v),
+          *e);
       set("small_perimeter_length", "40.841", *e);  // a circle of 6.5 mm radius
     }
     if (const auto* e = lines_.find("first_layer_speed")) {
@@ -202,8 +222,10 @@ class Translator {
     }
     if (const auto* e = lines_.find("overhangs")) {  // walls over air are bridges to PrusaSlicer
       const auto* bridge = lines_.look("bridge_speed");
-      if (!lines_.flag(*e)) set("speed_overhang", "100%", *e);
-      else if (bridge) set("speed_overhang", number(speed_of("bridge_speed", fastest)), *bridge);
+      if (!lines_.flag(*e))
+        set("speed_overhang", "100%", *e);
+      else if (bridge)
+        set("speed_overhang", number(speed_of("bridge_speed", fastest)), *bridge);
     }
     if (const auto* e = lines_.find("travel_speed_z")) {
       const double v = lines_.figure(*e).v;
@@ -213,7 +235,8 @@ class Translator {
       const double v = lines_.figure(*e).v;
       const auto first = lines_.figure("first_layer_speed").value_or(Figure{});
       const double speed = v > 0 ? v : fastest, slow = first.v > 0 ? first.of(speed) : speed;
-      set("skirt_brim_speed", number(std::min(speed, slow)), *e);  // most of a skirt, and all of a brim, lies in the first layer
+      set("skirt_brim_speed", number(std::min(speed, slow)),
+          *e);  // most of a skirt, and all of a brim, lies in the first layer
     }
   }
 
@@ -224,8 +247,10 @@ class Translator {
     for (const auto& row : acceleration_rows)
       if (const auto* e = lines_.find(row.theirs)) {
         const double a = lines_.figure(*e).v;
-        if (e != general) set(row.ours, a > 0 ? number(a) : "auto", *e);
-        else if (a > 0) set(row.ours, number(a), *e);
+        if (e != general)
+          set(row.ours, a > 0 ? number(a) : "auto", *e);
+        else if (a > 0)
+          set(row.ours, number(a), *e);
         if (general && otherwise == 0 && a > 0) approximate(*e, "has no effect while default_acceleration is 0");
       }
     if (general) set("acceleration_enabled", otherwise > 0 ? "true" : "false", *general);
@@ -234,21 +259,26 @@ class Translator {
   void fills() {
     if (const auto* e = lines_.find("fill_density")) {
       const auto f = lines_.figure(*e);
-      set("infill_sparse_density", number(f.percent ? f.v : f.v * 100), *e);  // without % it is a fraction, as in old profiles
+      set("infill_sparse_density", number(f.percent ? f.v : f.v * 100),
+          *e);  // without % it is a fraction, as in old profiles
     }
-    if (const auto* e = lines_.find("bridge_angle")) set("bridge_angle", lines_.figure(*e).v == 0 ? "auto" : number(lines_.figure(*e).v), *e);
-    if (const auto* e = lines_.find("elefant_foot_compensation")) set("xy_offset_layer_0", number(-lines_.figure(*e).v, 3), *e);
+    if (const auto* e = lines_.find("bridge_angle"))
+      set("bridge_angle", lines_.figure(*e).v == 0 ? "auto" : number(lines_.figure(*e).v), *e);
+    if (const auto* e = lines_.find("elefant_foot_compensation"))
+      set("xy_offset_layer_0", number(-lines_.figure(*e).v, 3), *e);
     if (const auto* e = lines_.look("brim_type"); e && e->value == "no_brim") {
       set("brim_width", "0", *e);
       lines_.find("brim_width");
       done_.insert("brim_width");
     }
     lines_.find("infill_anchor");
-    if (const auto* e = lines_.find("infill_anchor_max")) set("infill_connect_lines", lines_.figure(*e).v > 0 ? "true" : "false", *e);
+    if (const auto* e = lines_.find("infill_anchor_max"))
+      set("infill_connect_lines", lines_.figure(*e).v > 0 ? "true" : "false", *e);
     if (const auto* e = lines_.look("bridge_flow_ratio")) {
       const auto* thick = lines_.find("thick_bridges");
       if (thick && !lines_.flag(*thick)) {  // the cross-section of solid infill, as a share of the round strand
-        const double area = height_ * (solid_width_ - height_ * (1 - std::numbers::pi / 4)), round = std::numbers::pi / 4 * nozzle_ * nozzle_;
+        const double area = height_ * (solid_width_ - height_ * (1 - std::numbers::pi / 4)),
+                     round = std::numbers::pi / 4 * nozzle_ * nozzle_;
         if (round > 0 && area > 0) {
           set("bridge_flow", number(std::clamp(100 * lines_.figure(*e).v * area / round, 10.0, 300.0), 2), *e);
           lines_.find("bridge_flow_ratio");
@@ -258,22 +288,30 @@ class Translator {
     } else {
       lines_.find("thick_bridges");
     }
-    if (const auto* e = lines_.find("seam_gap_distance")) set("seam_gap_distance", number(lines_.figure(*e).of(nozzle_), 3), *e);
+    if (const auto* e = lines_.find("seam_gap_distance"))
+      set("seam_gap_distance", number(lines_.figure(*e).of(nozzle_), 3), *e);
     if (const auto* e = lines_.find("scarf_seam_placement")) {
       const auto* length = lines_.find("scarf_seam_length");
-      set("scarf_joint_seam_length", e->value == "nowhere" ? "0" : length ? number(lines_.figure(*length).v, 3) : "20", *e);
+      set("scarf_joint_seam_length",
+          e->value == "nowhere" ? "0"
+          : length              ? number(lines_.figure(*length).v, 3)
+                                : "20",
+          *e);
       if (e->value == "contours") approximate(*e, "holes get such seams too");
       const auto* height = lines_.find("scarf_seam_start_height");
-      if (height && e->value != "nowhere") set("scarf_joint_seam_start_height_ratio", number(lines_.figure(*height).v), *height);
+      if (height && e->value != "nowhere")
+        set("scarf_joint_seam_start_height_ratio", number(lines_.figure(*height).v), *height);
     }
     const auto* avoid = lines_.find("avoid_crossing_perimeters");
     const auto* detour = lines_.find("avoid_crossing_perimeters_max_detour");
     if (avoid && lines_.flag(*avoid)) {
       set("retraction_combing", "all", *avoid);
       const auto f = detour ? lines_.figure(*detour) : Figure{};
-      set("retraction_combing_max_detour", f.v == 0 ? "auto" : number(f.v, 3) + (f.percent ? "%" : ""), detour ? *detour : *avoid);
+      set("retraction_combing_max_detour", f.v == 0 ? "auto" : number(f.v, 3) + (f.percent ? "%" : ""),
+          detour ? *detour : *avoid);
     } else if (avoid && avoid->line > 0) {
-      out_.not_needed.push_back({avoid->key, avoid->value, avoid->line, "travels stay inside the part where that is no long way round (retraction_combing)"});
+      out_.not_needed.push_back({avoid->key, avoid->value, avoid->line,
+                                 "travels stay inside the part where that is no long way round (retraction_combing)"});
     }
     if (const auto* e = lines_.find("thumbnails")) thumbnails(*e);
   }
@@ -281,8 +319,10 @@ class Translator {
     std::string sizes;
     for (const auto& part : elements_of(e.key, e.value)) {
       const auto slash = part.find('/');
-      if (slash != std::string::npos && part.substr(slash + 1) != "PNG") approximate(e, fmt::format("{} is left out: pictures are PNG", part));
-      else if (!part.empty()) sizes += (sizes.empty() ? "" : ", ") + part.substr(0, slash);
+      if (slash != std::string::npos && part.substr(slash + 1) != "PNG")
+        approximate(e, fmt::format("{} is left out: pictures are PNG", part));
+      else if (!part.empty())
+        sizes += (sizes.empty() ? "" : ", ") + part.substr(0, slash);
     }
     set("thumbnails", sizes, e);
   }
@@ -301,19 +341,26 @@ class Translator {
     if (const auto* e = lines_.look("filament_density"); e && lines_.figure(*e).v == 0) {
       lines_.find("filament_density");
       done_.insert("filament_density");
-      if (e->line > 0) out_.not_needed.push_back({e->key, e->value, e->line, "not known; the weight is reckoned with weft's density"});
+      if (e->line > 0)
+        out_.not_needed.push_back({e->key, e->value, e->line, "not known; the weight is reckoned with weft's density"});
     }
-    if (const auto* e = lines_.look("retract_length")) set("retraction_enable", lines_.figure(*e).v > 0 ? "true" : "false", *e);
+    if (const auto* e = lines_.look("retract_length"))
+      set("retraction_enable", lines_.figure(*e).v > 0 ? "true" : "false", *e);
     if (const auto* e = lines_.find("max_volumetric_extrusion_rate_slope_positive"))
       set("max_extrusion_rate_slope", lines_.figure(*e).v > 0 ? number(lines_.figure(*e).v) : "auto", *e);
-    // While wiping, PrusaSlicer draws back at the usual speed and moves at 0.8 × that of travels: that gives the length.
+    // While wiping, PrusaSlicer draws back at the usual speed and moves at 0.8 × that of travels: that gives the
+    // length.
     const auto* length = lines_.look("retract_length");
     const double before = lines_.figure("retract_before_wipe").value_or(Figure{}).v / 100;
     const auto* wipe = lines_.look("wipe");
     if (wipe && length && lines_.flag(*wipe)) {
-      const auto figure_of = [&](std::string_view key, double otherwise) { return lines_.look(key) ? lines_.figure(*lines_.look(key)).v : otherwise; };
+      const auto figure_of = [&](std::string_view key, double otherwise) {
+        return lines_.look(key) ? lines_.figure(*lines_.look(key)).v : otherwise;
+      };
       const double speed = figure_of("retract_speed", 40), travel = figure_of("travel_speed", 130);
-      if (speed > 0) set("wipe_distance", number(std::clamp(lines_.figure(*length).v * (1 - before) / speed * 0.8 * travel, 0.0, 100.0), 3), *wipe);
+      if (speed > 0)
+        set("wipe_distance",
+            number(std::clamp(lines_.figure(*length).v * (1 - before) / speed * 0.8 * travel, 0.0, 100.0), 3), *wipe);
     }
   }
 
@@ -321,7 +368,8 @@ class Translator {
   void cooling() {
     const auto* e = lines_.find("cooling");
     if (!e || lines_.flag(*e)) return;
-    for (const auto& [theirs, ours] : {std::pair{"slowdown_below_layer_time", "cool_min_layer_time"}, {"fan_below_layer_time", "cool_min_layer_time_fan_speed_max"}}) {
+    for (const auto& [theirs, ours] : {std::pair{"slowdown_below_layer_time", "cool_min_layer_time"},
+                                       {"fan_below_layer_time", "cool_min_layer_time_fan_speed_max"}}) {
       set(ours, "0", *e);
       lines_.find(theirs);
       done_.insert(theirs);
@@ -334,7 +382,10 @@ class Translator {
       const auto *a = lines_.find(first), *b = lines_.find(second);
       if (!a && !b) return;
       const std::string x = a ? first_text(*a) : "", y = b ? first_text(*b) : "";
-      set(ours, x + (x.empty() || y.empty() || x.ends_with("\\n") ? "" : "\\n") + y, a && a->line > 0 ? *a : b ? *b : *a);
+      set(ours, x + (x.empty() || y.empty() || x.ends_with("\\n") ? "" : "\\n") + y,
+          a && a->line > 0 ? *a
+          : b              ? *b
+                           : *a);
     };
     joined("machine_start_gcode", "start_gcode", "start_filament_gcode");
     joined("machine_end_gcode", "end_filament_gcode", "end_gcode");
@@ -345,7 +396,8 @@ class Translator {
     if (const auto* bed = lines_.look("bed_shape"); bed && bed->line > 0)
       for (const auto& reach : reach_of(lines_)) {
         const auto* height = lines_.look("max_print_height");
-        set(reach.setting, reach.value, reach.setting == "machine_reach_z_max" && height && height->line > 0 ? *height : *bed);
+        set(reach.setting, reach.value,
+            reach.setting == "machine_reach_z_max" && height && height->line > 0 ? *height : *bed);
         out_.assignments.back().source += fmt::format(", and {}", reach.why);
       }
     const auto variables = variables_of(lines_);
@@ -360,15 +412,21 @@ class Translator {
   void sort_out_the_rest() {
     for (const auto* e : lines_.unread()) {
       if (e->line == 0) continue;
-      const auto row = std::find_if(other_rows.begin(), other_rows.end(), [&](const OtherRow& r) { return r.key == e->key; });
+      const auto row =
+          std::find_if(other_rows.begin(), other_rows.end(), [&](const OtherRow& r) { return r.key == e->key; });
       const Remark remark{e->key, e->value, e->line, row == other_rows.end() ? "" : std::string(row->why)};
-      if (row == other_rows.end()) out_.unknown.push_back(remark);
-      else if (row->neutral == "*") out_.not_needed.push_back(remark);
-      else if (neutral(*row, *e)) out_.not_needed.push_back({e->key, e->value, e->line, "changes nothing at that value"});
-      else out_.unsupported.push_back(remark);
+      if (row == other_rows.end())
+        out_.unknown.push_back(remark);
+      else if (row->neutral == "*")
+        out_.not_needed.push_back(remark);
+      else if (neutral(*row, *e))
+        out_.not_needed.push_back({e->key, e->value, e->line, "changes nothing at that value"});
+      else
+        out_.unsupported.push_back(remark);
     }
     const auto by_line = [](const Remark& a, const Remark& b) { return a.line < b.line; };
-    for (auto* list : {&out_.not_needed, &out_.approximated, &out_.unsupported, &out_.unknown}) std::stable_sort(list->begin(), list->end(), by_line);
+    for (auto* list : {&out_.not_needed, &out_.approximated, &out_.unsupported, &out_.unknown})
+      std::stable_sort(list->begin(), list->end(), by_line);
   }
 
   /// Does each element of the value say one of the neutral things? `0` and `0.0` and `0%` do.
@@ -409,10 +467,27 @@ bool recognises(std::string_view text, const std::vector<IniEntry>& entries) {
     for (const auto* name : {"generated by PrusaSlicer", "generated by SuperSlicer", "generated by Slic3r"})
       if (line.find(name) != std::string_view::npos) return true;
   // Keys that only that family has; two, so that one stray key in a profile of weft's is still an error with a hint.
-  constexpr std::array theirs{"perimeters", "fill_density", "fill_pattern", "start_gcode", "first_layer_height", "external_perimeter_speed", "retract_length",
-                              "top_solid_layers", "bottom_solid_layers", "gcode_flavor", "temperature", "bed_temperature", "first_layer_temperature", "perimeter_speed",
-                              "max_print_height", "skirts", "extrusion_width", "fan_always_on"};
-  const auto found = std::count_if(entries.begin(), entries.end(), [&](const IniEntry& e) { return std::find(theirs.begin(), theirs.end(), e.key) != theirs.end(); });
+  constexpr std::array theirs{"perimeters",
+                              "fill_density",
+                              "fill_pattern",
+                              "start_gcode",
+                              "first_layer_height",
+                              "external_perimeter_speed",
+                              "retract_length",
+                              "top_solid_layers",
+                              "bottom_solid_layers",
+                              "gcode_flavor",
+                              "temperature",
+                              "bed_temperature",
+                              "first_layer_temperature",
+                              "perimeter_speed",
+                              "max_print_height",
+                              "skirts",
+                              "extrusion_width",
+                              "fan_always_on"};
+  const auto found = std::count_if(entries.begin(), entries.end(), [&](const IniEntry& e) {
+    return std::find(theirs.begin(), theirs.end(), e.key) != theirs.end();
+  });
   return found >= 2;
 }
 

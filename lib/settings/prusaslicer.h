@@ -1,9 +1,9 @@
 #pragma once
+#include "settings/ini.h"
+
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "settings/ini.h"
 
 /// PrusaSlicer's configuration (and SuperSlicer's and Slic3r's, as far as the keys agree) in weft's words.
 /// Source: the grammar and the conversions of old spellings as PrusaSlicer 2.9 documents and shows them in its exports.

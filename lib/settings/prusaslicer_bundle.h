@@ -1,12 +1,12 @@
 #pragma once
+#include "core/notice.h"
+#include "settings/ini.h"
+
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "core/notice.h"
-#include "settings/ini.h"
 
 /// A bundle of presets, as vendors ship them and as PrusaSlicer exports them: `[print:NAME]`, `[filament:NAME]` and
 /// `[printer:NAME]`, one of each makes a configuration.
@@ -28,9 +28,9 @@ struct Preset {
   PresetKind kind = PresetKind::print;
   std::string name;
   int line = 0;
-  bool abstract = false;                 ///< `*like this*`: only to be inherited
-  std::vector<std::string> former_names; ///< renamed_from
-  PresetValues values;                   ///< with what it inherits
+  bool abstract = false;                  ///< `*like this*`: only to be inherited
+  std::vector<std::string> former_names;  ///< renamed_from
+  PresetValues values;                    ///< with what it inherits
 };
 
 struct Bundle {
@@ -41,7 +41,8 @@ struct Bundle {
 
 bool is_bundle(const std::vector<IniEntry>& entries);
 
-/// @throws Error{settings} with path:line: a preset or key given twice, inheritance from what is not there or in a circle
+/// @throws Error{settings} with path:line: a preset or key given twice, inheritance from what is not there or in a
+/// circle
 Bundle read_bundle(const std::vector<IniEntry>& entries, const std::string& path);
 
 /// The preset of that name, or formerly of that name; null when there is none.
@@ -57,17 +58,19 @@ bool fits_print(const Bundle& bundle, const Preset& filament, const Preset& prin
 
 /// Presets of a kind that are not abstract and are for this technology, in the order of the file; for a printer, those
 /// that fit it, and for a print as well, filaments that fit that.
-std::vector<const Preset*> presets_of(const Bundle& bundle, PresetKind kind, const Preset* printer = nullptr, const Preset* print = nullptr);
+std::vector<const Preset*> presets_of(const Bundle& bundle, PresetKind kind, const Preset* printer = nullptr,
+                                      const Preset* print = nullptr);
 
-/// The configuration that a choice stands for: what the choice leaves open is what was active, the printer's default, or
-/// the only one there is.
+/// The configuration that a choice stands for: what the choice leaves open is what was active, the printer's default,
+/// or the only one there is.
 struct Selection {
   const Preset* print = nullptr;
   const Preset* filament = nullptr;
   const Preset* printer = nullptr;
   Notices notices;  ///< what was filled in
 };
-/// @throws Error{settings}: no such preset (with the nearest names), nothing follows (with the names to choose from), or
+/// @throws Error{settings}: no such preset (with the nearest names), nothing follows (with the names to choose from),
+/// or
 ///         presets that do not fit each other
 Selection select(const Bundle& bundle, const PresetChoice& choice);
 

@@ -1,6 +1,8 @@
 #include "settings/prusaslicer_custom.h"
 
-#include <fmt/format.h>
+#include "settings/catalogue.h"
+#include "settings/prusaslicer_text.h"
+#include "settings/value.h"
 
 #include <algorithm>
 #include <array>
@@ -8,17 +10,16 @@
 #include <set>
 #include <stdexcept>
 
-#include "settings/catalogue.h"
-#include "settings/prusaslicer_text.h"
-#include "settings/value.h"
+#include <fmt/format.h>
 
 namespace weft::prusaslicer {
 namespace {
 
 // Beyond these a coordinate is more likely a slip than a purge bucket, a parking place or a wiping pad.
 constexpr Um farthest = 60'000, highest = 20'000, deepest = 5'000;
-constexpr std::array<std::string_view, 8> custom_keys{"start_gcode", "start_filament_gcode", "before_layer_gcode", "layer_gcode",
-                                                      "toolchange_gcode", "between_objects_gcode", "end_filament_gcode", "end_gcode"};
+constexpr std::array<std::string_view, 8> custom_keys{
+    "start_gcode",      "start_filament_gcode",  "before_layer_gcode", "layer_gcode",
+    "toolchange_gcode", "between_objects_gcode", "end_filament_gcode", "end_gcode"};
 
 /// The custom G-code of that key with its line ends.
 std::string text_of(const Lines& lines, std::string_view key) {
@@ -51,7 +52,8 @@ std::optional<Um> coordinate(std::string_view command, char axis) {
     double v = 0;
     const auto [end, error] = std::from_chars(command.data() + i + 1, command.data() + command.size(), v);
     if (error != std::errc{} || !(std::abs(v) < 10'000)) return std::nullopt;
-    if (end != command.data() + command.size() && *end == '\1') return std::nullopt;  // a number that goes on with a placeholder
+    if (end != command.data() + command.size() && *end == '\1')
+      return std::nullopt;  // a number that goes on with a placeholder
     return from_mm(v);
   }
   return std::nullopt;
@@ -59,9 +61,9 @@ std::optional<Um> coordinate(std::string_view command, char axis) {
 
 /// What encloses the moves on one axis, and the move that goes farthest.
 struct Span {
-  Um least = 0, most = 0;      ///< where the bed, or the print, ends
-  Um below = 0, above = 0;     ///< how far beyond that may be believed
-  Um low = 0, high = 0;        ///< with the moves seen
+  Um least = 0, most = 0;   ///< where the bed, or the print, ends
+  Um below = 0, above = 0;  ///< how far beyond that may be believed
+  Um low = 0, high = 0;     ///< with the moves seen
   std::string why_low, why_high;
 };
 struct Found {
@@ -83,8 +85,10 @@ void widen(Span& span, Um at, std::string_view key, std::string_view line) {
 void look_at(std::string_view key, std::string_view text, Found& found) {
   std::string plain;  // conditions vanish, values become a mark that is no number
   for_each_piece(text, [&](std::string_view piece, bool placeholder) {
-    if (!placeholder) plain += piece;
-    else if (!piece.starts_with("if ") && !piece.starts_with("elsif ") && piece != "else" && piece != "endif") plain += '\1';
+    if (!placeholder)
+      plain += piece;
+    else if (!piece.starts_with("if ") && !piece.starts_with("elsif ") && piece != "else" && piece != "endif")
+      plain += '\1';
   });
   bool absolute = true;
   for (std::string_view rest = plain; !rest.empty();) {
@@ -124,9 +128,13 @@ std::vector<CustomReach> reach_of(const Lines& lines) {
   std::string why;
   for (const auto* text : {&found.y.why_low, &found.y.why_high, &found.x.why_low, &found.x.why_high})
     if (why.empty()) why = *text;
-  if (!why.empty()) out.push_back({"machine_reach", value::print(Ring{{found.x.low, found.y.low}, {found.x.high, found.y.high}}, Unit::mm), why});
-  if (!found.z.why_low.empty()) out.push_back({"machine_reach_z_min", value::print(found.z.low, Unit::mm), found.z.why_low});
-  if (!found.z.why_high.empty()) out.push_back({"machine_reach_z_max", value::print(found.z.high, Unit::mm), found.z.why_high});
+  if (!why.empty())
+    out.push_back(
+        {"machine_reach", value::print(Ring{{found.x.low, found.y.low}, {found.x.high, found.y.high}}, Unit::mm), why});
+  if (!found.z.why_low.empty())
+    out.push_back({"machine_reach_z_min", value::print(found.z.low, Unit::mm), found.z.why_low});
+  if (!found.z.why_high.empty())
+    out.push_back({"machine_reach_z_max", value::print(found.z.high, Unit::mm), found.z.why_high});
   return out;
 }
 
@@ -144,7 +152,8 @@ std::string variables_of(const Lines& lines) {
         i = end + (end == i ? 1 : 0);
         if (name.empty()) continue;
         if (!lines.look(name))  // `temperature_0` is an element of a list
-          if (const auto bar = name.rfind('_'); bar != std::string_view::npos && bar + 1 < name.size() && name.find_first_not_of("0123456789", bar + 1) == std::string_view::npos)
+          if (const auto bar = name.rfind('_'); bar != std::string_view::npos && bar + 1 < name.size() &&
+                                                name.find_first_not_of("0123456789", bar + 1) == std::string_view::npos)
             name = name.substr(0, bar);
         if (lines.look(name) && own.find(name) == own.end()) named.insert(std::string(name));
       }

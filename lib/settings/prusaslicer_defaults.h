@@ -3,7 +3,8 @@
 #include <string_view>
 
 /// What PrusaSlicer takes a key to be where no preset says it: presets of a bundle rely on it.
-/// Source: the configuration that PrusaSlicer 2.5 saves when it is given none; keys that came later, as 2.9 documents them.
+/// Source: the configuration that PrusaSlicer 2.5 saves when it is given none; keys that came later, as 2.9 documents
+/// them.
 namespace weft::prusaslicer {
 
 struct DefaultRow {

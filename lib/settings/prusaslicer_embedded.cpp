@@ -1,18 +1,20 @@
 #include "settings/prusaslicer_embedded.h"
 
-#include <fmt/format.h>
+#include "core/error.h"
+#include "settings/value.h"
 
 #include <algorithm>
 
-#include "core/error.h"
-#include "settings/value.h"
+#include <fmt/format.h>
 
 namespace weft::prusaslicer {
 namespace {
 
 using value::trimmed;
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
 
 /// Is the first line that is no comment a command, `G28` or `M73 P0`? No ini's key begins like that.
 /// A 3MF's configuration has comments only, all of the form `; key = value`.
@@ -27,14 +29,17 @@ bool is_gcode(std::string_view text) {
       settings += line.find(" = ") != std::string_view::npos ? 1u : 0u;
       continue;
     }
-    const bool command = line.size() > 1 && std::string_view("GMTN").find(line[0]) != std::string_view::npos && is_digit(line[1]);
-    return command || (line.find('=') == std::string_view::npos && settings > 0 && line.front() != '[');  // a macro such as PRINT_START
+    const bool command =
+        line.size() > 1 && std::string_view("GMTN").find(line[0]) != std::string_view::npos && is_digit(line[1]);
+    return command || (line.find('=') == std::string_view::npos && settings > 0 &&
+                       line.front() != '[');  // a macro such as PRINT_START
   }
   return settings >= 20;
 }
 
 bool is_key(std::string_view key) {
-  return !key.empty() && std::all_of(key.begin(), key.end(), [](char c) { return (c >= 'a' && c <= 'z') || is_digit(c) || c == '_'; });
+  return !key.empty() &&
+         std::all_of(key.begin(), key.end(), [](char c) { return (c >= 'a' && c <= 'z') || is_digit(c) || c == '_'; });
 }
 
 constexpr std::size_t margin = 4 << 20;
@@ -43,7 +48,8 @@ constexpr std::size_t margin = 4 << 20;
 
 std::optional<std::vector<IniEntry>> embedded_config(std::string_view text, const std::string& path) {
   if (text.starts_with("GCDE"))
-    throw Error{Error::Kind::settings, "is binary G-code, whose configuration weft does not read", path, "export text G-code, or the configuration itself"};
+    throw Error{Error::Kind::settings, "is binary G-code, whose configuration weft does not read", path,
+                "export text G-code, or the configuration itself"};
   if (!is_gcode(text.substr(0, margin))) return std::nullopt;
   std::vector<IniEntry> all, marked;
   bool inside = false;
@@ -68,12 +74,14 @@ std::optional<std::vector<IniEntry>> embedded_config(std::string_view text, cons
       if (inside) marked.clear();
       continue;
     }
-    if (!is_utf8(raw)) throw Error{Error::Kind::settings, "the text is not UTF-8", fmt::format("{}:{}", path, number), {}};
+    if (!is_utf8(raw))
+      throw Error{Error::Kind::settings, "the text is not UTF-8", fmt::format("{}:{}", path, number), {}};
     (inside ? marked : all).push_back({{}, std::string(key), std::string(said), number});
   }
   auto& found = marked.empty() ? all : marked;
   if (found.empty())
-    throw Error{Error::Kind::settings, "is G-code without a configuration in its comments", path, "weft reads those of PrusaSlicer, SuperSlicer, Slic3r and its own"};
+    throw Error{Error::Kind::settings, "is G-code without a configuration in its comments", path,
+                "weft reads those of PrusaSlicer, SuperSlicer, Slic3r and its own"};
   return std::move(found);
 }
 

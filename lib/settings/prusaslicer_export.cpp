@@ -1,17 +1,17 @@
 #include "settings/prusaslicer_export.h"
 
-#include <fmt/format.h>
+#include "core/version.h"
+#include "settings/catalogue.h"
+#include "settings/prusaslicer_keys.h"
+#include "settings/prusaslicer_text.h"
+#include "settings/value.h"
 
 #include <algorithm>
 #include <map>
 #include <numbers>
 #include <set>
 
-#include "core/version.h"
-#include "settings/catalogue.h"
-#include "settings/prusaslicer_keys.h"
-#include "settings/prusaslicer_text.h"
-#include "settings/value.h"
+#include <fmt/format.h>
 
 namespace weft::prusaslicer {
 namespace {
@@ -68,7 +68,8 @@ class Exporter {
     for (const auto& [key, value] : lines_) out.text += fmt::format("{} = {}\n", key, value);
     const Settings defaults;
     for (const auto& e : catalogue())
-      if (said_.count(e.key) == 0 && e.print(s_) != e.print(defaults)) out.lost.push_back(fmt::format("{} = {}", e.key, e.print(s_)));
+      if (said_.count(e.key) == 0 && e.print(s_) != e.print(defaults))
+        out.lost.push_back(fmt::format("{} = {}", e.key, e.print(s_)));
     return out;
   }
 
@@ -93,11 +94,16 @@ class Exporter {
         if (text == "auto") return;  // each has its own meaning, below
         return say(row.theirs, number(number_of(text)), row.ours);
       }
-      case Form::times_100: return say(row.theirs, number(number_of(text) / 100), row.ours);
-      case Form::zero_is_auto: return say(row.theirs, text == "auto" ? "0" : number(number_of(text)), row.ours);
-      case Form::share: return say(row.theirs, text, row.ours);
-      case Form::flag: return say(row.theirs, text == "true" ? "1" : "0", row.ours);
-      case Form::text: return say(row.theirs, text, row.ours);
+      case Form::times_100:
+        return say(row.theirs, number(number_of(text) / 100), row.ours);
+      case Form::zero_is_auto:
+        return say(row.theirs, text == "auto" ? "0" : number(number_of(text)), row.ours);
+      case Form::share:
+        return say(row.theirs, text, row.ours);
+      case Form::flag:
+        return say(row.theirs, text == "true" ? "1" : "0", row.ours);
+      case Form::text:
+        return say(row.theirs, text, row.ours);
       case Form::choice:
         for (const auto& c : choice_rows)  // the first row of a value is the one without loss
           if (c.key == row.theirs && c.ours == text) return say(row.theirs, std::string(c.theirs), row.ours);
@@ -107,19 +113,29 @@ class Exporter {
   void machine() {
     const auto& m = s_.machine;
     std::string points;
-    for (const Point p : print_surface(m)) points += fmt::format("{}{}x{}", points.empty() ? "" : ",", number(to_mm(p.x)), number(to_mm(p.y)));
+    for (const Point p : print_surface(m))
+      points += fmt::format("{}{}x{}", points.empty() ? "" : ",", number(to_mm(p.x)), number(to_mm(p.y)));
     say("bed_shape", points, "bed_shape");
-    for (const auto* key : {"machine_width", "machine_depth", "machine_center_is_zero", "bed_polygon"}) said_.insert(key);
+    for (const auto* key : {"machine_width", "machine_depth", "machine_center_is_zero", "bed_polygon"})
+      said_.insert(key);
     for (const auto* axis : {"x", "y", "z", "e"}) {
-      say(fmt::format("machine_max_feedrate_{}", axis), print(fmt::format("machine_max_speed_{}", axis)), fmt::format("machine_max_speed_{}", axis));
-      say(fmt::format("machine_max_acceleration_{}", axis), print(fmt::format("machine_max_acceleration_{}", axis)), fmt::format("machine_max_acceleration_{}", axis));
+      say(fmt::format("machine_max_feedrate_{}", axis), print(fmt::format("machine_max_speed_{}", axis)),
+          fmt::format("machine_max_speed_{}", axis));
+      say(fmt::format("machine_max_acceleration_{}", axis), print(fmt::format("machine_max_acceleration_{}", axis)),
+          fmt::format("machine_max_acceleration_{}", axis));
     }
     say("machine_max_jerk_y", lines_["machine_max_jerk_x"]);
     const auto& t = s_.material;
     say("filament_type", listed_text(print("material_type")));
-    say("first_layer_temperature", fmt::format("{}", t.material_print_temperature_layer_0.value_or(t.material_print_temperature)), "material_print_temperature_layer_0");
-    say("first_layer_bed_temperature", fmt::format("{}", t.material_bed_temperature_layer_0.value_or(t.material_bed_temperature)), "material_bed_temperature_layer_0");
-    say("filament_max_volumetric_speed", t.material_max_volumetric_speed >= 500 ? "0" : number(t.material_max_volumetric_speed), "material_max_volumetric_speed");
+    say("first_layer_temperature",
+        fmt::format("{}", t.material_print_temperature_layer_0.value_or(t.material_print_temperature)),
+        "material_print_temperature_layer_0");
+    say("first_layer_bed_temperature",
+        fmt::format("{}", t.material_bed_temperature_layer_0.value_or(t.material_bed_temperature)),
+        "material_bed_temperature_layer_0");
+    say("filament_max_volumetric_speed",
+        t.material_max_volumetric_speed >= 500 ? "0" : number(t.material_max_volumetric_speed),
+        "material_max_volumetric_speed");
     say("max_volumetric_speed", "0");
   }
 
@@ -139,24 +155,30 @@ class Exporter {
     say("extrusion_width", "0");
     const auto first = print("initial_layer_line_width");
     say("first_layer_extrusion_width", first == "auto" ? "0" : first, "initial_layer_line_width");
-    say("first_layer_height", number(to_mm(s_.layers.initial_layer_height.value_or(s_.layers.layer_height))), "initial_layer_height");
+    say("first_layer_height", number(to_mm(s_.layers.initial_layer_height.value_or(s_.layers.layer_height))),
+        "initial_layer_height");
     said_.insert("skirt_brim_line_width");
     // There the least skirt is measured in filament.
     const double height = to_mm(s_.layers.initial_layer_height.value_or(s_.layers.layer_height));
     double skirt = 0, filament = to_mm(s_.material.filament_diameter);
     value::parse(first == "auto" ? lines_["perimeter_extrusion_width"] : first, Unit::none, skirt);
     const double area = height * (skirt - height * (1 - std::numbers::pi / 4));
-    say("min_skirt_length", number(to_mm(s_.adhesion.skirt_brim_minimal_length) * area / (std::numbers::pi / 4 * filament * filament)), "skirt_brim_minimal_length");
+    say("min_skirt_length",
+        number(to_mm(s_.adhesion.skirt_brim_minimal_length) * area / (std::numbers::pi / 4 * filament * filament)),
+        "skirt_brim_minimal_length");
   }
 
   void speeds() {
     const auto& v = s_.speeds;
     for (const auto& row : speed_rows) say(row.theirs, print(row.ours), row.ours);
-    say("small_perimeter_speed", v.speed_small_perimeter ? number(v.speed_small_perimeter->of(v.speed_wall_0)) : "0", "speed_small_perimeter");
+    say("small_perimeter_speed", v.speed_small_perimeter ? number(v.speed_small_perimeter->of(v.speed_wall_0)) : "0",
+        "speed_small_perimeter");
     say("first_layer_speed", print("speed_layer_0"), "speed_layer_0");
     say("overhangs", "1");
     say("travel_speed_z", print("speed_z_hop"), "speed_z_hop");
-    say("support_material_speed", number(v.skirt_brim_speed.value_or(std::min(v.speed_wall_0, v.speed_layer_0.of(v.speed_wall_0)))), "skirt_brim_speed");
+    say("support_material_speed",
+        number(v.skirt_brim_speed.value_or(std::min(v.speed_wall_0, v.speed_layer_0.of(v.speed_wall_0)))),
+        "skirt_brim_speed");
     const auto slope = print("max_extrusion_rate_slope");
     say("max_volumetric_extrusion_rate_slope_positive", slope == "auto" ? "0" : slope, "max_extrusion_rate_slope");
     for (const auto& row : acceleration_rows) {
@@ -177,18 +199,23 @@ class Exporter {
     if (!s_.retraction.retraction_enable) say("retract_length", "0");
     said_.insert("retraction_enable");
     std::string sizes;
-    for (const auto size : s_.gcode.thumbnails) sizes += fmt::format("{}{}x{}", sizes.empty() ? "" : ",", size.width, size.height);
+    for (const auto size : s_.gcode.thumbnails)
+      sizes += fmt::format("{}{}x{}", sizes.empty() ? "" : ",", size.width, size.height);
     say("thumbnails", sizes, "thumbnails");
     say("thumbnails_format", "PNG");
   }
 
   void texts() {
-    for (const auto& [theirs, ours] : {std::pair{"start_gcode", "machine_start_gcode"}, {"end_gcode", "machine_end_gcode"}, {"before_layer_gcode", "before_layer_gcode"}, {"layer_gcode", "layer_gcode"}})
+    for (const auto& [theirs, ours] : {std::pair{"start_gcode", "machine_start_gcode"},
+                                       {"end_gcode", "machine_end_gcode"},
+                                       {"before_layer_gcode", "before_layer_gcode"},
+                                       {"layer_gcode", "layer_gcode"}})
       say(theirs, renamed_placeholders(print(ours)), ours);
     // PrusaSlicer puts text of its own where these are missing, and refuses relative E that is never set back.
     say("start_filament_gcode", "\"\"");
     say("end_filament_gcode", "\"\"");
-    if (s_.gcode.relative_extrusion && (lines_["before_layer_gcode"] + lines_["layer_gcode"]).find("G92 E0") == std::string::npos) {
+    if (s_.gcode.relative_extrusion &&
+        (lines_["before_layer_gcode"] + lines_["layer_gcode"]).find("G92 E0") == std::string::npos) {
       auto& text = lines_["before_layer_gcode"];
       text += text.empty() || text.ends_with("\\n") ? "G92 E0" : "\\nG92 E0";
     }
@@ -202,6 +229,8 @@ class Exporter {
 
 }  // namespace
 
-Exported exported(const Settings& settings) { return Exporter(settings).run(); }
+Exported exported(const Settings& settings) {
+  return Exporter(settings).run();
+}
 
 }  // namespace weft::prusaslicer

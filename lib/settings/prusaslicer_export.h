@@ -1,15 +1,16 @@
 #pragma once
+#include "settings/settings.h"
+
 #include <string>
 #include <vector>
-
-#include "settings/settings.h"
 
 namespace weft::prusaslicer {
 
 /// Settings as PrusaSlicer's config.ini, and what of them it has no words for.
 struct Exported {
   std::string text;
-  std::vector<std::string> lost;  ///< `key = value` of settings that are not weft's default and have no counterpart there
+  std::vector<std::string>
+      lost;  ///< `key = value` of settings that are not weft's default and have no counterpart there
 };
 
 /// Law: what this writes says the same to `translate` as it was made from, as far as it is mapped; automatic widths and

@@ -7,14 +7,14 @@ namespace weft::prusaslicer {
 
 /// How a value becomes weft's.
 enum class Form {
-  length,        ///< mm, to the micron
+  length,  ///< mm, to the micron
   number,
   times_100,     ///< a factor there, percent here
   zero_is_auto,  ///< 0 there, auto here
   share,         ///< a number or a percentage, with the same base
   flag,
-  text,          ///< the first of a list
-  choice,        ///< see choice_rows
+  text,    ///< the first of a list
+  choice,  ///< see choice_rows
 };
 
 /// A key whose meaning is that of one of weft's.
@@ -241,7 +241,8 @@ inline constexpr auto other_rows = std::to_array<OtherRow>({
     OtherRow{"filament_cost", "*", "prices are not reckoned"},
     OtherRow{"filament_spool_weight", "*", "prices are not reckoned"},
     OtherRow{"perimeter_generator", "*", "weft has one generator of walls, which fills what these are about"},
-    OtherRow{"wall_transition_filter_deviation", "*", "weft has one generator of walls, which fills what these are about"},
+    OtherRow{"wall_transition_filter_deviation", "*",
+             "weft has one generator of walls, which fills what these are about"},
     OtherRow{"wall_transition_angle", "*", "weft has one generator of walls, which fills what these are about"},
     OtherRow{"min_feature_size", "*", "weft has one generator of walls, which fills what these are about"},
     OtherRow{"thin_walls", "*", "weft has one generator of walls, which fills what these are about"},
@@ -259,8 +260,10 @@ inline constexpr auto other_rows = std::to_array<OtherRow>({
     OtherRow{"resolution", "*", "outlines are closed and simplified by weft's own rules"},
     OtherRow{"slicing_mode", "regular", "not supported yet"},
     OtherRow{"interface_shells", "*", "outlines are closed and simplified by weft's own rules"},
-    OtherRow{"top_fill_pattern", "monotonic|rectilinear|monotoniclines|alignedrectilinear|zigzag", "solid surfaces are monotonic lines"},
-    OtherRow{"bottom_fill_pattern", "monotonic|rectilinear|monotoniclines|alignedrectilinear|zigzag", "solid surfaces are monotonic lines"},
+    OtherRow{"top_fill_pattern", "monotonic|rectilinear|monotoniclines|alignedrectilinear|zigzag",
+             "solid surfaces are monotonic lines"},
+    OtherRow{"bottom_fill_pattern", "monotonic|rectilinear|monotoniclines|alignedrectilinear|zigzag",
+             "solid surfaces are monotonic lines"},
     OtherRow{"support_material_extrusion_width", "*", "only with support_material"},
     OtherRow{"support_material_interface_speed", "*", "only with support_material"},
     OtherRow{"support_material_auto", "*", "only with support_material"},
@@ -469,17 +472,36 @@ constexpr std::string_view current_name(std::string_view key) {
 
 /// One key then, several today.
 inline constexpr std::array shortcuts{
-    Renamed{"external_fill_pattern", "top_fill_pattern"},   Renamed{"external_fill_pattern", "bottom_fill_pattern"},
-    Renamed{"solid_fill_pattern", "top_fill_pattern"},      Renamed{"solid_fill_pattern", "bottom_fill_pattern"},
-    Renamed{"solid_layers", "top_solid_layers"},            Renamed{"solid_layers", "bottom_solid_layers"},
-    Renamed{"solid_min_thickness", "top_solid_min_thickness"}, Renamed{"solid_min_thickness", "bottom_solid_min_thickness"},
+    Renamed{"external_fill_pattern", "top_fill_pattern"},
+    Renamed{"external_fill_pattern", "bottom_fill_pattern"},
+    Renamed{"solid_fill_pattern", "top_fill_pattern"},
+    Renamed{"solid_fill_pattern", "bottom_fill_pattern"},
+    Renamed{"solid_layers", "top_solid_layers"},
+    Renamed{"solid_layers", "bottom_solid_layers"},
+    Renamed{"solid_min_thickness", "top_solid_min_thickness"},
+    Renamed{"solid_min_thickness", "bottom_solid_min_thickness"},
 };
 
 /// Keys that a filament may override as `filament_<key>`; `nil` overrides nothing.
 inline constexpr std::array<std::string_view, 18> filament_overrides{
-    "retract_length", "retract_speed", "deretract_speed", "retract_restart_extra", "retract_before_travel", "retract_layer_change",
-    "retract_lift", "retract_lift_above", "retract_lift_below", "retract_before_wipe", "wipe", "retract_length_toolchange",
-    "retract_restart_extra_toolchange", "travel_ramping_lift", "travel_max_lift", "travel_slope", "travel_lift_before_obstacle", "seam_gap_distance",
+    "retract_length",
+    "retract_speed",
+    "deretract_speed",
+    "retract_restart_extra",
+    "retract_before_travel",
+    "retract_layer_change",
+    "retract_lift",
+    "retract_lift_above",
+    "retract_lift_below",
+    "retract_before_wipe",
+    "wipe",
+    "retract_length_toolchange",
+    "retract_restart_extra_toolchange",
+    "travel_ramping_lift",
+    "travel_max_lift",
+    "travel_slope",
+    "travel_lift_before_obstacle",
+    "seam_gap_distance",
 };
 
 }  // namespace weft::prusaslicer

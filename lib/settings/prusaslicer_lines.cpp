@@ -1,14 +1,14 @@
 #include "settings/prusaslicer_lines.h"
 
-#include <fmt/format.h>
-
-#include <array>
-#include <stdexcept>
-
 #include "core/error.h"
 #include "settings/prusaslicer_keys.h"
 #include "settings/prusaslicer_text.h"
 #include "settings/value.h"
+
+#include <array>
+#include <stdexcept>
+
+#include <fmt/format.h>
 
 namespace weft::prusaslicer {
 namespace {
@@ -20,7 +20,8 @@ struct OldSpelling {
   std::string_view key, then, now;
 };
 constexpr std::array old_spellings{
-    OldSpelling{"perimeter_acceleration", "25", "0"},  // the defaults of a Slic3r that switched accelerations off beside them
+    OldSpelling{"perimeter_acceleration", "25",
+                "0"},  // the defaults of a Slic3r that switched accelerations off beside them
     OldSpelling{"infill_acceleration", "50", "0"},
     OldSpelling{"support_material_pattern", "pillars", "rectilinear"},
     OldSpelling{"draft_shield", "0", "disabled"},
@@ -48,11 +49,16 @@ void modernise(IniEntry& e) {
     }
     e.key = now;
   };
-  if (e.key == "extrusion_width_ratio") share("extrusion_width");
-  else if (e.key == "first_layer_height_ratio") share("first_layer_height");
-  else if (e.key == "bottom_layer_speed_ratio") share("first_layer_speed");
-  else if (e.key == "randomize_start" && trimmed(e.value) == "1") e.key = "seam_position", e.value = "random";
-  else if (e.key == "skirt_height" && trimmed(e.value) == "-1") e.key = "draft_shield", e.value = "enabled";
+  if (e.key == "extrusion_width_ratio")
+    share("extrusion_width");
+  else if (e.key == "first_layer_height_ratio")
+    share("first_layer_height");
+  else if (e.key == "bottom_layer_speed_ratio")
+    share("first_layer_speed");
+  else if (e.key == "randomize_start" && trimmed(e.value) == "1")
+    e.key = "seam_position", e.value = "random";
+  else if (e.key == "skirt_height" && trimmed(e.value) == "-1")
+    e.key = "draft_shield", e.value = "enabled";
   else if (e.key == "bed_size") {
     const auto parts = elements_of(e.key, e.value);
     if (parts.size() == 2) e.key = "bed_shape", e.value = fmt::format("0x0,{0}x0,{0}x{1},0x{1}", parts[0], parts[1]);
@@ -106,8 +112,8 @@ const IniEntry* Lines::look(std::string_view key) const {
 }
 
 void Lines::refuse(const IniEntry& e, std::string_view what) const {
-  throw Error{Error::Kind::settings, fmt::format("{}: '{}' is not {}", e.key, e.value.substr(0, 60), what), fmt::format("{}:{}", path_, e.line),
-              "PrusaSlicer would read it as another number or drop it"};
+  throw Error{Error::Kind::settings, fmt::format("{}: '{}' is not {}", e.key, e.value.substr(0, 60), what),
+              fmt::format("{}:{}", path_, e.line), "PrusaSlicer would read it as another number or drop it"};
 }
 
 Figure Lines::figure(const IniEntry& e) const {
@@ -146,7 +152,9 @@ bool Lines::flag(std::string_view key, bool otherwise) {
 }
 
 void Lines::cut_comment(IniEntry& e) {
-  if (is_text(e.key) || e.value.empty() || std::string_view("0123456789.-").find(e.value.front()) == std::string_view::npos) return;
+  if (is_text(e.key) || e.value.empty() ||
+      std::string_view("0123456789.-").find(e.value.front()) == std::string_view::npos)
+    return;
   const auto hash = std::min(e.value.find(" #"), e.value.find(" ;"));
   if (hash == std::string::npos) return;
   commented_.push_back(e);

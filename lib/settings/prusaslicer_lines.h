@@ -1,4 +1,6 @@
 #pragma once
+#include "settings/ini.h"
+
 #include <functional>
 #include <map>
 #include <optional>
@@ -6,8 +8,6 @@
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "settings/ini.h"
 
 namespace weft::prusaslicer {
 
@@ -34,7 +34,8 @@ class Lines {
   double number(std::string_view key, double otherwise);
   bool flag(std::string_view key, bool otherwise);
 
-  /// The first element: weft prints with one extruder, and of pairs for normal and silent mode the first is the normal one.
+  /// The first element: weft prints with one extruder, and of pairs for normal and silent mode the first is the normal
+  /// one.
   /// @throws Error{settings} with path:line when it does not parse whole
   Figure figure(const IniEntry& e) const;
   bool flag(const IniEntry& e) const;

@@ -1,12 +1,12 @@
 #pragma once
+#include "settings/value.h"
+
 #include <concepts>
 #include <optional>
 #include <string_view>
 #include <tuple>
 #include <type_traits>
 #include <utility>
-
-#include "settings/value.h"
 
 /// How a group of settings is declared: a plain struct holds types and defaults, a constexpr tuple of rows beside it
 /// holds the rest. `settings/settings.h` lists the groups; everything that reads or writes settings walks these rows.
@@ -27,13 +27,21 @@ struct Setting {
 
 namespace detail {
 template <class T>
-struct BoundOf { using type = T; };
+struct BoundOf {
+  using type = T;
+};
 template <class T>
-struct BoundOf<std::optional<T>> { using type = typename BoundOf<T>::type; };
+struct BoundOf<std::optional<T>> {
+  using type = typename BoundOf<T>::type;
+};
 template <>
-struct BoundOf<LengthOrShare> { using type = Um; };
+struct BoundOf<LengthOrShare> {
+  using type = Um;
+};
 template <>
-struct BoundOf<SpeedOrShare> { using type = double; };
+struct BoundOf<SpeedOrShare> {
+  using type = double;
+};
 template <class T>
 using Bound = typename BoundOf<T>::type;
 struct NoBound {};
@@ -42,7 +50,8 @@ struct NoBound {};
 /// A number with a unit and an inclusive range.
 template <class Group, class T>
 constexpr auto setting(std::string_view key, T Group::*field, Unit unit, std::type_identity_t<detail::Bound<T>> least,
-                       std::type_identity_t<detail::Bound<T>> most, std::string_view meaning, std::string_view prusa = {}) {
+                       std::type_identity_t<detail::Bound<T>> most, std::string_view meaning,
+                       std::string_view prusa = {}) {
   return Setting<Group, T, detail::Bound<T>>{key, field, unit, least, most, meaning, prusa};
 }
 

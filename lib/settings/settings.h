@@ -8,8 +8,8 @@
 #include "settings/machine.h"
 #include "settings/material.h"
 #include "settings/retraction.h"
-#include "settings/speeds.h"
 #include "settings/shells.h"
+#include "settings/speeds.h"
 #include "settings/travel.h"
 #include "settings/walls.h"
 

@@ -1,7 +1,7 @@
 #pragma once
-#include <array>
-
 #include "settings/schema.h"
+
+#include <array>
 
 namespace weft {
 using namespace weft::literals;
@@ -9,15 +9,19 @@ using namespace weft::literals;
 /// How the paths of a layer are put in order.
 enum class PathOrder { nearest, optimized };
 constexpr auto choices_of(PathOrder) {
-  return std::array{Choice<PathOrder>{PathOrder::nearest, "nearest"}, Choice<PathOrder>{PathOrder::optimized, "optimized"}};
+  return std::array{Choice<PathOrder>{PathOrder::nearest, "nearest"},
+                    Choice<PathOrder>{PathOrder::optimized, "optimized"}};
 }
 
 /// Where a closed wall begins and ends.
 enum class SeamType { sharpest_corner, aligned, shortest, back, random, user };
 constexpr auto choices_of(SeamType) {
-  return std::array{Choice<SeamType>{SeamType::sharpest_corner, "sharpest_corner"}, Choice<SeamType>{SeamType::aligned, "aligned"},
-                    Choice<SeamType>{SeamType::shortest, "shortest"}, Choice<SeamType>{SeamType::back, "back"},
-                    Choice<SeamType>{SeamType::random, "random"}, Choice<SeamType>{SeamType::user, "user"}};
+  return std::array{Choice<SeamType>{SeamType::sharpest_corner, "sharpest_corner"},
+                    Choice<SeamType>{SeamType::aligned, "aligned"},
+                    Choice<SeamType>{SeamType::shortest, "shortest"},
+                    Choice<SeamType>{SeamType::back, "back"},
+                    Choice<SeamType>{SeamType::random, "random"},
+                    Choice<SeamType>{SeamType::user, "user"}};
 }
 
 /// Which corners attract a seam.
@@ -32,8 +36,8 @@ constexpr auto choices_of(SeamCorner) {
 enum class Combing { off, all, no_outer_surfaces, noskin, infill };
 constexpr auto choices_of(Combing) {
   return std::array{Choice<Combing>{Combing::off, "off"}, Choice<Combing>{Combing::all, "all"},
-                    Choice<Combing>{Combing::no_outer_surfaces, "no_outer_surfaces"}, Choice<Combing>{Combing::noskin, "noskin"},
-                    Choice<Combing>{Combing::infill, "infill"}};
+                    Choice<Combing>{Combing::no_outer_surfaces, "no_outer_surfaces"},
+                    Choice<Combing>{Combing::noskin, "noskin"}, Choice<Combing>{Combing::infill, "infill"}};
 }
 
 /// Order of paths, seams, and the way between them.
@@ -64,43 +68,54 @@ struct TravelSettings {
 
 inline constexpr std::tuple travel_schema{
     setting("path_order", &TravelSettings::path_order,
-            "Order of the paths of a layer: nearest takes the nearest next one, optimized improves that order by local search."),
+            "Order of the paths of a layer: nearest takes the nearest next one, optimized improves that order by local "
+            "search."),
     setting("z_seam_type", &TravelSettings::z_seam_type, "Where outer walls begin and end."),
-    setting("z_seam_corner", &TravelSettings::z_seam_corner, "Which corners attract a seam; weighted prefers inner ones to outer ones."),
+    setting("z_seam_corner", &TravelSettings::z_seam_corner,
+            "Which corners attract a seam; weighted prefers inner ones to outer ones."),
     setting("z_seam_visibility_weight", &TravelSettings::z_seam_visibility_weight, Unit::none, 0, 10,
             "How much it counts against a seam that its place is seen from many sides."),
-    setting("z_seam_corner_weight", &TravelSettings::z_seam_corner_weight, Unit::none, 0, 10, "How much a sharp corner attracts a seam."),
+    setting("z_seam_corner_weight", &TravelSettings::z_seam_corner_weight, Unit::none, 0, 10,
+            "How much a sharp corner attracts a seam."),
     setting("z_seam_overhang_weight", &TravelSettings::z_seam_overhang_weight, Unit::none, 0, 10,
             "How much it counts against a seam that nothing lies below its place."),
-    setting("z_seam_x", &TravelSettings::z_seam_x, Unit::mm, -10000_mm, 10000_mm, "X on the bed that seams are drawn to when z_seam_type is user."),
-    setting("z_seam_y", &TravelSettings::z_seam_y, Unit::mm, -10000_mm, 10000_mm, "Y on the bed that seams are drawn to when z_seam_type is user."),
+    setting("z_seam_x", &TravelSettings::z_seam_x, Unit::mm, -10000_mm, 10000_mm,
+            "X on the bed that seams are drawn to when z_seam_type is user."),
+    setting("z_seam_y", &TravelSettings::z_seam_y, Unit::mm, -10000_mm, 10000_mm,
+            "Y on the bed that seams are drawn to when z_seam_type is user."),
     setting("retraction_combing", &TravelSettings::retraction_combing,
-            "Travels stay inside the part: anywhere (all), off what will be seen (no_outer_surfaces), off top and bottom skin (noskin), "
+            "Travels stay inside the part: anywhere (all), off what will be seen (no_outer_surfaces), off top and "
+            "bottom skin (noskin), "
             "or over infill only."),
     setting("retraction_combing_offset", &TravelSettings::retraction_combing_offset, Unit::mm, -10_mm, 10_mm,
-            "Moves the boundary of combing, outwards when positive, against the centreline of the outer wall. Only with retraction_combing = all."),
-    setting("retraction_combing_max_distance", &TravelSettings::retraction_combing_max_distance, Unit::mm, 0_mm, 10000_mm,
-            "Combed travels longer than this are retracted; auto: never for their length."),
+            "Moves the boundary of combing, outwards when positive, against the centreline of the outer wall. Only "
+            "with retraction_combing = all."),
+    setting("retraction_combing_max_distance", &TravelSettings::retraction_combing_max_distance, Unit::mm, 0_mm,
+            10000_mm, "Combed travels longer than this are retracted; auto: never for their length."),
     setting("retraction_combing_max_detour", &TravelSettings::retraction_combing_max_detour, Unit::mm, 0_mm, 10000_mm,
-            "Combed travels longer than the straight way by more than this go straight and are retracted; a share is of the straight way; "
+            "Combed travels longer than the straight way by more than this go straight and are retracted; a share is "
+            "of the straight way; "
             "auto: combed however long."),
     setting("travel_avoid_other_parts", &TravelSettings::travel_avoid_other_parts,
             "Retracted travels go round the other parts of the layer instead of over them."),
     setting("travel_avoid_distance", &TravelSettings::travel_avoid_distance, Unit::mm, 0_mm, 100_mm,
             "How far travels keep from the parts that they go round."),
     setting("staggered_inner_seams", &TravelSettings::staggered_inner_seams,
-            "Seams of inner walls lie aside of the outer wall's, alternately, so that no gap runs through all walls.", "staggered_inner_seams"),
+            "Seams of inner walls lie aside of the outer wall's, alternately, so that no gap runs through all walls.",
+            "staggered_inner_seams"),
     setting("seam_gap_distance", &TravelSettings::seam_gap_distance, Unit::mm, 0_mm, 5_mm,
             "Outer walls end this far before the place where they began."),
     setting("wall_0_wipe_dist", &TravelSettings::wall_0_wipe_dist, Unit::mm, 0_mm, 10_mm,
             "How far the nozzle runs on over an outer wall without extruding after closing it."),
     setting("coasting_enable", &TravelSettings::coasting_enable,
             "The end of a bead before a retraction is not extruded: the pressure in the nozzle prints it."),
-    setting("coasting_volume", &TravelSettings::coasting_volume, Unit::mm3, 0, 10, "Volume left out; beads of less than three times as much are not touched."),
+    setting("coasting_volume", &TravelSettings::coasting_volume, Unit::mm3, 0, 10,
+            "Volume left out; beads of less than three times as much are not touched."),
     setting("scarf_joint_seam_length", &TravelSettings::scarf_joint_seam_length, Unit::mm, 0_mm, 100_mm,
-            "Outer walls begin on a ramp of this length and end above it, so that the seam is a slanting joint; 0: they begin and end at one place."),
-    setting("scarf_joint_seam_start_height_ratio", &TravelSettings::scarf_joint_seam_start_height_ratio, Unit::percent, 0, 100,
-            "Height of a scarf seam's ramp at its beginning; a share of the layer height."),
+            "Outer walls begin on a ramp of this length and end above it, so that the seam is a slanting joint; 0: "
+            "they begin and end at one place."),
+    setting("scarf_joint_seam_start_height_ratio", &TravelSettings::scarf_joint_seam_start_height_ratio, Unit::percent,
+            0, 100, "Height of a scarf seam's ramp at its beginning; a share of the layer height."),
     setting("scarf_split_distance", &TravelSettings::scarf_split_distance, Unit::mm, 0.05_mm, 100_mm,
             "Longest piece of a scarf seam's ramp that is printed at one rate of flow."),
 };

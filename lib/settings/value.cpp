@@ -2,11 +2,11 @@
 
 #include "core/join.h"
 
-#include <fmt/format.h>
-
 #include <charconv>
 #include <cmath>
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 namespace weft::value {
 namespace {
@@ -15,8 +15,12 @@ namespace {
   throw std::invalid_argument(fmt::format("'{}' is not {}", text, what));
 }
 
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+bool is_space(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
+char lower(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
 
 bool same_word(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
@@ -39,16 +43,26 @@ double take_number(std::string_view& text, std::string_view whole, std::string_v
 bool names_unit(std::string_view suffix, Unit unit) {
   if (suffix.empty() || suffix == symbol_of(unit)) return true;
   switch (unit) {
-    case Unit::mm_s2: return suffix == "mm/s2" || suffix == "mm/s^2";
-    case Unit::mm3_s: return suffix == "mm3/s" || suffix == "mm^3/s";
-    case Unit::mm3_s2: return suffix == "mm3/s2" || suffix == "mm^3/s^2";
-    case Unit::mm2: return suffix == "mm2" || suffix == "mm^2";
-    case Unit::mm3: return suffix == "mm3" || suffix == "mm^3";
-    case Unit::degrees: return suffix == "deg";
-    case Unit::celsius: return suffix == "C";
-    case Unit::g_cm3: return suffix == "g/cm3";
-    case Unit::layers: return suffix == "layer";
-    default: return false;
+    case Unit::mm_s2:
+      return suffix == "mm/s2" || suffix == "mm/s^2";
+    case Unit::mm3_s:
+      return suffix == "mm3/s" || suffix == "mm^3/s";
+    case Unit::mm3_s2:
+      return suffix == "mm3/s2" || suffix == "mm^3/s^2";
+    case Unit::mm2:
+      return suffix == "mm2" || suffix == "mm^2";
+    case Unit::mm3:
+      return suffix == "mm3" || suffix == "mm^3";
+    case Unit::degrees:
+      return suffix == "deg";
+    case Unit::celsius:
+      return suffix == "C";
+    case Unit::g_cm3:
+      return suffix == "g/cm3";
+    case Unit::layers:
+      return suffix == "layer";
+    default:
+      return false;
   }
 }
 
@@ -99,7 +113,9 @@ void parse(std::string_view text, Unit unit, Um& out) {
   out = length_from(quantity(text, unit, "a length"), trimmed(text));
 }
 
-void parse(std::string_view text, Unit unit, double& out) { out = quantity(text, unit, "a number"); }
+void parse(std::string_view text, Unit unit, double& out) {
+  out = quantity(text, unit, "a number");
+}
 
 void parse(std::string_view text, Unit, bool& out) {
   const auto t = trimmed(text);
@@ -119,11 +135,20 @@ void parse(std::string_view text, Unit, std::string& out) {
       continue;
     }
     switch (const char c = text[++i]) {
-      case 'n': out += '\n'; break;
-      case 'r': out += '\r'; break;
-      case 't': out += '\t'; break;
-      case '\\': out += '\\'; break;
-      default: (out += '\\') += c;
+      case 'n':
+        out += '\n';
+        break;
+      case 'r':
+        out += '\r';
+        break;
+      case 't':
+        out += '\t';
+        break;
+      case '\\':
+        out += '\\';
+        break;
+      default:
+        (out += '\\') += c;
     }
   }
 }
@@ -205,26 +230,45 @@ std::string number(double v, int decimals) {
   return out == "-0" ? "0" : out;
 }
 
-std::string print(Um v, Unit unit) { return unit == Unit::mm ? number(to_mm(v)) : fmt::format("{}", v); }
-std::string print(double v, Unit unit) { return number(v) + (unit == Unit::percent ? "%" : ""); }
-std::string print(bool v, Unit) { return v ? "true" : "false"; }
+std::string print(Um v, Unit unit) {
+  return unit == Unit::mm ? number(to_mm(v)) : fmt::format("{}", v);
+}
+std::string print(double v, Unit unit) {
+  return number(v) + (unit == Unit::percent ? "%" : "");
+}
+std::string print(bool v, Unit) {
+  return v ? "true" : "false";
+}
 
 std::string print(const std::string& v, Unit) {
   std::string out;
   for (const char c : v) {
     switch (c) {
-      case '\n': out += "\\n"; break;
-      case '\r': out += "\\r"; break;
-      case '\t': out += "\\t"; break;
-      case '\\': out += "\\\\"; break;
-      default: out += c;
+      case '\n':
+        out += "\\n";
+        break;
+      case '\r':
+        out += "\\r";
+        break;
+      case '\t':
+        out += "\\t";
+        break;
+      case '\\':
+        out += "\\\\";
+        break;
+      default:
+        out += c;
     }
   }
   return out;
 }
 
-std::string print(const LengthOrShare& v, Unit) { return v.is_share ? number(v.percent) + "%" : number(to_mm(v.length)); }
-std::string print(const SpeedOrShare& v, Unit) { return number(v.value) + (v.is_share ? "%" : ""); }
+std::string print(const LengthOrShare& v, Unit) {
+  return v.is_share ? number(v.percent) + "%" : number(to_mm(v.length));
+}
+std::string print(const SpeedOrShare& v, Unit) {
+  return number(v.value) + (v.is_share ? "%" : "");
+}
 
 std::string print(const Ring& v, Unit) {
   std::string out;

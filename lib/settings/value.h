@@ -1,14 +1,15 @@
 #pragma once
+#include "core/polygon.h"
+#include "settings/unit.h"
+
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/polygon.h"
-#include "settings/unit.h"
-
 /// The types a setting may have, and their text: one parser and one printer a type, used by every door settings come
-/// through. `parse` throws std::invalid_argument with one clause ("'0.2abc' is not a length in mm"); nothing is guessed.
+/// through. `parse` throws std::invalid_argument with one clause ("'0.2abc' is not a length in mm"); nothing is
+/// guessed.
 namespace weft {
 
 /// A length that may be given as a share of another: `0.1 mm` or `25 %`. Resolved where it is read.
@@ -19,8 +20,12 @@ struct LengthOrShare {
   Um of(Um base) const { return is_share ? rounded(base * percent / 100.0) : length; }
   friend bool operator==(const LengthOrShare&, const LengthOrShare&) = default;
 };
-constexpr LengthOrShare share(double percent) { return {0, percent, true}; }
-constexpr LengthOrShare length(Um um) { return {um, 0, false}; }
+constexpr LengthOrShare share(double percent) {
+  return {0, percent, true};
+}
+constexpr LengthOrShare length(Um um) {
+  return {um, 0, false};
+}
 
 /// A speed that may be given as a share of another.
 struct SpeedOrShare {
@@ -49,12 +54,12 @@ namespace value {
 void parse(std::string_view text, Unit unit, Um& out);  ///< a length when the unit is mm, else a whole number
 void parse(std::string_view text, Unit unit, double& out);
 void parse(std::string_view text, Unit unit, bool& out);
-void parse(std::string_view text, Unit unit, std::string& out);           ///< `\n`, `\r`, `\t`, `\\` are unescaped
+void parse(std::string_view text, Unit unit, std::string& out);  ///< `\n`, `\r`, `\t`, `\\` are unescaped
 void parse(std::string_view text, Unit unit, LengthOrShare& out);
 void parse(std::string_view text, Unit unit, SpeedOrShare& out);
-void parse(std::string_view text, Unit unit, Ring& out);                  ///< `0x0, 220x0, 220x220, 0x220`, mm
-void parse(std::string_view text, Unit unit, std::vector<Ring>& out);     ///< rings separated by `;`
-void parse(std::string_view text, Unit unit, PictureSizes& out);          ///< `32x32, 220x124`, 1 … 4096 pixels each way
+void parse(std::string_view text, Unit unit, Ring& out);               ///< `0x0, 220x0, 220x220, 0x220`, mm
+void parse(std::string_view text, Unit unit, std::vector<Ring>& out);  ///< rings separated by `;`
+void parse(std::string_view text, Unit unit, PictureSizes& out);       ///< `32x32, 220x124`, 1 … 4096 pixels each way
 /// Index of the choice, without regard to case.
 std::size_t parse_choice(std::string_view text, const std::vector<std::string_view>& names);
 

@@ -44,8 +44,9 @@ auto parallel_map(std::size_t count, F f) {
   return taken_out(slots, failed);
 }
 
-/// take(i, f(i)) for i in [0, count): f in any order and side by side, take in index order and one at a time. Few results
-/// wait for their turn, so that what take has done with need not be there as a whole. Errors as in parallel_map.
+/// take(i, f(i)) for i in [0, count): f in any order and side by side, take in index order and one at a time. Few
+/// results wait for their turn, so that what take has done with need not be there as a whole. Errors as in
+/// parallel_map.
 template <class F, class Take>
 void parallel_in_order(std::size_t count, F f, Take take) {
   using Out = std::invoke_result_t<F&, std::size_t>;
@@ -73,9 +74,9 @@ void parallel_in_order(std::size_t count, F f, Take take) {
   for_each_in_order(count, slots, {.make = make, .take = take_out});
 }
 
-/// g(i, link(i, f(i))) for i in [0, count), returned in index order: f and g in any order and side by side, link in index
-/// order and one at a time. Few pieces are on their way at once, so that what a step has used up need not be there as a
-/// whole. Errors as in parallel_map.
+/// g(i, link(i, f(i))) for i in [0, count), returned in index order: f and g in any order and side by side, link in
+/// index order and one at a time. Few pieces are on their way at once, so that what a step has used up need not be
+/// there as a whole. Errors as in parallel_map.
 template <class F, class Link, class G>
 auto parallel_linked(std::size_t count, F f, Link link, G g) {
   using Made = std::invoke_result_t<F&, std::size_t>;

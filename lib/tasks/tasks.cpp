@@ -51,7 +51,8 @@ void for_each_in_order(std::size_t count, std::size_t places, const Steps& steps
   std::vector<Baton> place(places);
   Baton turn_to_begin, turn_to_take;
   std::size_t next = 0;
-  const auto in_place = [&hand_over, &place, places, whether](const std::function<void(std::size_t)>& step, std::size_t i) {
+  const auto in_place = [&hand_over, &place, places, whether](const std::function<void(std::size_t)>& step,
+                                                              std::size_t i) {
     const Task in_task(hand_over, whether);
     place[i % places].take();
     step(i);

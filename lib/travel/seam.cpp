@@ -33,8 +33,8 @@ Vec between(Point a, Point b) {
   return {static_cast<double>(b.x) - a.x, static_cast<double>(b.y) - a.y};
 }
 
-/// The direction from junction i as seen `reach_um` along the bead, in steps of ±1. length(k) is how far junction k is from
-/// the next.
+/// The direction from junction i as seen `reach_um` along the bead, in steps of ±1. length(k) is how far junction k is
+/// from the next.
 template <class Length>
 Vec direction(const std::vector<Junction>& path, const Length& length, std::size_t i, bool forward) {
   const std::size_t n = path.size();

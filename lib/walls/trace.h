@@ -20,8 +20,8 @@ struct Line {
 /// Adds a piece to a line in the making; its width need not be that of the line's end.
 void append(std::vector<Line::Vertex>& path, Line::Vertex start, const Line::Vertex& end);
 
-/// Joins the end of a line to its beginning as `append` joins pieces. Post: if they lay in one place, no vertex is there
-/// twice but where the width steps. Leaves lines of fewer than four vertices as they are.
+/// Joins the end of a line to its beginning as `append` joins pieces. Post: if they lay in one place, no vertex is
+/// there twice but where the width steps. Leaves lines of fewer than four vertices as they are.
 void close(std::vector<Line::Vertex>& path);
 
 inline Line::Vertex lerp(const Line::Vertex& a, const Line::Vertex& b, double t) {

@@ -129,7 +129,8 @@ TEST_CASE("small memory: a thread takes up what one that has ended has left", "[
   std::vector<Filled> kept;
   for (int i = 0; i < 1000; ++i)
     std::thread([&] {
-      for (std::size_t bytes = 16; bytes <= 256; bytes += 16) kept.push_back(filled(bytes, static_cast<unsigned char>(i)));
+      for (std::size_t bytes = 16; bytes <= 256; bytes += 16)
+        kept.push_back(filled(bytes, static_cast<unsigned char>(i)));
     }).join();
   // Of each of 16 sizes a thread leaves most of a page: 65 MB if the next one could not use it.
   if (!watched) CHECK(static_cast<double>(weft::jobs::resident_bytes()) - before < 20 * mb);

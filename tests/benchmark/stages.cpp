@@ -1,7 +1,7 @@
 // What each stage costs a unit of its work, on one core, with the settings of the profiles given:
 //   benchmark_stages MODEL [PROFILE.ini]... [--benchmark_filter=walls]
-// `each` is what one costs of what the stage's cost grows with: triangles, vertices of outlines, beads, junctions, bytes. Travel
-// and motion are measured with a copy of their input, which is small beside them.
+// `each` is what one costs of what the stage's cost grows with: triangles, vertices of outlines, beads, junctions,
+// bytes. Travel and motion are measured with a copy of their input, which is small beside them.
 #include "audit/audit.h"
 #include "gcode/writer.h"
 #include "geometry/medial_axis.h"
@@ -15,14 +15,13 @@
 #include "travel/travel.h"
 #include "walls/walls.h"
 
-#include <benchmark/benchmark.h>
-
 #include <fstream>
 #include <iterator>
 #include <random>
 #include <string>
 #include <vector>
 
+#include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
 namespace {
@@ -60,10 +59,12 @@ struct Bench {
     planes = slice::planes(settings.layers, box_of(mesh).max.z);
     layers = slice_layers();
     walls = build_walls();
-    for (std::size_t i = 0; i < layers.size(); ++i) seen.push_back({layers[i].z, layers[i].height, &layers[i].regions, &walls[i].inside});
+    for (std::size_t i = 0; i < layers.size(); ++i)
+      seen.push_back({layers[i].z, layers[i].height, &layers[i].regions, &walls[i].inside});
     areas = find_areas();
     for (std::size_t i = 0; i < layers.size(); ++i) {
-      travel::LayerInput input{.index = i, .z = layers[i].z, .height = layers[i].height, .adhesion = {}, .objects = {}, .room = {}};
+      travel::LayerInput input{
+          .index = i, .z = layers[i].z, .height = layers[i].height, .adhesion = {}, .objects = {}, .room = {}};
       auto beads = walls[i].beads;
       for (auto& bead : fill_layer(i)) beads.push_back(std::move(bead));
       input.objects.push_back({0, std::move(beads), layers[i].regions, {}, {}, {}});
@@ -83,7 +84,8 @@ struct Bench {
   std::vector<WallLayer> build_walls() const {
     std::vector<WallLayer> out;
     for (std::size_t i = 0; i < layers.size(); ++i)
-      out.push_back(walls::build(settings.walls, {.layer = layers[i], .index = i, .nozzle_diameter = settings.machine.nozzle_diameter}));
+      out.push_back(walls::build(
+          settings.walls, {.layer = layers[i], .index = i, .nozzle_diameter = settings.machine.nozzle_diameter}));
     return out;
   }
   std::vector<infill::LayerAreas> find_areas() const {
@@ -92,7 +94,11 @@ struct Bench {
   }
   Beads fill_layer(std::size_t i) const {
     return infill::fill(settings.infill, settings.shells,
-                        {.areas = areas[i], .index = i, .z = layers[i].z, .height = layers[i].height, .nozzle = settings.machine.nozzle_diameter})
+                        {.areas = areas[i],
+                         .index = i,
+                         .z = layers[i].z,
+                         .height = layers[i].height,
+                         .nozzle = settings.machine.nozzle_diameter})
         .beads;
   }
   std::size_t fill() const {
@@ -103,7 +109,9 @@ struct Bench {
   std::vector<LayerPlan> travel() const { return travel::plan(settings.travel, settings.retraction, inputs); }
   motion::Planned motion() const { return motion::plan(motion::rules_of(settings), routed); }
   std::string gcode() const { return gcode::write({settings, planned.plan, planned.statistics, "object", {}}); }
-  std::int64_t audit() const { return audit::examine_text(settings.machine, settings.material, settings.audit, text).checked_moves; }
+  std::int64_t audit() const {
+    return audit::examine_text(settings.machine, settings.material, settings.audit, text).checked_moves;
+  }
 
   std::int64_t beads() const {
     std::size_t count = 0;
@@ -134,8 +142,8 @@ template <class Work>
 void add(const char* name, std::int64_t items, Work work) {
   benchmark::RegisterBenchmark(name, [=](benchmark::State& state) {
     for (auto _ : state) benchmark::DoNotOptimize(work());
-    state.counters["each"] =
-        benchmark::Counter(static_cast<double>(state.iterations() * items), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    state.counters["each"] = benchmark::Counter(static_cast<double>(state.iterations() * items),
+                                                benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
   })->Unit(benchmark::kMillisecond);
 }
 
@@ -158,7 +166,8 @@ int main(int count, char** arguments) {
   }
   const auto triangles = static_cast<std::int64_t>(bench.mesh.triangles.size());
   const auto vertices = vertices_of(bench.layers);
-  add("read/triangle", triangles, [] { return mesh::read(bench.bytes, bench.path).objects.front().mesh.triangles.size(); });
+  add("read/triangle", triangles,
+      [] { return mesh::read(bench.bytes, bench.path).objects.front().mesh.triangles.size(); });
   add("slice/triangle", triangles, [] { return bench.slice_layers().size(); });
   add("medial_axis/vertex", vertices, [] {
     std::size_t nodes = 0;
@@ -175,7 +184,8 @@ int main(int count, char** arguments) {
   add("gcode/byte", bytes, [] { return bench.gcode().size(); });
   add("audit/byte", bytes, [] { return bench.audit(); });
   static const auto stops = short_paths(20'000);
-  add("order/path", static_cast<std::int64_t>(stops.size()), [] { return travel::tour(PathOrder::optimized, stops, {}).size(); });
+  add("order/path", static_cast<std::int64_t>(stops.size()),
+      [] { return travel::tour(PathOrder::optimized, stops, {}).size(); });
   benchmark::RunSpecifiedBenchmarks();
   return 0;
 }

@@ -1,12 +1,11 @@
 // The scenarios of the boundary audit as users meet them, in both verdicts.
-#include <nlohmann/json.hpp>
+#include "cli/program.h"
 
 #include <algorithm>
 #include <filesystem>
 
 #include <catch2/catch.hpp>
-
-#include "cli/program.h"
+#include <nlohmann/json.hpp>
 
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
@@ -53,7 +52,8 @@ void check_found(const Sliced& s, const std::string& feature) {
   CHECK(s.report["status"] == "rejected");
   CHECK(s.report["audit"]["verdict"] == "rejected");
   const auto& violations = s.report["audit"]["violations"];
-  CHECK(std::any_of(violations.begin(), violations.end(), [&](const json& v) { return v["feature"] == feature && v["move"] == "extrude"; }));
+  CHECK(std::any_of(violations.begin(), violations.end(),
+                    [&](const json& v) { return v["feature"] == feature && v["move"] == "extrude"; }));
   for (const auto* side : {"-x", "+x", "-y", "+y"})
     CHECK(std::any_of(violations.begin(), violations.end(), [&](const json& v) { return v["side"] == side; }));
   CHECK(s.annotated.status == 0);
@@ -71,8 +71,8 @@ void check_passes(const Sliced& s) {
 
 /// A box sliced with start G-code that leaves the machine on `line`: refused, and annotated there. A motion back from
 /// outside is found as well, so `moves` of them stand outside.
-void check_start_code_found(const std::vector<std::string>& settings, const std::string& start, const std::string& annotation, const std::string& line,
-                            std::size_t moves) {
+void check_start_code_found(const std::vector<std::string>& settings, const std::string& start,
+                            const std::string& annotation, const std::string& line, std::size_t moves) {
   CAPTURE(start);
   Scratch scratch;
   scratch.write("part.stl", box_stl(10, 10, 0.4F));
@@ -115,8 +115,10 @@ TEST_CASE("audit T1: the skirt of a part as large as the bed is found on all fou
 TEST_CASE("audit T3: a spiral lift at the edge of the bed gives way to one that stays inside") {
   Scratch scratch;
   scratch.write("part.stl", box_stl(20, 40, 2));
-  const auto s = slice(scratch, "part.stl", {"--copies", "2", "--center", "177,100", "-s", "skirt_line_count=0", "-s", "retraction_hop=1", "-s", "retraction_hop_type=spiral",
-                                             "-s", "z_seam_type=user", "-s", "z_seam_x=200", "-s", "z_seam_y=100", "-s", "travel_slope=3"});
+  const auto s = slice(scratch, "part.stl",
+                       {"--copies", "2", "--center", "177,100", "-s", "skirt_line_count=0", "-s", "retraction_hop=1",
+                        "-s", "retraction_hop_type=spiral", "-s", "z_seam_type=user", "-s", "z_seam_x=200", "-s",
+                        "z_seam_y=100", "-s", "travel_slope=3"});
   check_passes(s);
   const auto& warnings = s.report["warnings"];
   CHECK(std::any_of(warnings.begin(), warnings.end(), [](const json& w) { return w["code"] == "lift_gave_way"; }));
@@ -126,7 +128,8 @@ TEST_CASE("audit T4: a travel over the notch of a concave bed, or through a no-g
   Scratch scratch;
   const std::string travels = start + "G1 X20 Y20\nG1 X20 Y180\nG1 X180 Y180\n";
   CHECK(audit(scratch, travels).status == 0);
-  const auto notch = audit(scratch, travels, {"bed_shape=polygon", "bed_polygon=0x0,200x0,200x200,150x200,150x100,50x100,50x200,0x200"});
+  const auto notch = audit(scratch, travels,
+                           {"bed_shape=polygon", "bed_polygon=0x0,200x0,200x200,150x200,150x100,50x100,50x200,0x200"});
   CHECK(notch.status == 5);
   CHECK_THAT(notch.err, Contains("1 move outside") && Contains("travel, line 11"));
   const auto area = audit(scratch, travels, {"bed_exclude_areas=90x170,110x170,110x190,90x190"});
@@ -135,10 +138,14 @@ TEST_CASE("audit T4: a travel over the notch of a concave bed, or through a no-g
   CHECK(audit(scratch, travels, {"bed_exclude_areas=90x170,110x170,110x190,90x190", "exclude_height=0.2"}).status == 0);
   // the planner's own travels go round the area between two parts
   scratch.write("tower.stl", box_stl(10, 10, 1));
-  check_passes(slice(scratch, "tower.stl", {"--copies", "2", "--spacing", "40", "-s", "skirt_line_count=0", "-s", "bed_exclude_areas=97x60,103x60,103x140,97x140"}));
-  check_start_code_found({"bed_shape=polygon", "bed_polygon=0x0,200x0,200x200,150x200,150x130,50x130,50x200,0x200"}, "G1 X20 Y180\\nG1 X180 Y180\\nG1 X180 Y20",
-                         "outside -x 50.000 mm, custom, travel", "G1 X180 Y180", 1);
-  check_start_code_found({"bed_exclude_areas=90x170,110x170,110x190,90x190"}, "G1 X20 Y180\\nG1 X180 Y180\\nG1 X180 Y20", "inside no-go area 1 10.000 mm, custom, travel",
+  check_passes(slice(scratch, "tower.stl",
+                     {"--copies", "2", "--spacing", "40", "-s", "skirt_line_count=0", "-s",
+                      "bed_exclude_areas=97x60,103x60,103x140,97x140"}));
+  check_start_code_found({"bed_shape=polygon", "bed_polygon=0x0,200x0,200x200,150x200,150x130,50x130,50x200,0x200"},
+                         "G1 X20 Y180\\nG1 X180 Y180\\nG1 X180 Y20", "outside -x 50.000 mm, custom, travel",
+                         "G1 X180 Y180", 1);
+  check_start_code_found({"bed_exclude_areas=90x170,110x170,110x190,90x190"},
+                         "G1 X20 Y180\\nG1 X180 Y180\\nG1 X180 Y20", "inside no-go area 1 10.000 mm, custom, travel",
                          "G1 X180 Y180", 1);
 }
 
@@ -154,7 +161,8 @@ TEST_CASE("audit T7: an arc that bulges past the edge is found although its ends
   CHECK(run.status == 5);
   CHECK_THAT(run.err, Contains("beyond +x of the print surface (outer_wall, arc, line 10)"));
   CHECK(audit(scratch, start + "G1 X199 Y100\nG2 X199 Y110 I4 J5 E1\n").status == 0);
-  check_start_code_found({}, "G1 X199 Y100\\nG3 X199 Y110 I-4 J5", "outside +x 1.403 mm, custom, arc", "G3 X199 Y110 I-4 J5", 1);
+  check_start_code_found({}, "G1 X199 Y100\\nG3 X199 Y110 I-4 J5", "outside +x 1.403 mm, custom, arc",
+                         "G3 X199 Y110 I-4 J5", 1);
 }
 
 TEST_CASE("audit T8: an ordinary print has no finding, and neither has its file") {
@@ -170,7 +178,8 @@ TEST_CASE("audit T8: an ordinary print has no finding, and neither has its file"
 TEST_CASE("audit T9: a purge line at Y-3 passes with the reach of the printer, and is custom G-code without") {
   Scratch scratch;
   scratch.write("part.stl", box_stl(10, 10, 1));
-  const std::string purge = "machine_start_gcode=G28\\nG90\\nM83\\nG1 Z0.2 F720\\nG1 Y-3 F1000\\nG1 X60 E9\\nG1 X100 E12.5";
+  const std::string purge =
+      "machine_start_gcode=G28\\nG90\\nM83\\nG1 Z0.2 F720\\nG1 Y-3 F1000\\nG1 X60 E9\\nG1 X100 E12.5";
   check_passes(slice(scratch, "part.stl", {"-s", purge, "-s", "machine_reach=0x-5, 200x200"}));
   const auto refused = slice(scratch, "part.stl", {"-s", purge});
   CHECK(refused.rejected.status == 5);
@@ -180,7 +189,8 @@ TEST_CASE("audit T9: a purge line at Y-3 passes with the reach of the printer, a
 
 TEST_CASE("audit T10: relative moves, shifted origins and inches are judged in machine coordinates") {
   Scratch scratch;
-  for (const auto* moves : {"G91\nG1 X60\nG1 X140.1\n", "G1 X100 Y5\nG92 X0\nG1 X100.1\n", "G20\nG1 X7.88\n", "G1 X100 Y5\nG92 X500\nG53 G1 X200.1\n"}) {
+  for (const auto* moves : {"G91\nG1 X60\nG1 X140.1\n", "G1 X100 Y5\nG92 X0\nG1 X100.1\n", "G20\nG1 X7.88\n",
+                            "G1 X100 Y5\nG92 X500\nG53 G1 X200.1\n"}) {
     CAPTURE(moves);
     CHECK_THAT(audit(scratch, start + moves).err, Contains("1 move outside") && Contains("beyond +x"));
   }
@@ -188,8 +198,10 @@ TEST_CASE("audit T10: relative moves, shifted origins and inches are judged in m
     CAPTURE(moves);
     CHECK(audit(scratch, start + moves).status == 0);
   }
-  check_start_code_found({}, "G1 X60 Y5\\nG91\\nG1 X140.1\\nG90", "outside +x 0.100 mm, custom, travel", "G1 X140.1", 2);
-  check_start_code_found({}, "G1 X100 Y5\\nG92 X0\\nG1 X100.1\\nG92 X200.1", "outside +x 0.100 mm, custom, travel", "G1 X100.1", 2);
+  check_start_code_found({}, "G1 X60 Y5\\nG91\\nG1 X140.1\\nG90", "outside +x 0.100 mm, custom, travel", "G1 X140.1",
+                         2);
+  check_start_code_found({}, "G1 X100 Y5\\nG92 X0\\nG1 X100.1\\nG92 X200.1", "outside +x 0.100 mm, custom, travel",
+                         "G1 X100.1", 2);
   check_start_code_found({}, "G20\\nG1 X7.88\\nG21", "outside +x 0.152 mm, custom, travel", "G1 X7.88", 2);
 }
 
@@ -199,7 +211,8 @@ TEST_CASE("audit: a fleet of printers is told apart, for people, programs and CI
   scratch.write("small.ini", "inherits = large.ini\nmachine_width = 120\n");
   scratch.write("part.gcode", start + "G1 X150 Y100\n");
   scratch.write("other.gcode", start + "G1 X50 Y100\n");
-  const std::vector<std::string> words{"audit", "part.gcode", "other.gcode", "--against", "large.ini", "small.ini", "--report", "-"};
+  const std::vector<std::string> words{"audit",     "part.gcode", "other.gcode", "--against",
+                                       "large.ini", "small.ini",  "--report",    "-"};
   const auto run = weft(words, scratch.path());
   CHECK(run.status == 5);
   CHECK_THAT(run.err, Contains("part.gcode on large.ini: pass") && Contains("part.gcode on small.ini: 1 move outside"));
@@ -218,7 +231,8 @@ TEST_CASE("audit: a fleet of printers is told apart, for people, programs and CI
   junit.insert(junit.end(), {"--format", "junit"});
   const auto xml = weft(junit, scratch.path());
   CHECK(xml.status == 5);
-  CHECK_THAT(xml.out, StartsWith("<?xml ") && Contains("tests=\"4\" failures=\"1\" errors=\"0\"") && Contains("<failure type=\"boundary\""));
+  CHECK_THAT(xml.out, StartsWith("<?xml ") && Contains("tests=\"4\" failures=\"1\" errors=\"0\"") &&
+                          Contains("<failure type=\"boundary\""));
 }
 
 TEST_CASE("audit: files that cannot be read are status 6, and do not keep others from being audited") {

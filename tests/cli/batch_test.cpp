@@ -69,7 +69,8 @@ struct Plates : Orders {
   }
   /// What is in the folder `whole`, from a run without limits, stands in the other too.
   void check_made(const std::string& folder, const std::vector<std::string>& ids) const {
-    for (const auto& id : ids) CHECK((scratch.read(folder + "/" + id + ".gcode") == scratch.read("whole/" + id + ".gcode")));
+    for (const auto& id : ids)
+      CHECK((scratch.read(folder + "/" + id + ".gcode") == scratch.read("whole/" + id + ".gcode")));
   }
 };
 
@@ -187,16 +188,19 @@ TEST_CASE("batch: a scheduler's environment tells the share") {
   CHECK(o.reports().size() == 4);
 }
 
-TEST_CASE("batch: a job that takes longer than it may is stopped, leaves nothing behind, and is made when it may take longer") {
+TEST_CASE(
+    "batch: a job that takes longer than it may is stopped, leaves nothing behind, and is made when it may take "
+    "longer") {
   const Plates o;
   REQUIRE(o.batch("whole", {}).status == 0);
-  // A limit that has passed when a job asks for the first time, on a machine of any speed. That jobs ask all the time, also
-  // within a layer, is told by the tests of the pipeline.
+  // A limit that has passed when a job asks for the first time, on a machine of any speed. That jobs ask all the time,
+  // also within a layer, is told by the tests of the pipeline.
   const std::vector<std::string> at_once{"--job-timeout", "1e-9"};
   const auto run = o.batch("out", at_once);
   INFO(run.err);
   CHECK(run.status == 7);
-  CHECK_THAT(run.err, Contains("islands (list.jsonl:2): stopped after 1e-09 s; give it more with --job-timeout; status 130"));
+  CHECK_THAT(run.err,
+             Contains("islands (list.jsonl:2): stopped after 1e-09 s; give it more with --job-timeout; status 130"));
   const auto reports = o.reports("out/report.jsonl");
   REQUIRE(reports.size() == 3);
   for (const auto& report : reports) {
@@ -208,7 +212,8 @@ TEST_CASE("batch: a job that takes longer than it may is stopped, leaves nothing
   o.check_made("out", {"one", "islands", "two"});
 
   // A sweep's jobs share what they have in common: who waits for a job that is stopped goes on with it.
-  std::vector<std::string> words{"sweep", "islands.stl", "-p", "bed.ini", "--vary", "infill_sparse_density=10,20", "-o", "swept"};
+  std::vector<std::string> words{"sweep", "islands.stl", "-p", "bed.ini", "--vary", "infill_sparse_density=10,20",
+                                 "-o",    "swept"};
   words.insert(words.end(), at_once.begin(), at_once.end());
   const auto sweep = weft(words, o.scratch.path());
   INFO(sweep.err);
@@ -226,7 +231,8 @@ TEST_CASE("batch: a job that is stopped within its only layer keeps no other fro
   CHECK(run.status == 7);
   CHECK_THAT(run.err, Contains("islands (list.jsonl:2): stopped: alone it needs more than"));
   CHECK(o.reports("out/report.jsonl")[1]["exit_status"] == 130);
-  CHECK(o.names("out") == std::set<std::string>{".weft", "junit.xml", "one.gcode", "report.jsonl", "summary.csv", "two.gcode"});
+  CHECK(o.names("out") ==
+        std::set<std::string>{".weft", "junit.xml", "one.gcode", "report.jsonl", "summary.csv", "two.gcode"});
   o.check_made("out", {"one", "two"});
 }
 
@@ -235,7 +241,8 @@ TEST_CASE("batch: a signal ends a run within a layer, and what is made stays") {
   REQUIRE(o.batch("whole", {}).status == 0);
   // The islands are begun when the one before is there.
   const auto ended = shell(
-      "$WEFT batch list.jsonl -o out -j 1 & job=$!; until [ -f out/one.gcode ]; do sleep 0.02; done; kill -TERM $job; wait $job",
+      "$WEFT batch list.jsonl -o out -j 1 & job=$!; until [ -f out/one.gcode ]; do sleep 0.02; done; kill -TERM $job; "
+      "wait $job",
       o.scratch.path());
   INFO(ended.err);
   CHECK(ended.status == 130);

@@ -1,14 +1,17 @@
 // Real models as a farm slices them: audited, reproducible, and what the file says of itself is true.
-#include <nlohmann/json.hpp>
-
-#include <catch2/catch.hpp>
+#include "corpus.h"
 
 #include "cli/program.h"
-#include "corpus.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 using nlohmann::json;
 
-TEST_CASE("corpus: every model passes the audit, gives the same bytes for any number of threads, with and without a cache, and verifies", "[corpus]") {
+TEST_CASE(
+    "corpus: every model passes the audit, gives the same bytes for any number of threads, with and without a cache, "
+    "and verifies",
+    "[corpus]") {
   for (const auto* name : {"MINI-minda-holder", "MINI-x-carriage", "benchy", "fandisk", "stanford-bunny"}) {
     const auto model = corpus("models/" + std::string(name) + ".stl");
     if (!model) return;
@@ -16,7 +19,8 @@ TEST_CASE("corpus: every model passes the audit, gives the same bytes for any nu
     Scratch scratch;
     std::string first;
     for (const auto* threads : {"1", "2", "3", "8"}) {
-      const auto run = weft({"slice", model->string(), "-o", "out.gcode", "-j", threads, "--report", "-"}, scratch.path());
+      const auto run =
+          weft({"slice", model->string(), "-o", "out.gcode", "-j", threads, "--report", "-"}, scratch.path());
       INFO(run.err);
       REQUIRE(run.status == 0);
       const auto report = json::parse(run.out);
@@ -25,7 +29,9 @@ TEST_CASE("corpus: every model passes the audit, gives the same bytes for any nu
       CHECK(report["gcode_sha256"] == first);
     }
     for (const auto* threads : {"3", "2"}) {  // the cache cold, then warm
-      const auto run = weft({"slice", model->string(), "-o", "cached.gcode", "-j", threads, "--cache", "cache", "--report", "-"}, scratch.path());
+      const auto run =
+          weft({"slice", model->string(), "-o", "cached.gcode", "-j", threads, "--cache", "cache", "--report", "-"},
+               scratch.path());
       INFO(run.err);
       REQUIRE(run.status == 0);
       CHECK(json::parse(run.out)["gcode_sha256"] == first);
@@ -39,7 +45,8 @@ TEST_CASE("corpus: gyroid curves through a corner of the outline do not lose cou
   if (!model) return;
   Scratch scratch;
   for (const auto* height : {"0.32", "0.3", "0.28"}) {
-    const auto run = weft({"slice", model->string(), "-o", "out.gcode", "-s", "layer_height=" + std::string(height), "-s", "infill_pattern=gyroid", "-s", "infill_sparse_density=10"},
+    const auto run = weft({"slice", model->string(), "-o", "out.gcode", "-s", "layer_height=" + std::string(height),
+                           "-s", "infill_pattern=gyroid", "-s", "infill_sparse_density=10"},
                           scratch.path());
     INFO(run.err);
     CHECK(run.status == 0);

@@ -1,15 +1,13 @@
-// What a farm's machines do to a job: full disks, readers that go away, limits, signals, files that change. The status says
-// what happened, the message where, and nothing half-written is left.
-#include <nlohmann/json.hpp>
+// What a farm's machines do to a job: full disks, readers that go away, limits, signals, files that change. The status
+// says what happened, the message where, and nothing half-written is left.
+#include "cli/program.h"
 
 #include <cstring>
 #include <filesystem>
 
-#include <sys/mount.h>
-
 #include <catch2/catch.hpp>
-
-#include "cli/program.h"
+#include <nlohmann/json.hpp>
+#include <sys/mount.h>
 
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
@@ -31,11 +29,13 @@ TEST_CASE("faults: a full disk is status 6, says so, and keeps the old file") {
   scratch.write("box.stl", box_stl(10, 10, 2));
   const auto device = weft({"slice", "box.stl", "-o", "/dev/full"}, scratch.path());
   CHECK(device.status == 6);
-  CHECK_THAT(device.err, Contains("weft: error: /dev/full: cannot be written (No space left on device); free some space"));
+  CHECK_THAT(device.err,
+             Contains("weft: error: /dev/full: cannot be written (No space left on device); free some space"));
 
   const auto out = shell("$WEFT slice box.stl -o - > /dev/full", scratch.path());
   CHECK(out.status == 6);
-  CHECK_THAT(out.err, Contains("weft: error: standard output: cannot be written (No space left on device); free some space"));
+  CHECK_THAT(out.err,
+             Contains("weft: error: standard output: cannot be written (No space left on device); free some space"));
 
   const auto disk = scratch.path() / "disk";
   std::filesystem::create_directory(disk);
@@ -93,7 +93,9 @@ TEST_CASE("faults: a signal in the middle is status 130 and leaves nothing") {
   const auto before = scratch.names();
   for (const auto* signal : {"TERM", "INT"}) {
     // sent when the job says that it slices: by then it listens, however slow the machine
-    const auto run = shell(long_job + " --log-format json --progress always 2> err & job=$!; until grep -q slicing err; do sleep 0.02; done 2> /dev/null; kill -" +
+    const auto run = shell(long_job +
+                               " --log-format json --progress always 2> err & job=$!; until grep -q slicing err; do "
+                               "sleep 0.02; done 2> /dev/null; kill -" +
                                signal + " $job; wait $job; status=$?; cat err >&2; rm err; exit $status",
                            scratch.path());
     INFO(run.err);
@@ -127,7 +129,8 @@ TEST_CASE("faults: a limit is kept within a layer, however much is in it") {
   Scratch scratch;
   scratch.write("bed.ini", "machine_width = 400\nmachine_depth = 400\n");
   scratch.write("islands.stl", boxes_stl(0.5F, 0.5F, 0.2F, 350, 1));
-  const auto run = shell("$WEFT slice islands.stl -p bed.ini -o out.gcode --report r.json --timeout 0.1", scratch.path());
+  const auto run =
+      shell("$WEFT slice islands.stl -p bed.ini -o out.gcode --report r.json --timeout 0.1", scratch.path());
   CHECK(run.status == 130);
   CHECK_THAT(run.err, Contains("weft: error: --timeout: stopped after 0.1 s; nothing was written"));
   const auto report = json::parse(scratch.read("r.json"));

@@ -1,6 +1,6 @@
-#include <catch2/catch.hpp>
-
 #include "cli/program.h"
+
+#include <catch2/catch.hpp>
 
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
@@ -8,7 +8,8 @@ using Catch::Matchers::StartsWith;
 namespace {
 
 constexpr const char* two_layers =
-    "G28\nM83\n;LAYER_CHANGE\n;Z:0.2\n;HEIGHT:0.2\nG1 Z0.2 F600\n;TYPE:External perimeter\nG1 X10 Y10 F9000\nG1 X30 Y10 E0.8 F1800\n"
+    "G28\nM83\n;LAYER_CHANGE\n;Z:0.2\n;HEIGHT:0.2\nG1 Z0.2 F600\n;TYPE:External perimeter\nG1 X10 Y10 F9000\nG1 X30 "
+    "Y10 E0.8 F1800\n"
     ";LAYER_CHANGE\n;Z:0.4\n;HEIGHT:0.2\nG1 Z0.4\n;TYPE:Perimeter\nG1 X10 Y20\nG1 X230 Y20 E8\n";
 
 }  // namespace
@@ -37,7 +38,8 @@ TEST_CASE("weft preview: layers are counted from 0, and from the end with a minu
 TEST_CASE("weft preview: --audit shows the machine and counts what is outside") {
   const Scratch scratch;
   scratch.write("part.gcode", two_layers);
-  const auto run = weft({"preview", "part.gcode", "-o", "p.svg", "--layer", "1", "--audit", "--machine-width", "200"}, scratch.path());
+  const auto run = weft({"preview", "part.gcode", "-o", "p.svg", "--layer", "1", "--audit", "--machine-width", "200"},
+                        scratch.path());
   CHECK(run.status == 0);
   CHECK_THAT(run.err, Contains("outside"));
   CHECK_THAT(scratch.read("p.svg"), Contains(">outside</text>"));

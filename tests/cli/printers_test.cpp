@@ -1,8 +1,9 @@
+#include "cli/program.h"
+
 #include <algorithm>
+
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
-
-#include "cli/program.h"
 
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
@@ -16,8 +17,10 @@ TEST_CASE("printers: the example passes the audit on each printer that comes wit
     INFO(file.filename().string());
     const auto stem = file.stem().string();
     const std::string nozzle = stem.ends_with("-0.25") ? "-0.25" : stem.ends_with("-0.8") ? "-0.8" : "";
-    const auto run = weft({"slice", (root / "examples/box.stl").string(), "-p", file.string(), "-p", (root / "profiles/materials/pla.ini").string(), "-p",
-                           (root / ("profiles/quality/standard" + nozzle + ".ini")).string(), "-s", "thumbnails=", "-o", "box.gcode", "--report", "box.json"},
+    const auto run = weft({"slice", (root / "examples/box.stl").string(), "-p", file.string(), "-p",
+                           (root / "profiles/materials/pla.ini").string(), "-p",
+                           (root / ("profiles/quality/standard" + nozzle + ".ini")).string(), "-s", "thumbnails=", "-o",
+                           "box.gcode", "--report", "box.json"},
                           scratch.path());
     INFO(run.err);
     CHECK(run.status == 0);

@@ -1,16 +1,16 @@
 #include "cli/program.h"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 extern char** environ;
 
@@ -45,7 +45,9 @@ Run run(const char* program, const std::vector<std::string>& words, const std::f
 }
 }  // namespace
 
-Run weft(const std::vector<std::string>& words, const std::filesystem::path& folder) { return run(WEFT_PROGRAM, words, folder); }
+Run weft(const std::vector<std::string>& words, const std::filesystem::path& folder) {
+  return run(WEFT_PROGRAM, words, folder);
+}
 
 Run shell(const std::string& script, const std::filesystem::path& folder) {
   ::setenv("WEFT", WEFT_PROGRAM, 1);
@@ -65,7 +67,9 @@ std::filesystem::path Scratch::write(const std::string& name, const std::string&
   std::ofstream(path_ / name, std::ios::binary) << bytes;
   return path_ / name;
 }
-std::string Scratch::read(const std::string& name) const { return contents(path_ / name); }
+std::string Scratch::read(const std::string& name) const {
+  return contents(path_ / name);
+}
 std::vector<std::string> Scratch::names() const {
   std::vector<std::string> out;
   for (const auto& entry : std::filesystem::directory_iterator(path_)) out.push_back(entry.path().filename().string());
@@ -74,16 +78,33 @@ std::vector<std::string> Scratch::names() const {
 }
 
 std::string boxes_stl(float x, float y, float z, int side, float pitch) {
-  constexpr std::array<std::array<int, 3>, 12> faces{{{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4}, {1, 2, 6}, {1, 6, 5},
-                                                      {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}}};
+  constexpr std::array<std::array<int, 3>, 12> faces{{{0, 2, 1},
+                                                      {0, 3, 2},
+                                                      {4, 5, 6},
+                                                      {4, 6, 7},
+                                                      {0, 1, 5},
+                                                      {0, 5, 4},
+                                                      {1, 2, 6},
+                                                      {1, 6, 5},
+                                                      {2, 3, 7},
+                                                      {2, 7, 6},
+                                                      {3, 0, 4},
+                                                      {3, 4, 7}}};
   std::string out(80, '\0');
   const auto add = [&](const void* data, std::size_t size) { out.append(static_cast<const char*>(data), size); };
   const auto count = static_cast<std::uint32_t>(faces.size()) * static_cast<std::uint32_t>(side * side);
   add(&count, 4);
   for (int i = 0; i < side * side; ++i) {
-    const float left = pitch * static_cast<float>(i % side), front = pitch * static_cast<float>(i / side), right = left + x, back = front + y;
-    const std::array<std::array<float, 3>, 8> corner{{{left, front, 0}, {right, front, 0}, {right, back, 0}, {left, back, 0},
-                                                      {left, front, z}, {right, front, z}, {right, back, z}, {left, back, z}}};
+    const float left = pitch * static_cast<float>(i % side), front = pitch * static_cast<float>(i / side),
+                right = left + x, back = front + y;
+    const std::array<std::array<float, 3>, 8> corner{{{left, front, 0},
+                                                      {right, front, 0},
+                                                      {right, back, 0},
+                                                      {left, back, 0},
+                                                      {left, front, z},
+                                                      {right, front, z},
+                                                      {right, back, z},
+                                                      {left, back, z}}};
     for (const auto& face : faces) {
       out.append(12, '\0');
       for (const int v : face) add(corner[static_cast<std::size_t>(v)].data(), 12);
@@ -93,4 +114,6 @@ std::string boxes_stl(float x, float y, float z, int side, float pitch) {
   return out;
 }
 
-std::string box_stl(float x, float y, float z) { return boxes_stl(x, y, z, 1, 0); }
+std::string box_stl(float x, float y, float z) {
+  return boxes_stl(x, y, z, 1, 0);
+}

@@ -1,13 +1,17 @@
+#include "cli/program.h"
+
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
-
-#include "cli/program.h"
 
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 
 TEST_CASE("command line: help and version are answers on standard output") {
-  for (const auto& words : {std::vector<std::string>{"--help"}, {"slice", "--help"}, {"settings", "-h"}, {"inspect", "--help"}, {"preview", "--help"}}) {
+  for (const auto& words : {std::vector<std::string>{"--help"},
+                            {"slice", "--help"},
+                            {"settings", "-h"},
+                            {"inspect", "--help"},
+                            {"preview", "--help"}}) {
     const auto run = weft(words);
     CHECK(run.status == 0);
     CHECK_THAT(run.out, Contains("--profile"));
@@ -64,7 +68,8 @@ TEST_CASE("command line: --explain says where a value comes from and what it sha
   Scratch scratch;
   scratch.write("a.ini", "layer_height = 0.3\n");
   scratch.write("b.ini", "inherits = a.ini\nlayer_height = 0.25\n");
-  const auto run = weft({"profile", "show", "b.ini", "-s", "layer_height=0.1", "--explain", "layer_height"}, scratch.path());
+  const auto run =
+      weft({"profile", "show", "b.ini", "-s", "layer_height=0.1", "--explain", "layer_height"}, scratch.path());
   CHECK(run.status == 0);
   CHECK_THAT(run.out, Contains("layer_height = 0.1 mm") && Contains("b.ini:2 = 0.25") && Contains("a.ini:1 = 0.3"));
 }
@@ -76,7 +81,8 @@ TEST_CASE("command line: with --log-format json every message is an object on a 
   CHECK(line["level"] == "error");
 }
 
-TEST_CASE("command line: settings of travel, retraction and seams have a name in every language, others the English one") {
+TEST_CASE(
+    "command line: settings of travel, retraction and seams have a name in every language, others the English one") {
   const auto rows_in = [](const std::string& language) {
     const auto run = weft({"settings", "--format", "json", "--lang", language});
     REQUIRE(run.status == 0);
@@ -89,7 +95,8 @@ TEST_CASE("command line: settings of travel, retraction and seams have a name in
     for (std::size_t i = 0; i < rows.size(); ++i) {
       INFO(language << " " << rows[i]["key"]);
       CHECK_FALSE(rows[i]["label"].get<std::string>().empty());
-      if (rows[i]["section"] == "travel" || rows[i]["section"] == "retraction") CHECK(rows[i]["label"] != english[i]["label"]);
+      if (rows[i]["section"] == "travel" || rows[i]["section"] == "retraction")
+        CHECK(rows[i]["label"] != english[i]["label"]);
       if (rows[i]["key"] == "cool_min_speed") CHECK(rows[i]["label"] == "Cool min speed");
     }
   }

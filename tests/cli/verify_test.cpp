@@ -1,8 +1,8 @@
+#include "cli/program.h"
+
 #include <filesystem>
 
 #include <catch2/catch.hpp>
-
-#include "cli/program.h"
 
 using Catch::Matchers::Contains;
 
@@ -10,10 +10,13 @@ TEST_CASE("verify: a file of weft is made again from what it says of itself, byt
   Scratch scratch;
   scratch.write("part.stl", box_stl(20, 10, 3));
   scratch.write("other.stl", box_stl(8, 8, 1));
-  scratch.write("p.ini", "layer_height = 0.25\nmachine_start_gcode = G28\\nM117 {layer_height} ; \"quoted\"\ninfill_pattern = gyroid\n");
+  scratch.write(
+      "p.ini",
+      "layer_height = 0.25\nmachine_start_gcode = G28\\nM117 {layer_height} ; \"quoted\"\ninfill_pattern = gyroid\n");
   const std::vector<std::vector<std::string>> jobs{
       {"slice", "part.stl", "-o", "out.gcode"},
-      {"slice", "part.stl", "other.stl", "-p", "p.ini", "-o", "out.gcode", "--copies", "3", "--spacing", "4.5", "--rotate", "33.3", "--scale", "120%"},
+      {"slice", "part.stl", "other.stl", "-p", "p.ini", "-o", "out.gcode", "--copies", "3", "--spacing", "4.5",
+       "--rotate", "33.3", "--scale", "120%"},
       {"slice", "part.stl", "-p", "p.ini", "-o", "out.gcode", "--center", "50.5,60"},
       {"slice", "part.stl", "-o", "out.gcode", "--center", "5,5", "--audit", "annotate"},
   };

@@ -1,15 +1,16 @@
-#include <catch2/catch.hpp>
+#include "core/convex_hull.h"
 
 #include <algorithm>
 #include <random>
 
-#include "core/convex_hull.h"
+#include <catch2/catch.hpp>
 
 using namespace weft;
 
 TEST_CASE("convex_hull: a square with points in it and on its edges is its four corners") {
   CHECK(convex_hull({}).empty());
-  CHECK(convex_hull({{0, 0}, {5, 5}, {10, 0}, {5, 0}, {10, 10}, {0, 10}, {0, 5}, {0, 0}}) == Ring{{0, 0}, {10, 0}, {10, 10}, {0, 10}});
+  CHECK(convex_hull({{0, 0}, {5, 5}, {10, 0}, {5, 0}, {10, 10}, {0, 10}, {0, 5}, {0, 0}}) ==
+        Ring{{0, 0}, {10, 0}, {10, 10}, {0, 10}});
 }
 
 TEST_CASE("convex_hull: no point lies outside of it, and it turns left everywhere") {
@@ -42,4 +43,6 @@ TEST_CASE("convex_hull: on a coarse grid it is strictly convex, and its corners 
   }
 }
 
-TEST_CASE("convex_hull: points on a line have no hull") { CHECK(convex_hull({{0, 0}, {1, 1}, {2, 2}, {1, 1}}).size() < 3); }
+TEST_CASE("convex_hull: points on a line have no hull") {
+  CHECK(convex_hull({{0, 0}, {1, 1}, {2, 2}, {1, 1}}).size() < 3);
+}

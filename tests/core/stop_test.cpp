@@ -1,9 +1,9 @@
 #include "core/stop.h"
 
-#include <catch2/catch.hpp>
-
 #include <exception>
 #include <thread>
+
+#include <catch2/catch.hpp>
 
 using namespace weft;
 

@@ -1,5 +1,6 @@
 // libFuzzer target for everything that reads models: any bytes, in the format that their content says. What is not a
-// model is refused with an Error; what is read keeps the promises of Mesh, and gives the same twice, an OBJ also in pieces.
+// model is refused with an Error; what is read keeps the promises of Mesh, and gives the same twice, an OBJ also in
+// pieces.
 //   build/fuzz/tests/fuzz_mesh -max_total_time=900 -max_len=65536 corpus/ tests/fuzz/seeds/mesh
 #include "core/error.h"
 #include "mesh/formats.h"

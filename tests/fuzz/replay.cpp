@@ -1,5 +1,5 @@
-// Runs a fuzz target without libFuzzer: over its seeds and over seeded mutations of them, so that every build tests what the
-// fuzzers look for:  replay_NAME RUNS FOLDER-OR-FILE...
+// Runs a fuzz target without libFuzzer: over its seeds and over seeded mutations of them, so that every build tests
+// what the fuzzers look for:  replay_NAME RUNS FOLDER-OR-FILE...
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -35,26 +35,39 @@ std::vector<std::string> seeds_in(const std::vector<std::filesystem::path>& plac
 /// One to four small changes: a byte, a piece taken out, doubled or put in from another seed, a number made extreme.
 std::string mutated(std::string bytes, const std::vector<std::string>& seeds, std::mt19937& random) {
   const auto pick = [&](std::size_t n) { return n == 0 ? 0 : random() % n; };
-  static const std::vector<std::string> extremes{"-1", "0", "1e999", "nan", "4294967295", "99999999999999999999", "\xff\xff\xff\xff", "0.0000001", "{", "}", "\n", "\""};
+  static const std::vector<std::string> extremes{
+      "-1",        "0", "1e999", "nan", "4294967295", "99999999999999999999", "\xff\xff\xff\xff",
+      "0.0000001", "{", "}",     "\n",  "\""};
   for (std::size_t change = 1 + pick(4); change > 0; --change) {
     const std::size_t at = pick(bytes.size()), length = 1 + pick(std::min<std::size_t>(40, bytes.size() + 1));
     switch (pick(6)) {
-      case 0: if (!bytes.empty()) bytes[at] = static_cast<char>(random()); break;
-      case 1: if (!bytes.empty()) bytes[at] = static_cast<char>(bytes[at] ^ (1 << pick(8))); break;
-      case 2: bytes.erase(std::min(at, bytes.size()), length); break;
-      case 3: bytes.insert(at, bytes.substr(at, length)); break;
+      case 0:
+        if (!bytes.empty()) bytes[at] = static_cast<char>(random());
+        break;
+      case 1:
+        if (!bytes.empty()) bytes[at] = static_cast<char>(bytes[at] ^ (1 << pick(8)));
+        break;
+      case 2:
+        bytes.erase(std::min(at, bytes.size()), length);
+        break;
+      case 3:
+        bytes.insert(at, bytes.substr(at, length));
+        break;
       case 4: {
         const auto& other = seeds[pick(seeds.size())];
         bytes.insert(at, other.substr(pick(other.size()), length));
         break;
       }
-      default: bytes.replace(std::min(at, bytes.size()), pick(6), extremes[pick(extremes.size())]);
+      default:
+        bytes.replace(std::min(at, bytes.size()), pick(6), extremes[pick(extremes.size())]);
     }
   }
   return bytes;
 }
 
-void run(const std::string& bytes) { LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()); }
+void run(const std::string& bytes) {
+  LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+}
 
 }  // namespace
 

@@ -1,6 +1,6 @@
-// libFuzzer target for everything that reads settings: ini text of weft's own, configurations and bundles of PrusaSlicer's
-// family, G-code that holds one in its comments, and custom G-code. What is wrong is refused with an Error that names
-// settings; what is taken can be written out and read again to the same settings.
+// libFuzzer target for everything that reads settings: ini text of weft's own, configurations and bundles of
+// PrusaSlicer's family, G-code that holds one in its comments, and custom G-code. What is wrong is refused with an
+// Error that names settings; what is taken can be written out and read again to the same settings.
 //   build/fuzz/tests/fuzz_settings -max_total_time=900 -max_len=8192 corpus/ profiles tests/fuzz/seeds/settings
 #include "core/error.h"
 #include "gcode/writer.h"

@@ -1,6 +1,6 @@
 // libFuzzer target for the stages between slices and G-code: random rings, a few layers of them, through walls, shells,
-// infill, travel, motion, writer and audit at random settings. No stage throws; every G-code is read by the audit to its
-// last line, and the same input gives the same bytes.
+// infill, travel, motion, writer and audit at random settings. No stage throws; every G-code is read by the audit to
+// its last line, and the same input gives the same bytes.
 //   build/fuzz/tests/fuzz_stages -max_total_time=900 -max_len=512 corpus/
 #include "audit/audit.h"
 #include "gcode/writer.h"
@@ -60,7 +60,8 @@ Settings settings_from(Choices& data) {
   return s;
 }
 
-/// Rings of any shape near the middle of the bed: points at random, some on a coarse grid so that they meet and line up. Within 10 mm, so that a run is short.
+/// Rings of any shape near the middle of the bed: points at random, some on a coarse grid so that they meet and line
+/// up. Within 10 mm, so that a run is short.
 Regions regions_from(Choices& data) {
   std::vector<Ring> rings(static_cast<std::size_t>(data.of(1, 4)));
   for (auto& ring : rings) {
@@ -69,13 +70,15 @@ Regions regions_from(Choices& data) {
     for (std::size_t i = 0; i < corners; ++i)
       ring.push_back({100'000 + step * data.of(0, 10'000 / step), 100'000 + step * data.of(0, 10'000 / step)});
   }
-  return geometry::regions_from_rings(rings, data.yes() ? geometry::WindingRule::nonzero : geometry::WindingRule::even_odd);
+  return geometry::regions_from_rings(rings,
+                                      data.yes() ? geometry::WindingRule::nonzero : geometry::WindingRule::even_odd);
 }
 
 std::string gcode_of(const Settings& s, const std::vector<SlicedLayer>& layers) {
   std::vector<WallLayer> walls;
   for (std::size_t i = 0; i < layers.size(); ++i)
-    walls.push_back(walls::build(s.walls, {.layer = layers[i], .index = i, .nozzle_diameter = s.machine.nozzle_diameter}));
+    walls.push_back(
+        walls::build(s.walls, {.layer = layers[i], .index = i, .nozzle_diameter = s.machine.nozzle_diameter}));
   std::vector<infill::ShellLayer> seen;
   for (std::size_t i = 0; i < layers.size(); ++i)
     seen.push_back({layers[i].z, layers[i].height, &layers[i].regions, &walls[i].inside});
@@ -84,7 +87,10 @@ std::string gcode_of(const Settings& s, const std::vector<SlicedLayer>& layers) 
   std::vector<travel::LayerInput> inputs(layers.size());
   for (std::size_t i = 0; i < layers.size(); ++i) {
     auto fills = infill::fill(s.infill, s.shells,
-                              {.areas = areas[i], .index = i, .z = layers[i].z, .height = layers[i].height,
+                              {.areas = areas[i],
+                               .index = i,
+                               .z = layers[i].z,
+                               .height = layers[i].height,
                                .nozzle = s.machine.nozzle_diameter});
     travel::ObjectLayer one;
     one.outline = layers[i].regions;

@@ -154,13 +154,16 @@ TEST_CASE("mesh: a part whose packed bytes are damaged, encrypted or packed othe
     for (const std::size_t at : places) bytes[at] = value;
     return refusal(bytes);
   };
-  const std::size_t flags_local = local + 6, flags_entry = entry + 8, method_local = local + 8, method_entry = entry + 10;
+  const std::size_t flags_local = local + 6, flags_entry = entry + 8, method_local = local + 8,
+                    method_entry = entry + 10;
   const std::size_t crc_local = local + 14, crc_entry = entry + 16;
   CHECK_THAT(with({flags_local, flags_entry}, 1), Contains("_rels/.rels: damaged archive: it is encrypted"));
   CHECK_THAT(with({method_local, method_entry}, 12), Contains("damaged archive: packed in a way that is not read"));
-  CHECK_THAT(with({crc_local, crc_entry}, static_cast<char>(whole[crc_entry] ^ 1)), Contains("damaged archive: its check sum is wrong"));
+  CHECK_THAT(with({crc_local, crc_entry}, static_cast<char>(whole[crc_entry] ^ 1)),
+             Contains("damaged archive: its check sum is wrong"));
   const std::size_t packed = whole.find("_rels/.rels") + 11;
-  for (const std::size_t at : {packed, packed + 40, packed + 100}) CHECK_THAT(with({at}, static_cast<char>(whole[at] ^ 0x55)), Contains("part/"));
+  for (const std::size_t at : {packed, packed + 40, packed + 100})
+    CHECK_THAT(with({at}, static_cast<char>(whole[at] ^ 0x55)), Contains("part/"));
 }
 
 TEST_CASE("mesh: a 3MF cannot multiply itself beyond measure", "[mesh][3mf]") {

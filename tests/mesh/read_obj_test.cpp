@@ -40,9 +40,10 @@ struct Row {
       const std::string own = vertices(i), sides = faces(i, order == Order::vertices_first ? count : i + 1);
       all_vertices += own, all_faces += sides, mixed += own + sides;
     }
-    return "o a row" + eol + (order == Order::mixed            ? mixed
-                              : order == Order::vertices_first ? all_vertices + all_faces
-                                                               : all_faces + all_vertices);
+    return "o a row" + eol +
+           (order == Order::mixed            ? mixed
+            : order == Order::vertices_first ? all_vertices + all_faces
+                                             : all_faces + all_vertices);
   }
 
  private:
@@ -51,7 +52,8 @@ struct Row {
     std::string out;
     for (const int z : {0, 5})
       for (const auto& [x, y] : ring)
-        out += "v " + std::to_string(10 * i + x) + ".0e-3 ." + std::to_string(100 + y) + " 0.00" + std::to_string(z) + eol;
+        out +=
+            "v " + std::to_string(10 * i + x) + ".0e-3 ." + std::to_string(100 + y) + " 0.00" + std::to_string(z) + eol;
     return out;
   }
   /// @param known prisms whose vertices stand before the face

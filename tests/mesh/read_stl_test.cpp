@@ -92,7 +92,9 @@ TEST_CASE("mesh: a long ASCII STL is the same model in parts as in one piece, wh
   std::string text;
   for (std::size_t from = 0; from < facets.size(); from += of_each) {
     const auto to = std::min(from + of_each, facets.size());
-    text += ascii_stl(Facets(facets.begin() + static_cast<std::ptrdiff_t>(from), facets.begin() + static_cast<std::ptrdiff_t>(to)), name);
+    text += ascii_stl(
+        Facets(facets.begin() + static_cast<std::ptrdiff_t>(from), facets.begin() + static_cast<std::ptrdiff_t>(to)),
+        name);
     text += "a remark, endfacet\n";
   }
   REQUIRE(text.size() > 3 << 19);
@@ -186,8 +188,9 @@ TEST_CASE("mesh: a binary STL is the same model read from a file, in blocks, as 
   std::filesystem::remove(path);
 }
 
-TEST_CASE("mesh: a mesh in many blocks has its triangles in order and its vertices as they appear, on any number of threads",
-          "[mesh][law]") {
+TEST_CASE(
+    "mesh: a mesh in many blocks has its triangles in order and its vertices as they appear, on any number of threads",
+    "[mesh][law]") {
   Facets facets = row_of_boxes(750);  // three blocks, and in the second half corners are far from their like
   std::mt19937 random(5);
   std::shuffle(facets.begin() + 5'000, facets.end(), random);
@@ -242,7 +245,8 @@ TEST_CASE("mesh: a file that is cut short, grows or is written to while it is re
       }
       return Error::Kind::usage;
     };
-    CHECK(told([&](InputFile& file) { read_binary_stl(file, path.string(), 1.0, [](std::string_view) {}); }) == Error::Kind::file);
+    CHECK(told([&](InputFile& file) { read_binary_stl(file, path.string(), 1.0, [](std::string_view) {}); }) ==
+          Error::Kind::file);
     CHECK(told([&](InputFile& file) { FileBytes{file}; }) == Error::Kind::file);
   }
   std::filesystem::remove(path);

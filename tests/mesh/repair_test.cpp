@@ -36,7 +36,8 @@ Facets in_quarters(const Facets& facets) {
   Facets out;
   for (const auto& [a, b, c] : facets) {
     const Corner ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-    for (const Facet& part : {Facet{a, ab, ca}, Facet{ab, b, bc}, Facet{ca, bc, c}, Facet{ab, bc, ca}}) out.push_back(part);
+    for (const Facet& part : {Facet{a, ab, ca}, Facet{ab, b, bc}, Facet{ca, bc, c}, Facet{ab, bc, ca}})
+      out.push_back(part);
   }
   return out;
 }
@@ -169,7 +170,8 @@ TEST_CASE("mesh: a part that is inside out beside one that is not is turned roun
   }
 }
 
-TEST_CASE("mesh: among thousands of parts one that is inside out is turned round, and a void stays one", "[mesh][repair]") {
+TEST_CASE("mesh: among thousands of parts one that is inside out is turned round, and a void stays one",
+          "[mesh][repair]") {
   Facets facets = cube + reversed(box({5, 5, 5}, {15, 15, 15}));
   const double one = repaired(facets).volume_mm3;
   REQUIRE(one == Approx(7000));

@@ -18,7 +18,8 @@ struct Bond {
   bool agree;
 };
 
-/// What a forest should say: number and way of each triangle by flooding from the lowest, and shells without orientation.
+/// What a forest should say: number and way of each triangle by flooding from the lowest, and shells without
+/// orientation.
 struct Flooded {
   std::vector<std::uint32_t> shell;
   std::vector<bool> turned;
@@ -73,9 +74,8 @@ TEST_CASE("mesh: a forest joins what flooding joins, whatever the order and the 
       const tasks::ThreadLimit limit(threads);
       ShellForest forest(count);
       std::vector<std::uint8_t> fits(bonds.size());
-      tasks::for_each_index(bonds.size(), [&](std::size_t i) {
-        fits[i] = forest.unite(bonds[i].a, bonds[i].b, bonds[i].agree);
-      });
+      tasks::for_each_index(bonds.size(),
+                            [&](std::size_t i) { fits[i] = forest.unite(bonds[i].a, bonds[i].b, bonds[i].agree); });
       REQUIRE(forest.number_shells() == expected.shells);
       std::set<std::uint32_t> one_sided;
       for (std::size_t i = 0; i < bonds.size(); ++i)

@@ -1,7 +1,8 @@
-#include <catch2/catch.hpp>
+#include "model/flow.h"
 
 #include "model/bead.h"
-#include "model/flow.h"
+
+#include <catch2/catch.hpp>
 
 using namespace weft;
 
@@ -11,7 +12,9 @@ TEST_CASE("flow: a bead of 0.45 by 0.2 mm holds what the Slic3r manual says") {
   CHECK(flow::spacing_mm(0.45, 0.2, 0.0) == Approx(0.45));
 }
 
-TEST_CASE("flow: a bead narrower than high is a rectangle") { CHECK(flow::area_mm2(0.1, 0.2) == Approx(0.02)); }
+TEST_CASE("flow: a bead narrower than high is a rectangle") {
+  CHECK(flow::area_mm2(0.1, 0.2) == Approx(0.02));
+}
 
 TEST_CASE("flow: band times height is the area, and line_width undoes band") {
   const Um width = GENERATE(450, 200, 600, 1000, 120), height = GENERATE(100, 200, 300);
@@ -22,7 +25,8 @@ TEST_CASE("flow: band times height is the area, and line_width undoes band") {
 
 TEST_CASE("flow: automatic widths keep the strand's cross-section, within the cap") {
   CHECK(flow::automatic_outer_width(400) == 420);
-  CHECK(flow::area_mm2(to_mm(flow::automatic_width(400, 200, false)), 0.2) == Approx(flow::bridge_area_mm2(400)).epsilon(0.002));
+  CHECK(flow::area_mm2(to_mm(flow::automatic_width(400, 200, false)), 0.2) ==
+        Approx(flow::bridge_area_mm2(400)).epsilon(0.002));
   CHECK(flow::automatic_width(400, 100) == 680);
 }
 

@@ -171,8 +171,11 @@ TEST_CASE("pipeline: a job that is stopped in any stage ends as interrupted", "[
 TEST_CASE("pipeline: however much one layer holds, a job asks all the time", "[pipeline][law]") {
   // On one thread, by its time on the processor. What runs beside it still may lengthen one wait by chance; what never
   // asks is as long in each of three runs.
-  const auto [name, rings] = GENERATE(table<std::string, std::vector<MmRing>>(
-      {{"islands", islands(120)}, {"sieve", sieve(60)}, {"gear", gear(10'000)}, {"rings in rings", rings_in_rings(200)}}));
+  const auto [name, rings] =
+      GENERATE(table<std::string, std::vector<MmRing>>({{"islands", islands(120)},
+                                                        {"sieve", sieve(60)},
+                                                        {"gear", gear(10'000)},
+                                                        {"rings in rings", rings_in_rings(200)}}));
   CAPTURE(name);
   const OneLayer layer(rings);
   Job job = layer.job();

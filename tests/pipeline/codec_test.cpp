@@ -91,10 +91,12 @@ TEST_CASE("codec: results of stages come back as they were") {
 }
 
 TEST_CASE("codec: a planned layer comes back as it was") {
-  Extrude bead{{{{-5, 7}, 450, 0.3F}, {{9, max_coord}, 1, 1.F}}, Role::bridge, 200, 1.0 / 3, {12.5F, -0.F}, 1500.1, {0, -20}};
+  Extrude bead{
+      {{{-5, 7}, 450, 0.3F}, {{9, max_coord}, 1, 1.F}}, Role::bridge, 200, 1.0 / 3, {12.5F, -0.F}, 1500.1, {0, -20}};
   Travel travel{{{1, -2, 3}, {max_coord, 0, -7}}, 120.7, true, 0.1, 1e300};
   Retract retract{{{3, 4}, {-3, 9}}, 35.5, 0.7};
-  const LayerPlan layer{1200, -3, {ObjectStart{7}, bead, travel, retract, Prime{}, SetFan{0.35}, Extrude{}, ObjectEnd{4294967295}}};
+  const LayerPlan layer{
+      1200, -3, {ObjectStart{7}, bead, travel, retract, Prime{}, SetFan{0.35}, Extrude{}, ObjectEnd{4294967295}}};
   const auto out = there_and_back(layer);
   CHECK(out.z == layer.z);
   CHECK(out.height == layer.height);

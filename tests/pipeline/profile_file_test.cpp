@@ -1,13 +1,13 @@
 #include "pipeline/profile_file.h"
 
-#include <unistd.h>
-
-#include <catch2/catch.hpp>
-#include <fstream>
-
 #include "core/error.h"
 #include "mesh/zip_fixture.h"
 #include "settings_error.h"
+
+#include <fstream>
+
+#include <catch2/catch.hpp>
+#include <unistd.h>
 
 using namespace weft;
 using Catch::Matchers::Contains;
@@ -30,7 +30,8 @@ std::string refusal(const std::string& bytes) {
 
 TEST_CASE("profile file: a 3MF of PrusaSlicer's is a profile, by the configuration in it") {
   std::string config;
-  for (const auto* line : {"layer_height = 0.15", "perimeters = 4", "fill_density = 12%", "temperature = 222"}) config += std::string("; ") + line + "\n";
+  for (const auto* line : {"layer_height = 0.15", "perimeters = 4", "fill_density = 12%", "temperature = 222"})
+    config += std::string("; ") + line + "\n";
   for (int i = 0; i < 20; ++i) config += "; made_up_" + std::to_string(i) + " = 1\n";
   Profile profile;
   apply_profile(profile, written(fixtures::three_mf("<model/>", {{"Metadata/Slic3r_PE.config", config}})));
@@ -42,6 +43,7 @@ TEST_CASE("profile file: a 3MF of PrusaSlicer's is a profile, by the configurati
 
 TEST_CASE("profile file: a 3MF without one, one of Orca's, and a damaged one are refused with the reason") {
   CHECK_THAT(refusal(fixtures::three_mf("<model/>")), Contains("3MF without a configuration of PrusaSlicer's"));
-  CHECK_THAT(refusal(fixtures::three_mf("<model/>", {{"Metadata/project_settings.config", "{}"}})), Contains("those of Orca or Bambu"));
+  CHECK_THAT(refusal(fixtures::three_mf("<model/>", {{"Metadata/project_settings.config", "{}"}})),
+             Contains("those of Orca or Bambu"));
   CHECK_THAT(refusal("PK\3\4junk"), Contains("damaged archive"));
 }

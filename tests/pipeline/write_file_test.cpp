@@ -1,13 +1,13 @@
-#include <catch2/catch.hpp>
+#include "pipeline/write_file.h"
 
-#include <unistd.h>
+#include "core/error.h"
 
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
-#include "core/error.h"
-#include "pipeline/write_file.h"
+#include <catch2/catch.hpp>
+#include <unistd.h>
 
 using namespace weft;
 namespace fs = std::filesystem;

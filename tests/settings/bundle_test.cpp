@@ -1,20 +1,19 @@
+#include "core/error.h"
+#include "settings/profile.h"
 #include "settings/prusaslicer_bundle.h"
-
-#include <fmt/format.h>
+#include "settings_error.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 #include <set>
 
-#include "core/error.h"
-#include "settings/profile.h"
-#include "settings_error.h"
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 using namespace weft;
-using weft::test::settings_error;
 using Catch::Matchers::Contains;
+using weft::test::settings_error;
 namespace ps = weft::prusaslicer;
 
 namespace {
@@ -76,7 +75,9 @@ nozzle_diameter = 0.8
 default_print_profile = Coarse
 )";
 
-ps::Bundle bundle_of(const std::string& text) { return ps::read_bundle(parse_ini(text, "b.ini"), "b.ini"); }
+ps::Bundle bundle_of(const std::string& text) {
+  return ps::read_bundle(parse_ini(text, "b.ini"), "b.ini");
+}
 
 Profile applied(const std::string& text, const ImportOptions& options = {}) {
   Profile profile;
@@ -85,24 +86,28 @@ Profile applied(const std::string& text, const ImportOptions& options = {}) {
   return profile;
 }
 
-
-
 /// Does a print with that condition fit a printer with a list of nozzles and notes?
 bool asked(const std::string& condition) {
-  const auto bundle = bundle_of("[print:P]\ncompatible_printers_condition = " + condition +
-                                "\n[printer:Q]\nnozzle_diameter = 0.4,0.6\nprinter_notes = Keep, please.\\nPRINTER_VENDOR_X\\nPRINTER_MODEL_MK3.9\nprinter_model = MK3S\nprinter_variant = 0.4\n");
+  const auto bundle =
+      bundle_of("[print:P]\ncompatible_printers_condition = " + condition +
+                "\n[printer:Q]\nnozzle_diameter = 0.4,0.6\nprinter_notes = Keep, "
+                "please.\\nPRINTER_VENDOR_X\\nPRINTER_MODEL_MK3.9\nprinter_model = MK3S\nprinter_variant = 0.4\n");
   return ps::fits_printer(bundle, bundle.presets[0], bundle.presets[1]);
 }
 
 }  // namespace
 
 TEST_CASE("bundle: conditions are asked of the printer's own keys, and of PrusaSlicer's defaults for the rest") {
-  for (const auto* yes : {"", "nozzle_diameter[0]==0.4", "nozzle_diameter[1] == 0.6", "printer_model==\"MK3S\"", "printer_notes=~/.*PRINTER_VENDOR_X.*/", "printer_variant==\"0.4\"",
-                          "printer_notes=~/.*MK3\\.9/ and ! single_extruder_multi_material", "printer_model!~/.*MINI.*/ or 1>2", "num_extruders==2", "!(printer_notes=~/.*FLEX.*/)", "max_print_height == 200"}) {
+  for (const auto* yes :
+       {"", "nozzle_diameter[0]==0.4", "nozzle_diameter[1] == 0.6", "printer_model==\"MK3S\"",
+        "printer_notes=~/.*PRINTER_VENDOR_X.*/", "printer_variant==\"0.4\"",
+        "printer_notes=~/.*MK3\\.9/ and ! single_extruder_multi_material", "printer_model!~/.*MINI.*/ or 1>2",
+        "num_extruders==2", "!(printer_notes=~/.*FLEX.*/)", "max_print_height == 200"}) {
     INFO(yes);
     CHECK(asked(yes));
   }
-  for (const auto* no : {"nozzle_diameter[0]==0.6", "printer_notes=~/PRINTER_VENDOR_X/", "single_extruder_multi_material", "printer_model==\"MK3\"", "num_extruders==1"}) {
+  for (const auto* no : {"nozzle_diameter[0]==0.6", "printer_notes=~/PRINTER_VENDOR_X/",
+                         "single_extruder_multi_material", "printer_model==\"MK3\"", "num_extruders==1"}) {
     INFO(no);
     CHECK_FALSE(asked(no));
   }
@@ -146,7 +151,8 @@ TEST_CASE("bundle: what is not chosen follows from the printer, and what is miss
   CHECK(p.origins.at("wall_line_count").back().source == "[print:*base*] perimeters = 2");
   CHECK_THAT(origin_of(p, "wall_line_count"), Contains("b.ini:11"));
   CHECK_THAT(origin_of(p, "top_layers"), Contains("default"));
-  CHECK(std::count_if(p.notices.begin(), p.notices.end(), [](const Notice& n) { return n.code == "preset_chosen"; }) == 2);
+  CHECK(std::count_if(p.notices.begin(), p.notices.end(), [](const Notice& n) { return n.code == "preset_chosen"; }) ==
+        2);
 }
 
 TEST_CASE("bundle: a filament overrides the printer's retraction where it does not say nil") {
@@ -157,13 +163,26 @@ TEST_CASE("bundle: a filament overrides the printer's retraction where it does n
 }
 
 TEST_CASE("bundle: an error names the presets that there are, or those that fit") {
-  CHECK_THAT(settings_error([] { applied(vendor_bundle); }), Contains("2 printer presets") && Contains("--preset printer=NAME: 'One 0.4', 'One 0.8'"));
-  CHECK_THAT(settings_error([] { applied(vendor_bundle, {{"Sped", "", "One 0.4"}, false}); }), Contains("did you mean 'Speed'"));
-  CHECK_THAT(settings_error([] { applied(vendor_bundle, {{"Coarse", "", "One 0.4"}, false}); }), Contains("not made for the printer 'One 0.4'"));
-  CHECK_THAT(settings_error([] { applied(vendor_bundle, {{"Speed", "Flex", "One 0.4"}, false}); }), Contains("not made for the print preset"));
-  CHECK_THAT(settings_error([] { applied("[vendor]\nname = V\n[print:A]\ninherits = B\n[print:B]\ninherits = A\n"); }), Contains("b.ini:6") || Contains("inherits itself"));
-  CHECK_THAT(settings_error([] { applied("[vendor]\nname = V\n[print:A]\ninherits = *none*\n"); }), Contains("b.ini:4") && Contains("inherits '*none*', which is not there"));
-  CHECK_THAT(settings_error([] { applied("[print:A]\nperimeters = 1\nperimeters = 2\n"); }), Contains("b.ini:3") && Contains("already given on line 2"));
+  CHECK_THAT(settings_error([] { applied(vendor_bundle); }),
+             Contains("2 printer presets") && Contains("--preset printer=NAME: 'One 0.4', 'One 0.8'"));
+  CHECK_THAT(settings_error([] {
+               applied(vendor_bundle, {{"Sped", "", "One 0.4"}, false});
+             }),
+             Contains("did you mean 'Speed'"));
+  CHECK_THAT(settings_error([] {
+               applied(vendor_bundle, {{"Coarse", "", "One 0.4"}, false});
+             }),
+             Contains("not made for the printer 'One 0.4'"));
+  CHECK_THAT(settings_error([] {
+               applied(vendor_bundle, {{"Speed", "Flex", "One 0.4"}, false});
+             }),
+             Contains("not made for the print preset"));
+  CHECK_THAT(settings_error([] { applied("[vendor]\nname = V\n[print:A]\ninherits = B\n[print:B]\ninherits = A\n"); }),
+             Contains("b.ini:6") || Contains("inherits itself"));
+  CHECK_THAT(settings_error([] { applied("[vendor]\nname = V\n[print:A]\ninherits = *none*\n"); }),
+             Contains("b.ini:4") && Contains("inherits '*none*', which is not there"));
+  CHECK_THAT(settings_error([] { applied("[print:A]\nperimeters = 1\nperimeters = 2\n"); }),
+             Contains("b.ini:3") && Contains("already given on line 2"));
 }
 
 TEST_CASE("bundle: what was selected in the window when a bundle was exported is what it stands for") {
@@ -196,7 +215,8 @@ Tally resolve_vendors(bool whole) {
     if (file.path().extension() == ".ini") files.insert(file.path());
   for (const auto& file : files) {
     ++tally.bundles;
-    const auto bundle = ps::read_bundle(parse_ini(read_profile(file), file.filename().string()), file.filename().string());
+    const auto bundle =
+        ps::read_bundle(parse_ini(read_profile(file), file.filename().string()), file.filename().string());
     for (const auto* printer : ps::presets_of(bundle, ps::PresetKind::printer)) {
       std::size_t prints = 0;
       const auto fitting = ps::presets_of(bundle, ps::PresetKind::filament, printer);
@@ -208,14 +228,18 @@ Tally resolve_vendors(bool whole) {
           if (filaments++ > 0 && prints > 0 && !whole) continue;
           INFO(bundle.path << ": " << print->name << " / " << filament->name << " / " << printer->name);
           std::vector<IniEntry> lines;
-          for (const auto& [key, history] : ps::flattened({print, filament, printer, {}})) lines.push_back(history.back());
+          for (const auto& [key, history] : ps::flattened({print, filament, printer, {}}))
+            lines.push_back(history.back());
           try {
             Profile profile;
             const auto translated = ps::translate(std::move(lines), bundle.path, true);
-            for (const auto& a : translated.assignments) apply_value(profile, a.key, a.text, fmt::format("{}:{}", bundle.path, a.line));
+            for (const auto& a : translated.assignments)
+              apply_value(profile, a.key, a.text, fmt::format("{}:{}", bundle.path, a.line));
             const bool high = profile.settings.layers.layer_height > profile.settings.machine.nozzle_diameter;
-            if (high) ++tally.too_high;  // PrusaSlicer refuses these as well, when it slices
-            else check_consistency(profile);
+            if (high)
+              ++tally.too_high;  // PrusaSlicer refuses these as well, when it slices
+            else
+              check_consistency(profile);
             for (const auto& r : translated.unknown) tally.unknown.insert(r.key);
             ++tally.resolved;
           } catch (const Error& e) {
@@ -235,8 +259,9 @@ void check_vendors(bool whole) {
     return;
   }
   const auto tally = resolve_vendors(whole);
-  WARN(tally.bundles << " bundles, " << tally.combinations << " compatible combinations, " << tally.resolved << " resolved, of which " << tally.too_high
-                     << " have layers higher than the nozzle; " << tally.unknown.size() << " keys that are not PrusaSlicer's");
+  WARN(tally.bundles << " bundles, " << tally.combinations << " compatible combinations, " << tally.resolved
+                     << " resolved, of which " << tally.too_high << " have layers higher than the nozzle; "
+                     << tally.unknown.size() << " keys that are not PrusaSlicer's");
   CHECK(tally.bundles >= 10);
   CHECK(tally.combinations > 10'000);
   CHECK(tally.too_high * 100 < tally.resolved);
@@ -244,6 +269,12 @@ void check_vendors(bool whole) {
 
 }  // namespace
 
-TEST_CASE("bundle: each print and each filament of PrusaSlicer's vendor bundles resolves on each printer that it fits", "[vendor]") { check_vendors(false); }
+TEST_CASE("bundle: each print and each filament of PrusaSlicer's vendor bundles resolves on each printer that it fits",
+          "[vendor]") {
+  check_vendors(false);
+}
 
-TEST_CASE("bundle: every compatible combination of PrusaSlicer's vendor bundles resolves (minutes)", "[.vendor-product]") { check_vendors(true); }
+TEST_CASE("bundle: every compatible combination of PrusaSlicer's vendor bundles resolves (minutes)",
+          "[.vendor-product]") {
+  check_vendors(true);
+}

@@ -1,9 +1,9 @@
 #include "settings/machine.h"
 
-#include <catch2/catch.hpp>
-
 #include "core/error.h"
 #include "settings/profile.h"
+
+#include <catch2/catch.hpp>
 
 using namespace weft;
 

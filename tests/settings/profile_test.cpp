@@ -1,25 +1,26 @@
-#include <catch2/catch.hpp>
+#include "settings/profile.h"
 
-#include <unistd.h>
+#include "core/error.h"
+#include "settings/catalogue.h"
+#include "settings/ini.h"
+#include "settings_error.h"
 
 #include <filesystem>
 #include <fstream>
 #include <functional>
 
-#include "core/error.h"
-#include "settings/catalogue.h"
-#include "settings/ini.h"
-#include "settings/profile.h"
-#include "settings_error.h"
+#include <catch2/catch.hpp>
+#include <unistd.h>
 
 using namespace weft;
-using weft::test::settings_error;
 using Catch::Matchers::Contains;
+using weft::test::settings_error;
 
 namespace {
 /// A folder of its own for profiles, gone with the test.
 struct Folder {
-  std::filesystem::path path = std::filesystem::temp_directory_path() / ("weft-profile-test-" + std::to_string(::getpid()));
+  std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("weft-profile-test-" + std::to_string(::getpid()));
   Folder() { std::filesystem::create_directories(path); }
   ~Folder() { std::filesystem::remove_all(path); }
   std::filesystem::path write(const std::string& name, const std::string& text) const {
@@ -65,7 +66,8 @@ TEST_CASE("settings: a value out of range names the range") {
 
 TEST_CASE("settings: an unknown key is an error with the nearest known one") {
   Profile p;
-  CHECK_THAT(settings_error([&] { apply_value(p, "layer_heigth", "0.2", "--set"); }), Contains("did you mean 'layer_height'?"));
+  CHECK_THAT(settings_error([&] { apply_value(p, "layer_heigth", "0.2", "--set"); }),
+             Contains("did you mean 'layer_height'?"));
 }
 
 TEST_CASE("settings: a child overrides its parent, and the history is kept") {
@@ -83,8 +85,11 @@ TEST_CASE("settings: a child overrides its parent, and the history is kept") {
 TEST_CASE("settings: broken profiles are refused with file and line") {
   Folder folder;
   Profile p;
-  const auto said = [&](const std::string& text) { return settings_error([&] { apply_file(p, folder.write("bad.ini", text)); }); };
-  CHECK_THAT(said("layer_height = 0.2\nlayer_height = 0.3\n"), Contains("bad.ini:2") && Contains("already given on line 1"));
+  const auto said = [&](const std::string& text) {
+    return settings_error([&] { apply_file(p, folder.write("bad.ini", text)); });
+  };
+  CHECK_THAT(said("layer_height = 0.2\nlayer_height = 0.3\n"),
+             Contains("bad.ini:2") && Contains("already given on line 1"));
   CHECK_THAT(said("layer_height\n"), Contains("bad.ini:1") && Contains("is not 'key = value'"));
   CHECK_THAT(said("inherits = bad.ini\n"), Contains("break the circle"));
   CHECK_THAT(said("inherits = none.ini\n"), Contains("which is not there"));

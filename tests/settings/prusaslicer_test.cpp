@@ -1,18 +1,21 @@
-#include <catch2/catch.hpp>
+#include "settings/prusaslicer.h"
+
+#include "core/error.h"
+#include "settings/catalogue.h"
+#include "settings/prusaslicer_keys.h"
 
 #include <algorithm>
 #include <set>
 
-#include "core/error.h"
-#include "settings/catalogue.h"
-#include "settings/prusaslicer.h"
-#include "settings/prusaslicer_keys.h"
+#include <catch2/catch.hpp>
 
 using namespace weft;
 namespace ps = weft::prusaslicer;
 
 namespace {
-ps::Translation translated(const std::string& text) { return ps::translate(parse_ini(text, "p.ini"), "p.ini"); }
+ps::Translation translated(const std::string& text) {
+  return ps::translate(parse_ini(text, "p.ini"), "p.ini");
+}
 std::string value_of(const ps::Translation& t, const std::string& key) {
   std::string out = "(absent)";
   for (const auto& a : t.assignments)
@@ -49,9 +52,12 @@ TEST_CASE("prusaslicer: its files are told by what stands in them") {
 
 TEST_CASE("prusaslicer: shares are taken of what PrusaSlicer takes them of") {
   const auto t = translated(
-      "layer_height = 0.2\nnozzle_diameter = 0.4\nfirst_layer_height = 75%\nextrusion_width = 0\nperimeter_extrusion_width = 0\n"
-      "external_perimeter_extrusion_width = 200%\ntop_infill_extrusion_width = 0\nperimeter_speed = 60\nexternal_perimeter_speed = 50%\n"
-      "infill_speed = 80\nsolid_infill_speed = 25%\ntop_solid_infill_speed = 50%\nfill_density = 15%\nextrusion_multiplier = 0.95\n");
+      "layer_height = 0.2\nnozzle_diameter = 0.4\nfirst_layer_height = 75%\nextrusion_width = "
+      "0\nperimeter_extrusion_width = 0\n"
+      "external_perimeter_extrusion_width = 200%\ntop_infill_extrusion_width = 0\nperimeter_speed = "
+      "60\nexternal_perimeter_speed = 50%\n"
+      "infill_speed = 80\nsolid_infill_speed = 25%\ntop_solid_infill_speed = 50%\nfill_density = "
+      "15%\nextrusion_multiplier = 0.95\n");
   CHECK(value_of(t, "initial_layer_height") == "0.15");
   CHECK(value_of(t, "wall_line_width_x") == "0.45");
   CHECK(value_of(t, "wall_line_width_0") == "0.4");
@@ -64,7 +70,9 @@ TEST_CASE("prusaslicer: shares are taken of what PrusaSlicer takes them of") {
 }
 
 TEST_CASE("prusaslicer: zero means automatic, unlimited or never, and is said so") {
-  const auto t = translated("bridge_angle = 0\nderetract_speed = 0\nretract_length = 0\nmax_volumetric_speed = 0\nperimeter_speed = 0\nmax_print_speed = 70\n");
+  const auto t = translated(
+      "bridge_angle = 0\nderetract_speed = 0\nretract_length = 0\nmax_volumetric_speed = 0\nperimeter_speed = "
+      "0\nmax_print_speed = 70\n");
   CHECK(value_of(t, "bridge_angle") == "auto");
   CHECK(value_of(t, "retraction_prime_speed") == "auto");
   CHECK(value_of(t, "retraction_enable") == "false");
@@ -75,7 +83,9 @@ TEST_CASE("prusaslicer: zero means automatic, unlimited or never, and is said so
 }
 
 TEST_CASE("prusaslicer: of vectors the first value holds, and beds of any shape are kept") {
-  const auto t = translated("temperature = 215,230\nmachine_max_feedrate_x = 500,200\nbed_shape = 0x0,250x0,250x210,0x210\nmachine_max_acceleration_e = 5000,2000\n");
+  const auto t = translated(
+      "temperature = 215,230\nmachine_max_feedrate_x = 500,200\nbed_shape = "
+      "0x0,250x0,250x210,0x210\nmachine_max_acceleration_e = 5000,2000\n");
   CHECK(value_of(t, "material_print_temperature") == "215");
   CHECK(value_of(t, "machine_max_speed_x") == "500");
   CHECK(value_of(t, "bed_shape") == "rectangle");
@@ -92,7 +102,9 @@ TEST_CASE("prusaslicer: filament G-code is laid between the printer's and the pr
 }
 
 TEST_CASE("prusaslicer: what has no effect is listed when it would change the print, and only then") {
-  const auto t = translated("support_material = 1\nironing = 0\nspiral_vase = 1\nperimeters = 2\nprinter_notes = mine\nno_such_key = 1\nfilament_retract_length = nil\n");
+  const auto t = translated(
+      "support_material = 1\nironing = 0\nspiral_vase = 1\nperimeters = 2\nprinter_notes = mine\nno_such_key = "
+      "1\nfilament_retract_length = nil\n");
   REQUIRE(t.unsupported.size() == 2);
   CHECK(t.unsupported[0].key == "support_material");
   CHECK(t.unsupported[1].key == "spiral_vase");
@@ -102,7 +114,8 @@ TEST_CASE("prusaslicer: what has no effect is listed when it would change the pr
 }
 
 TEST_CASE("prusaslicer: values that do not parse whole are errors with the line") {
-  for (const auto* bad : {"layer_height = 0.2abc", "layer_height = x0,2", "perimeters = three", "wipe = yes", "bed_shape = 0x0;1x1", "fill_pattern = spaghetti"}) {
+  for (const auto* bad : {"layer_height = 0.2abc", "layer_height = x0,2", "perimeters = three", "wipe = yes",
+                          "bed_shape = 0x0;1x1", "fill_pattern = spaghetti"}) {
     INFO(bad);
     try {
       translated(std::string("perimeter_speed = 60\n") + bad + "\n");

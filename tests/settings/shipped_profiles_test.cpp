@@ -66,7 +66,8 @@ TEST_CASE("profiles: every printer prints every material in every quality made f
   CHECK(combinations >= 30 * 4 * 3);
 }
 
-TEST_CASE("profiles: a printer that comes with weft leaves nothing to doubt, and has a name of its own", "[settings][profiles]") {
+TEST_CASE("profiles: a printer that comes with weft leaves nothing to doubt, and has a name of its own",
+          "[settings][profiles]") {
   std::set<std::string> names;
   for (const auto& printer : shipped("printers")) {
     INFO(printer.filename().string());
@@ -74,7 +75,8 @@ TEST_CASE("profiles: a printer that comes with weft leaves nothing to doubt, and
     apply_file(profile, printer);
     apply_file(profile, shipped("materials").begin()->parent_path() / "pla.ini");
     const auto nozzle = nozzle_of(printer);
-    apply_file(profile, fs::path(WEFT_SOURCE_DIR) / "profiles/quality" / (nozzle == "0.4" ? "standard.ini" : "standard-" + nozzle + ".ini"));
+    apply_file(profile, fs::path(WEFT_SOURCE_DIR) / "profiles/quality" /
+                            (nozzle == "0.4" ? "standard.ini" : "standard-" + nozzle + ".ini"));
     for (const auto& doubt : doubts_about(profile)) FAIL_CHECK(doubt.message);
     CHECK(names.insert(profile.settings.machine.machine_name + nozzle).second);
   }

@@ -4,7 +4,8 @@
 
 using weft::tasks::Blocks;
 
-TEST_CASE("tasks: blocks cover a row without a gap, in order, none empty and none twice as long as another", "[tasks][law]") {
+TEST_CASE("tasks: blocks cover a row without a gap, in order, none empty and none twice as long as another",
+          "[tasks][law]") {
   for (const std::size_t length : {0U, 1U, 2U, 7U, 99U, 100U, 101U, 5'000U})
     for (const std::size_t block_length : {1U, 10U, 100U})
       for (const std::size_t most : {1U, 3U, 64U}) {

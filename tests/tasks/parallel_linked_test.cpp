@@ -28,9 +28,11 @@ TEST_CASE("tasks: links are made in index order, whatever the threads, and resul
     }
   }
   std::string all;
-  parallel_in_order(26, [](std::size_t i) { return static_cast<char>('a' + i); }, [&](std::size_t, char c) { all += c; });
+  parallel_in_order(
+      26, [](std::size_t i) { return static_cast<char>('a' + i); }, [&](std::size_t, char c) { all += c; });
   CHECK(all == "abcdefghijklmnopqrstuvwxyz");
-  parallel_in_order(0, [](std::size_t) { return 0; }, [&](std::size_t, int) { FAIL(); });
+  parallel_in_order(
+      0, [](std::size_t) { return 0; }, [&](std::size_t, int) { FAIL(); });
 }
 
 TEST_CASE("tasks: of several errors that of the lowest index is told, in whichever step it was") {
@@ -41,7 +43,8 @@ TEST_CASE("tasks: of several errors that of the lowest index is told, in whichev
     };
     try {
       parallel_linked(
-          200, [&](std::size_t i) { return maybe(i, in_f, "f"); }, [&](std::size_t i, std::size_t) { return maybe(i, in_link, "link"); },
+          200, [&](std::size_t i) { return maybe(i, in_f, "f"); },
+          [&](std::size_t i, std::size_t) { return maybe(i, in_link, "link"); },
           [&](std::size_t i, std::size_t) { return maybe(i, in_g, "g"); });
     } catch (const std::runtime_error& error) {
       return std::string(error.what());

@@ -1,8 +1,10 @@
 #include "core/stop.h"
+
 #include "tasks/crew.h"
 #include "tasks/parallel.h"
 
 #include <atomic>
+
 #include <catch2/catch.hpp>
 
 using namespace weft;
@@ -32,14 +34,15 @@ TEST_CASE("tasks: tasks ask whom those ask who began them", "[tasks][law]") {
   CHECK(asked_by([&] { tasks::for_each_index(n, [](std::size_t) { stop_if_asked(); }); }) == n);
   CHECK(asked_by([&] { tasks::parallel_map(n, same); }) == n);
   CHECK(asked_by([&] { tasks::parallel_map(n, asks); }) == 2 * n);
-  CHECK(asked_by([&] { tasks::parallel_in_order(n, same, [](std::size_t, std::size_t) { stop_if_asked(); }); }) == 2 * n);
+  CHECK(asked_by([&] { tasks::parallel_in_order(n, same, [](std::size_t, std::size_t) { stop_if_asked(); }); }) ==
+        2 * n);
   CHECK(asked_by([&] {
-          tasks::parallel_linked(n, same, [](std::size_t, std::size_t made) { return made; },
-                                 [](std::size_t, std::size_t made) { return made; });
+          tasks::parallel_linked(
+              n, same, [](std::size_t, std::size_t made) { return made; },
+              [](std::size_t, std::size_t made) { return made; });
         }) == 2 * n);
-  CHECK(asked_by([&] {
-          tasks::parallel_map(10, [&](std::size_t) { return tasks::parallel_map(10, same).size(); });
-        }) == 110);
+  CHECK(asked_by([&] { tasks::parallel_map(10, [&](std::size_t) { return tasks::parallel_map(10, same).size(); }); }) ==
+        110);
   CHECK(asked_by([] { tasks::Beside(stop_if_asked).wait(); }) == 1);
   CHECK(asked_by([] { tasks::Once().run(stop_if_asked); }) == 1);
 }
@@ -58,8 +61,9 @@ TEST_CASE("tasks: what is told to stop ends with Stopped, whichever way its task
     ends([&] { tasks::parallel_map(n, same); });
     ends([&] { tasks::parallel_in_order(n, same, [](std::size_t, std::size_t) {}); });
     ends([&] {
-      tasks::parallel_linked(n, same, [](std::size_t, std::size_t made) { return made; },
-                             [](std::size_t, std::size_t made) { return made; });
+      tasks::parallel_linked(
+          n, same, [](std::size_t, std::size_t made) { return made; },
+          [](std::size_t, std::size_t made) { return made; });
     });
     ends([&] { tasks::with_threads(4, [&] { tasks::parallel_map(n, same); }); });
   }

@@ -52,9 +52,11 @@ TEST_CASE("travel: a circle that would leave the reach goes to the other side, t
   const Polyline way{{50000, 0}};
   const auto free = lifted(retraction, {0, 0}, way, 200, {}).path;
   CHECK(box_of(std::vector{flat(free[4])}).max.y > 0);
-  const auto right = lifted(retraction, {0, 0}, way, 200, {sample::rectangle({-20000, -20000}, {60000, 100}).outer, {}}).path;
+  const auto right =
+      lifted(retraction, {0, 0}, way, 200, {sample::rectangle({-20000, -20000}, {60000, 100}).outer, {}}).path;
   CHECK(flat(right[7]).y < -100);
-  const auto neither = lifted(retraction, {0, 0}, way, 200, {sample::rectangle({-20000, -100}, {60000, 100}).outer, {}}).path;
+  const auto neither =
+      lifted(retraction, {0, 0}, way, 200, {sample::rectangle({-20000, -100}, {60000, 100}).outer, {}}).path;
   for (const auto& p : neither) CHECK(p.y == 0);
   CHECK(neither.front().z == 1200);
   CHECK(neither.front().x == Approx(2747).margin(2));  // 1 mm / tan 20°

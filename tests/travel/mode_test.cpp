@@ -151,8 +151,7 @@ TEST_CASE("travel: a combed way much longer than the straight one gives way to a
 }
 
 TEST_CASE("travel: retracted travels go round other parts when asked, and keep their distance", "[travel]") {
-  const Regions parts{sample::rectangle({0, 0}, {8000, 8000}),
-                      sample::rectangle({14000, -10000}, {18000, 6000}),
+  const Regions parts{sample::rectangle({0, 0}, {8000, 8000}), sample::rectangle({14000, -10000}, {18000, 6000}),
                       sample::rectangle({24000, 0}, {32000, 8000})};
   TravelSettings settings;
   settings.travel_avoid_other_parts = true;
@@ -175,8 +174,8 @@ TEST_CASE("travel: retracted travels go round other parts when asked, and keep t
 }
 
 TEST_CASE("travel: ways stay inside a concave reach and out of no-go areas, or it is said where not", "[travel]") {
-  LayerInput input = sample::layer(
-      {sample::rectangle({0, 0}, {8000, 8000}), sample::rectangle({30000, 0}, {38000, 8000})});
+  LayerInput input =
+      sample::layer({sample::rectangle({0, 0}, {8000, 8000}), sample::rectangle({30000, 0}, {38000, 8000})});
   input.room.no_go = {sample::rectangle({15000, -50000}, {20000, 20000}).outer};
   input.room.reach = sample::rectangle({-60000, -60000}, {60000, 60000}).outer;
   const Region area{input.room.no_go[0], {}};

@@ -147,7 +147,8 @@ TEST_CASE("travel: objects are labelled, their index is the plate's", "[travel]"
   input.objects.push_back(sample::object({sample::rectangle({20000, 0}, {30000, 10000})}));
   input.objects[0].object = 4;
   input.objects[1].object = 9;
-  input.adhesion.push_back(sample::closed_bead(sample::rectangle({-3000, -3000}, {33000, 13000}).outer, Role::skirt, 0, 0));
+  input.adhesion.push_back(
+      sample::closed_bead(sample::rectangle({-3000, -3000}, {33000, 13000}).outer, Role::skirt, 0, 0));
   const auto plans = plan({}, {}, {input});
   std::vector<std::uint32_t> labels;
   bool skirt_first = false;

@@ -42,8 +42,7 @@ TEST_CASE("travel: seams of a square lie in a corner, and in the same one on eve
   TravelSettings settings;
   settings.z_seam_type = type;
   std::vector<LayerInput> layers;
-  for (std::size_t i = 0; i < 10; ++i)
-    layers.push_back(sample::layer({sample::rectangle({0, 0}, {20000, 10000})}, i));
+  for (std::size_t i = 0; i < 10; ++i) layers.push_back(sample::layer({sample::rectangle({0, 0}, {20000, 10000})}, i));
   const auto seams = seams_of(settings, layers);
   REQUIRE(seams.size() == 10);
   for (const Point s : seams) {

@@ -30,9 +30,8 @@ Shares shares(const Region& region, const WallLayer& walls, const Box& box, Um s
   for (Um x = box.min.x + step / 3; x < box.max.x; x += step)
     for (Um y = box.min.y + step / 6; y < box.max.y; y += step + 2) {
       if (!index.region_at({x, y})) continue;
-      const auto times = std::count_if(walls.beads.begin(), walls.beads.end(), [&](const Bead& b) {
-        return covers(b, x, y);
-      });
+      const auto times =
+          std::count_if(walls.beads.begin(), walls.beads.end(), [&](const Bead& b) { return covers(b, x, y); });
       ++all;
       bare += times == 0;
       twice += times > 1;

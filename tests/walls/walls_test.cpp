@@ -64,7 +64,8 @@ TEST_CASE("walls: among many parts each gets the walls that it has alone", "[wal
     parts.push_back(pin({x, 5_mm}, size + i % 2, size));
     parts.push_back(pin({x, 10_mm}, 700, size));
     Region ring = pin({x, 15_mm}, 4_mm, 4_mm);
-    if (i % 2 == 0) ring.holes.push_back(Ring{{x + 1000, 16_mm}, {x + 1000, 17_mm}, {x + 2000, 17_mm}, {x + 2000, 16_mm}});
+    if (i % 2 == 0)
+      ring.holes.push_back(Ring{{x + 1000, 16_mm}, {x + 1000, 17_mm}, {x + 2000, 17_mm}, {x + 2000, 16_mm}});
     parts.push_back(ring);
   }
   const auto together = built(parts);
