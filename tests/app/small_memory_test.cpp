@@ -1,5 +1,6 @@
 // This program is linked with app/small_memory.cpp: whatever is new here is its.
 #include "jobs/memory.h"
+#include "sanitized.h"
 
 #include <algorithm>
 #include <array>
@@ -42,15 +43,6 @@ void give(const Filled& piece, bool told) {
 }
 
 constexpr double mb = 1e6;
-
-// Whether a sanitizer watches, which keeps what is freed.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool watched = true;
-#elif defined(__has_feature)
-constexpr bool watched = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
-#else
-constexpr bool watched = false;
-#endif
 
 }  // namespace
 
@@ -111,7 +103,7 @@ TEST_CASE("small memory: what threads take from each other and give back is inta
       for (const Filled& piece : of_round) bad[0] += !intact(piece), give(piece, true);
   CHECK(bad == std::array<std::size_t, threads>{});
   // 1,200,000 pieces of 150 bytes were made: 180 MB if none of it were used again
-  if (!watched) CHECK(static_cast<double>(weft::jobs::resident_bytes()) - before < 20 * mb);
+  if (!sanitized) CHECK(static_cast<double>(weft::jobs::resident_bytes()) - before < 20 * mb);
 }
 
 TEST_CASE("small memory: what is given back goes to the system", "[app]") {
@@ -121,7 +113,7 @@ TEST_CASE("small memory: what is given back goes to the system", "[app]") {
   const double full = static_cast<double>(weft::jobs::resident_bytes());
   CHECK(full - before > 64 * mb);
   for (const Filled& piece : held) give(piece, true);
-  if (!watched) CHECK(full - static_cast<double>(weft::jobs::resident_bytes()) > 60 * mb);
+  if (!sanitized) CHECK(full - static_cast<double>(weft::jobs::resident_bytes()) > 60 * mb);
 }
 
 TEST_CASE("small memory: a thread takes up what one that has ended has left", "[app]") {
@@ -133,7 +125,7 @@ TEST_CASE("small memory: a thread takes up what one that has ended has left", "[
         kept.push_back(filled(bytes, static_cast<unsigned char>(i)));
     }).join();
   // Of each of 16 sizes a thread leaves most of a page: 65 MB if the next one could not use it.
-  if (!watched) CHECK(static_cast<double>(weft::jobs::resident_bytes()) - before < 20 * mb);
+  if (!sanitized) CHECK(static_cast<double>(weft::jobs::resident_bytes()) - before < 20 * mb);
   std::size_t bad = 0;
   for (const Filled& piece : kept) bad += !intact(piece), give(piece, false);
   CHECK(bad == 0);
