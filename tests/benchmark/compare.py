@@ -216,8 +216,8 @@ def main():
                     print(f"| {model.stem} | {tool} | {why[tool]} | | | | | |", flush=True)
                     continue
                 wall, cpu, memory = median[tool]
-                ratio = (lambda v, i: f"{v / base[i]:.1f}") if base else (lambda v, i: "")
-                print(f"| {model.stem} | {tool} | {wall:.2f} | {ratio(wall, 0)} | {cpu:.2f} | {ratio(cpu, 1)} | {memory:.0f} | {sizes[tool]:.1f} |", flush=True)
+                ratio = (lambda v, i: f"{v / base[i]:.2f}") if base else (lambda v, i: "")
+                print(f"| {model.stem} | {tool} | {wall:.2f} | {ratio(wall, 0)} | {cpu:.2f} | {ratio(cpu, 1)} | {memory:.1f} | {sizes[tool]:.1f} |", flush=True)
 
 
 if __name__ == "__main__":
