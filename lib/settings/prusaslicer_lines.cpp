@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "settings/prusaslicer_keys.h"
+#include "settings/prusaslicer_old_keys.h"
 #include "settings/prusaslicer_text.h"
 #include "settings/value.h"
 

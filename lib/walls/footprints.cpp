@@ -1,5 +1,6 @@
 #include "walls/footprints.h"
 
+#include "walls/keep_volume.h"
 #include "walls/move_aside.h"
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 namespace weft::walls {
 namespace {
 
-constexpr double noticed_um = 9.3;  // walls may reach over the outline by 10, and corners are on the lattice
+constexpr double noticed_um = 9.3;  // walls may reach over the outline by 10, and where is told to a micron
 // … and are made to by no more than the first, for neighbours move with a piece; than the others where all would cost
 // too much of the part's volume.
 constexpr std::array outside_um{8.0, 9.2};
@@ -87,7 +88,7 @@ Footprints::Footprints(Room& room, Point origin, Um nominal, Um narrowest, const
       if (bead.closed && std::abs(twice - 2 * nominal) <= 2 * nominal_within) continue;
       const Piece p = piece_of(bead, k, origin);
       const double swollen = (1 + most_change) * p.half;
-      if (swollen - room.beside(p.a, p.b, swollen, false, false) > noticed_um) suspect.pieces.push_back(k);
+      if (swollen - room.beside(p.a, p.b, swollen) > noticed_um) suspect.pieces.push_back(k);
     }
     if (!suspect.pieces.empty()) suspects_.push_back(std::move(suspect));
   }
@@ -117,17 +118,16 @@ Bead Footprints::kept(const Suspect& suspect, double outside, const Bead& bead) 
 bool Footprints::keep(double least, Beads& beads) const {
   for (const double outside : outside_um) {
     std::vector<std::pair<std::size_t, Bead>> kept_beads;
-    double laid = 0;
+    double gain = 0;
     for (const Suspect& suspect : suspects_) {
       const Bead& bead = beads[suspect.bead];
       Bead other = kept(suspect, outside, bead);
       if (other.path == bead.path) continue;
-      laid += volume_mm3(other, 1_mm) - volume_mm3(bead, 1_mm);
+      gain += volume_mm3(other, 1_mm) - volume_mm3(bead, 1_mm);
       kept_beads.emplace_back(suspect.bead, std::move(other));
     }
     if (kept_beads.empty()) return false;
-    for (const Bead& bead : beads) laid += volume_mm3(bead, 1_mm);
-    if (laid < least) continue;
+    if (laid_mm2(beads) + gain < least) continue;
     for (auto& [i, bead] : kept_beads) beads[i] = std::move(bead);
     return true;
   }

@@ -18,12 +18,6 @@ bool is_single(const Bead& bead) {
   return bead.inset == 0 && !bead.closed;
 }
 
-double laid_mm2(const Beads& beads) {
-  double sum = 0;
-  for (const Bead& bead : beads) sum += volume_mm3(bead, 1_mm);
-  return sum;
-}
-
 /// As wide as each junction may get, bead by bead.
 std::vector<Um> widest_of(const Beads& beads, Um widest, bool dab) {
   std::vector<Um> out;
@@ -46,6 +40,12 @@ void scale(double by, const std::vector<Um>& widest, Beads& beads) {
 }
 
 }  // namespace
+
+double laid_mm2(const Beads& beads) {
+  double sum = 0;
+  for (const Bead& bead : beads) sum += volume_mm3(bead, 1_mm);
+  return sum;
+}
 
 double keep_volume(double wanted, Um widest, bool dab, Beads& beads) {
   const double tolerance = std::all_of(beads.begin(), beads.end(), is_single) ? tolerated_alone : tolerated;

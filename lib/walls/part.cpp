@@ -83,7 +83,7 @@ geometry::MedialAxis axis_of(const Region& region) {
 /// may push others out.
 void fit(Room& room, const FinishOptions& options, const Widths& widths, double wanted, bool dab, Beads& beads) {
   constexpr int most_rounds = 6;
-  constexpr double near_enough = 0.9955;  // of what is wanted
+  constexpr double near_enough = 0.9955;  // of what is wanted: half a percent may lack, and the lattice has its share
   // … or less at first, where there are loops: they can make up for it.
   const double least =
       std::any_of(beads.begin(), beads.end(), [](const Bead& bead) { return bead.closed; }) ? 0.97 : near_enough;

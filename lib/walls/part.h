@@ -7,13 +7,15 @@
 namespace weft::walls {
 
 struct Part {
-  Beads beads;
+  Beads beads;            ///< in no order yet
   Regions inside;         ///< what walls leave for infill
-  double dropped_mm = 0;  ///< length of what was too thin
+  double dropped_mm = 0;  ///< length of what was too thin to be laid
   bool valid = true;      ///< false: there was no medial axis to go by, and walls are concentric
 };
 
-/// `index`: the region's number in its layer.
+/// Pre: a region as slicing makes it, on the lattice. `nozzle`: its diameter, µm. `index`: the region's number in its
+/// layer, which its beads bear. Never nothing for want of a medial axis: see `valid`. @throws Stopped when asked to
+/// stop
 Part part_of(const WallSettings& settings, const Widths& widths, const Region& region, Um nozzle, std::uint32_t index);
 
 }  // namespace weft::walls

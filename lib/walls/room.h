@@ -26,7 +26,7 @@ class Room {
   /// first (last) end, if it is an end of the bead, what is not quite square is no lack of room.
   Sides sides(Place a, Place b, double most, bool first = false, bool last = false);
   /// The same on the narrower side.
-  double beside(Place a, Place b, double most, bool first, bool last) {
+  double beside(Place a, Place b, double most, bool first = false, bool last = false) {
     const Sides s = sides(a, b, most, first, last);
     return std::min(s.left, s.right);
   }

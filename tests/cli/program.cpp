@@ -1,5 +1,7 @@
 #include "cli/program.h"
 
+#include "cuboid.h"
+
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -78,21 +80,9 @@ std::vector<std::string> Scratch::names() const {
 }
 
 std::string boxes_stl(float x, float y, float z, int side, float pitch) {
-  constexpr std::array<std::array<int, 3>, 12> faces{{{0, 2, 1},
-                                                      {0, 3, 2},
-                                                      {4, 5, 6},
-                                                      {4, 6, 7},
-                                                      {0, 1, 5},
-                                                      {0, 5, 4},
-                                                      {1, 2, 6},
-                                                      {1, 6, 5},
-                                                      {2, 3, 7},
-                                                      {2, 7, 6},
-                                                      {3, 0, 4},
-                                                      {3, 4, 7}}};
   std::string out(80, '\0');
   const auto add = [&](const void* data, std::size_t size) { out.append(static_cast<const char*>(data), size); };
-  const auto count = static_cast<std::uint32_t>(faces.size()) * static_cast<std::uint32_t>(side * side);
+  const auto count = static_cast<std::uint32_t>(cuboid_faces.size()) * static_cast<std::uint32_t>(side * side);
   add(&count, 4);
   for (int i = 0; i < side * side; ++i) {
     const float left = pitch * static_cast<float>(i % side), front = pitch * static_cast<float>(i / side),
@@ -105,7 +95,7 @@ std::string boxes_stl(float x, float y, float z, int side, float pitch) {
                                                       {right, front, z},
                                                       {right, back, z},
                                                       {left, back, z}}};
-    for (const auto& face : faces) {
+    for (const auto& face : cuboid_faces) {
       out.append(12, '\0');
       for (const int v : face) add(corner[static_cast<std::size_t>(v)].data(), 12);
       out.append(2, '\0');

@@ -1,5 +1,6 @@
 #include "pipeline/stage_cache.h"
 
+#include "cuboid.h"
 #include "pipeline/cached.h"
 #include "pipeline/pipeline.h"
 #include "settings/catalogue.h"
@@ -49,19 +50,7 @@ std::string model() {
                                                   {x1, y0, z1},
                                                   {x1, y1, z1},
                                                   {x0, y1, z1}}};
-    constexpr std::array<std::array<int, 3>, 12> faces{{{0, 2, 1},
-                                                        {0, 3, 2},
-                                                        {4, 5, 6},
-                                                        {4, 6, 7},
-                                                        {0, 1, 5},
-                                                        {0, 5, 4},
-                                                        {1, 2, 6},
-                                                        {1, 6, 5},
-                                                        {2, 3, 7},
-                                                        {2, 7, 6},
-                                                        {3, 0, 4},
-                                                        {3, 4, 7}}};
-    for (const auto& f : faces) {
+    for (const auto& f : cuboid_faces) {
       out += "facet normal 0 0 0\nouter loop\n";
       for (const int v : f) {
         const auto& p = c[static_cast<std::size_t>(v)];

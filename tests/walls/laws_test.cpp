@@ -107,7 +107,7 @@ TEST_CASE("walls: on 1,000 random polygons beads and inside together have the ar
 }
 
 TEST_CASE("walls: beads stay within 0.01 mm of the part", "[walls][law]") {
-  // Of 7,000 others 20 have a bead that reaches further: small parts whose volume comes first.
+  // Of 7,000 others 20 have a bead that reaches further: in those looked at a small part's volume comes first.
   std::mt19937 random(20'240'601);
   int thin = 0;
   for (int i = 0; i < 1000; ++i) {
