@@ -1,9 +1,12 @@
 #include "geometry/boolean.h"
 
+#include "core/stop.h"
 #include "geometry/clipper_door.h"
 #include "geometry/nesting.h"
 #include "geometry/simplify.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace weft::geometry {
@@ -29,12 +32,47 @@ FineRings fine(const Regions& regions, Point origin) {
   return out;
 }
 
+Box box_of(const Regions& a, const Regions& b) {
+  Box box = weft::box_of(a);
+  box.add(weft::box_of(b));
+  return box;
+}
+
 Regions run(Operation operation, const Regions& a, const Regions& b) {
-  Box box = box_of(a);
-  box.add(box_of(b));
+  const Box box = box_of(a, b);
   if (box.empty()) return {};
   const Point origin = box.centre();
   return clipper::run(operation, WindingRule::nonzero, fine(a, origin), fine(b, origin), origin);
+}
+
+void add(Regions& to, Regions more) {
+  if (to.empty())
+    to = std::move(more);
+  else
+    to.insert(to.end(), std::move_iterator(more.begin()), std::move_iterator(more.end()));
+}
+
+/// Each region of `what` counts for itself: calls f(some of them, what of `by` is near) until all are done, so that a
+/// job may be stopped in between: one call into the library cannot be.
+template <class F>
+void by_batches(const Regions& what, const Regions& by, F f) {
+  constexpr std::size_t batch = 512;
+  if (what.size() <= batch) {
+    f(what, box_of(what).overlaps(box_of(by)) ? by : Regions{});
+    return;
+  }
+  std::vector<Box> boxes;
+  for (const Region& region : by) boxes.push_back(box_of(region.outer));
+  for (std::size_t first = 0; first < what.size(); first += batch) {
+    stop_if_asked();
+    const auto begin = what.begin() + static_cast<std::ptrdiff_t>(first);
+    const Regions some(begin, begin + static_cast<std::ptrdiff_t>(std::min(batch, what.size() - first)));
+    const Box box = box_of(some);
+    Regions near;
+    for (std::size_t i = 0; i < by.size(); ++i)
+      if (boxes[i].overlaps(box)) near.push_back(by[i]);
+    f(some, near);
+  }
 }
 }  // namespace
 
@@ -64,21 +102,30 @@ Regions unite(const Regions& a, const Regions& b) {
 }
 
 Regions intersect(const Regions& a, const Regions& b) {
-  if (!box_of(a).overlaps(box_of(b))) return {};
-  return run(Operation::intersect, a, b);
+  Regions out;
+  by_batches(a, b, [&](const Regions& some, const Regions& near) {
+    if (!near.empty()) add(out, run(Operation::intersect, some, near));
+  });
+  return out;
 }
 
 Regions subtract(const Regions& from, const Regions& what) {
-  return run(Operation::subtract, from, what);
+  Regions out;
+  by_batches(from, what,
+             [&](const Regions& some, const Regions& near) { add(out, run(Operation::subtract, some, near)); });
+  return out;
 }
 Cut cut(const Regions& what, const Regions& by) {
-  Box box = box_of(what);
-  if (!box.overlaps(box_of(by))) return {{}, subtract(what, by)};
-  box.add(box_of(by));
-  const Point origin = box.centre();
   constexpr Operation both[] = {Operation::intersect, Operation::subtract};
-  auto sides = clipper::run(both, WindingRule::nonzero, fine(what, origin), fine(by, origin), origin);
-  return {std::move(sides[0]), std::move(sides[1])};
+  Cut out;
+  by_batches(what, by, [&](const Regions& some, const Regions& near) {
+    if (near.empty()) return add(out.outside, run(Operation::subtract, some, {}));
+    const Point origin = box_of(some, near).centre();
+    auto sides = clipper::run(both, WindingRule::nonzero, fine(some, origin), fine(near, origin), origin);
+    add(out.inside, std::move(sides[0]));
+    add(out.outside, std::move(sides[1]));
+  });
+  return out;
 }
 Regions exclusive_or(const Regions& a, const Regions& b) {
   return run(Operation::exclusive_or, a, b);

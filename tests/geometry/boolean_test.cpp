@@ -189,3 +189,20 @@ TEST_CASE("geometry: rings nested deep, many times, are told apart by both rules
   CHECK(std::count_if(stripes.begin(), stripes.end(), [](const Region& r) { return r.holes.size() == side * side; }) ==
         1);
 }
+
+TEST_CASE("geometry: thousands of regions are cut and subtracted as each of them would be", "[geometry]") {
+  // More than are given to the library at once; what is taken away lies across several of them.
+  Regions many, bars;
+  for (Um i = 0; i < 40; ++i)
+    for (Um k = 0; k < 40; ++k) many.push_back(rectangle(3_mm * i, 3_mm * k, 3_mm * i + 2_mm, 3_mm * k + 2_mm));
+  for (Um i = 0; i < 40; ++i) bars.push_back(rectangle(3_mm * i + 500, -1_mm, 3_mm * i + 1000, 119_mm));
+  const double taken = 40 * 40 * 0.5 * 2;
+  CHECK(area_mm2(geometry::subtract(many, bars)) == Approx(40 * 40 * 4 - taken));
+  CHECK(area_mm2(geometry::intersect(many, bars)) == Approx(taken));
+  const auto cut = geometry::cut(many, bars);
+  CHECK(cut.inside.size() == 1600);
+  CHECK(cut.outside.size() == 3200);
+  CHECK(geometry::subtract(many, {}).size() == 1600);
+  CHECK(geometry::intersect(many, {}).empty());
+  CHECK(geometry::cut(many, {rectangle(-5_mm, -5_mm, -4_mm, -4_mm)}).outside.size() == 1600);
+}
