@@ -24,4 +24,8 @@ inline constexpr Um band_step = 20_um;
 /// No piece of such a cut is shorter: firmware would choke on the moves, and plastic does not follow. motion/resample.
 inline constexpr Um shortest_piece = 0.2_mm;
 
+/// … but where the band would change by more than this over it, three tenths of a bead: there, in corners, half as
+/// long is allowed.
+inline constexpr Um band_leap = 135_um;
+
 }  // namespace weft::tolerances

@@ -1,6 +1,7 @@
 #include "gcode/layer_text.h"
 
 #include "core/stop.h"
+#include "gcode/moves.h"
 #include "model/flow.h"
 
 #include <algorithm>
@@ -137,22 +138,21 @@ class LayerText {
     accelerate(bead.acceleration_mm_s2, false);
     const double height_mm = to_mm(bead.height);
     const bool varies = !bead.segment_speed_mm_s.empty(), flow_comments = job_.settings.gcode.gcode_flow_comments;
-    for (std::size_t i = 1; i < bead.path.size(); ++i) {
-      const auto &a = bead.path[i - 1], &b = bead.path[i];
-      if (a.at == b.at) continue;
+    for_each_move(bead.path, height_mm, [&](const Move& move) {
+      const auto &a = bead.path[move.piece - 1], &b = bead.path[move.piece];
       width((a.width + b.width) / 2, bead.height);
       out_ << "G1";
-      const Point3 to = place_of(bead, i, job_.plan.z);
+      const Point3 to = place_of(bead, move.to, job_.plan.z);
       axes(to);
-      filament(distance(a.at, b.at) / 1000.0 * mean_area_mm2(a, b, height_mm) * e_per_mm3_);
-      feed(varies ? static_cast<double>(bead.segment_speed_mm_s[i - 1]) : bead.speed_mm_s);
+      filament(move.volume_mm3 * e_per_mm3_);
+      feed(varies ? static_cast<double>(bead.segment_speed_mm_s[move.piece - 1]) : bead.speed_mm_s);
       if (flow_comments && (a.flow != 1.F || b.flow != 1.F)) {
         out_ << " ; flow ";
         out_.spelled(rounded(500.0 * static_cast<double>(a.flow + b.flow)));
       }
       out_ << '\n';
       state_.at = to;
-    }
+    });
   }
 
   void width(Um band, Um height) {

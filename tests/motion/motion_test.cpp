@@ -170,9 +170,17 @@ TEST_CASE("motion: a bead whose width changes is cut so that each piece may be o
     CHECK(std::abs(wedge.path[i].width - wedge.path[i - 1].width) <= 20);
   CHECK(volume_mm3(Bead{wedge.path, Role::inner_wall}, 200) == Approx(volume_mm3(before, 200)).epsilon(1e-6));
 
+  auto short_one = line({{0, 400}, {500, 600}});
+  cut_where_width_changes(short_one.path);
+  CHECK(short_one.path.size() == 3);  // pieces are not shorter than 0.2 mm
+
   auto abrupt = line({{0, 100}, {500, 900}});
   cut_where_width_changes(abrupt.path);
-  CHECK(abrupt.path.size() == 3);  // pieces are never shorter than 0.2 mm
+  CHECK(abrupt.path.size() == 6);  // but 0.1 mm where they would change by more than 0.135 mm
+
+  auto bend = line({{0, 450}, {130, 340}});
+  cut_where_width_changes(bend.path);
+  CHECK(bend.path.size() == 2);
 
   auto even = line({{0, 400}, {20'000, 400}});
   cut_where_width_changes(even.path);
