@@ -29,6 +29,7 @@ struct WallSettings {
   Um wall_transition_filter_distance = 1_mm;
   Um min_feature_size = 0.05_mm;
   Um min_wall_length = 0.1_mm;
+  double wall_corner_width = 75;
   bool flow_compensation = true;
   Um min_output_width = 0.2_mm;
   double min_flow_ratio = 5;
@@ -69,6 +70,9 @@ inline constexpr std::tuple wall_schema{
             "Parts thinner than this are left out."),
     setting("min_wall_length", &WallSettings::min_wall_length, Unit::mm, 0_mm, 100_mm,
             "Shorter middle walls are left out."),
+    setting("wall_corner_width", &WallSettings::wall_corner_width, Unit::percent, 50, 100,
+            "Width of a wall where it bends around a convex corner of up to 100°, as a share of its width: narrower "
+            "walls reach further into corners, and leave smaller gaps between each other; 100 keeps the width."),
     setting("flow_compensation", &WallSettings::flow_compensation,
             "Walls too narrow for a steady strand are planned at min_output_width with less flow."),
     setting("min_output_width", &WallSettings::min_output_width, Unit::mm, 0.01_mm, 5_mm,

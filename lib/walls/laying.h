@@ -10,11 +10,12 @@ namespace weft::walls {
 
 /// Beads along one edge of the skeleton, the same on both its sides.
 struct Span {
-  bool core = false;    ///< beads follow the thickness; else the edge runs into a corner where they turn back
-  bool middle = false;  ///< a bead on the axis itself
-  bool open = false;    ///< the axis lies in what is left for infill, from bounds[pairs] inwards
-  bool mouth = false;   ///< climbs from a thin part, whose beads end below it, into a thick one
-  int pairs = 0;        ///< beads on either side, each between bounds[i] and bounds[i + 1]
+  bool core = false;     ///< beads follow the thickness; else the edge runs into a corner where they turn back
+  bool middle = false;   ///< a bead on the axis itself
+  bool open = false;     ///< the axis lies in what is left for infill, from bounds[pairs] inwards
+  bool narrows = false;  ///< the innermost wall gets narrower towards a sharp corner
+  bool mouth = false;    ///< climbs from a thin part, whose beads end below it, into a thick one
+  int pairs = 0;         ///< beads on either side, each between bounds[i] and bounds[i + 1]
   std::uint32_t at_start = 0, at_end = 0;  ///< where the bounds begin in Laying::bounds, for the ends of the even half
 };
 
@@ -35,6 +36,8 @@ struct LayingOptions {
   double corner = 0.5;            ///< … above which an edge may run into a corner
   double ramp = 400;              ///< length of a transition, µm
   double filter = 1000;           ///< a change of count undone within this length is left out, µm
+  double corner_width = 0.75;     ///< share of its width that a wall keeps where it bends around a sharp corner
+  double narrowest = 200;         ///< … if that is not less than this, µm
   double filter_deviation = 100;  ///< … where the thickness is no further than this from the change, µm
 };
 

@@ -121,6 +121,8 @@ Part part_of(const WallSettings& settings, const Widths& widths, const Region& r
   options.corner = std::max(options.steep, std::sin(corner_deg / 2 * std::numbers::pi / 180));
   options.ramp = settings.wall_transition_length.of(nozzle);
   options.filter = settings.wall_transition_filter_distance;
+  options.corner_width = settings.wall_corner_width / 100;
+  options.narrowest = std::max<double>(settings.min_output_width, std::max(widths.outer, widths.inner) / 4);
   const Laying laying = lay(skeleton, widths, options);
   FinishOptions finishing;
   finishing.origin = axis.origin;

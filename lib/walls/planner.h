@@ -1,6 +1,7 @@
 #pragma once
 #include "walls/laying.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -49,6 +50,14 @@ class Planner {
     std::uint32_t half;
     Span span;
     Turn turn;
+  };
+  /// On its way into a corner the innermost wall of a span gets narrower between these clearances: its inner bound
+  /// falls from where it is to the second of them.
+  struct Narrowing {
+    double from, to;
+    double inner_bound(double own, double clearance) const {
+      return to + (own - to) * std::clamp((clearance - to) / (from - to), 0.0, 1.0);
+    }
   };
 
   double slope(std::uint32_t e) const {
@@ -146,9 +155,20 @@ class Planner {
   /// nothing where the node has no core.
   void leave_core(std::uint32_t n, bool only_mouths);
   void descend_from(std::uint32_t n, const Span& span, bool only_mouths);
-  double track(const Span& span, int i) const;
   /// Beads end on the axis where the clearance falls to their distance.
   void descend(std::uint32_t h, Span span, Turn turn);
+
+  // sharp corners
+  /// The clearance from which on a half leads straight down into a sharp corner; 0 if it does not.
+  double sharp_from(std::uint32_t h) const;
+  /// Where a wall turns back it is round: the tip of the corner stays bare, and so does what lies between its bend and
+  /// the next wall's. There its ribs leave it less than its width anyway, so that it may get narrower and bend further
+  /// out without leaving anything bare inside. None without a wall, without a sharp corner, or too near its tip.
+  std::optional<Narrowing> narrowing_of(const Span& span, double sharp_from) const;
+  /// The clearance at which the innermost wall turns back. Pre: there is one.
+  double turn_at(const Span& span, const std::optional<Narrowing>& narrowing) const;
+  /// The bounds of a span with that innermost bound.
+  std::uint32_t bounds_up_to(const Span& span, double innermost);
 
   static constexpr std::uint32_t none = ~0U;
   static constexpr double outer_spread =
@@ -158,9 +178,12 @@ class Planner {
       10;  // so near lie the nodes where more than three parts meet: corners are rounded
   static constexpr double longest_summit =
       2.5;  // of a bead's width: bars of two beads that cross at 45° meet in two places so far apart
-  static constexpr double same_um = 1e-3;     // lengths that differ by less are equal
-  static constexpr double stub_share = 0.25;  // of the clearance: flat ends of the axis shorter than this are corners
-  static constexpr double dip_share = 0.02;   // of the clearance: … and never reach over a rise of more than this
+  static constexpr double sharp_sine =
+      0.766;  // of half a corner's angle of 100°: a blunter bend leaves next to nothing bare
+  static constexpr double least_narrowing = 5;  // of clearance, µm: what is gained in less is lost on the lattice
+  static constexpr double same_um = 1e-3;       // lengths that differ by less are equal
+  static constexpr double stub_share = 0.25;    // of the clearance: flat ends of the axis shorter than this are corners
+  static constexpr double dip_share = 0.02;     // of the clearance: … and never reach over a rise of more than this
 
   Skeleton& s_;
   const Widths& w_;

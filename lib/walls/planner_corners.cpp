@@ -157,13 +157,14 @@ void Planner::descend_from(std::uint32_t n, const Span& span, bool only_mouths) 
   }
 }
 
-double Planner::track(const Span& span, int i) const {
-  const double* b = &out_.bounds[span.at_start];
-  return (b[i] + b[i + 1]) / 2;
-}
-
 void Planner::descend(std::uint32_t h, Span span, Turn turn) {
-  const auto turn_back = [&] {
+  const double sharp = sharp_from(h);
+  const auto innermost = [&] { return out_.bounds[span.at_start + static_cast<std::size_t>(span.pairs)]; };
+  const auto end_innermost = [&] {
+    if (span.open) {
+      span.open = false;
+      return;
+    }
     const double* b = &out_.bounds[span.at_start + static_cast<std::size_t>(--span.pairs)];
     turn = {(b[1] - b[0]) / 2, 0};
   };
@@ -171,14 +172,22 @@ void Planner::descend(std::uint32_t h, Span span, Turn turn) {
     if (reached_.size() < core_.size()) reached_.resize(core_.size(), 0);
     if (reached_[h / 2]) return;
     const double from = s_.start(h).clearance, to = s_.end(h).clearance, low = std::min(from, to);
-    while (span.open && out_.bounds[span.at_start + static_cast<std::size_t>(span.pairs)] > from + same_um)
-      span.open = false;
-    while (span.pairs > 0 && track(span, span.pairs - 1) > from + same_um) turn_back();
+    while (span.open && innermost() > from + same_um) end_innermost();
+    auto narrowing = narrowing_of(span, sharp);
+    while (span.pairs > 0 && !span.open && turn_at(span, narrowing) > from + same_um) {
+      end_innermost();
+      narrowing = narrowing_of(span, sharp);
+    }
+    // The next clearance below at which something changes.
     double cut = -1;
-    if (span.open && out_.bounds[span.at_start + static_cast<std::size_t>(span.pairs)] > low + same_um)
-      cut = out_.bounds[span.at_start + static_cast<std::size_t>(span.pairs)];
-    else if (span.pairs > 0 && track(span, span.pairs - 1) > low + same_um)
-      cut = track(span, span.pairs - 1);
+    bool ends = false;
+    if (span.open || span.pairs > 0) {
+      const double end = span.open ? innermost() : turn_at(span, narrowing);
+      if (end > low + same_um) cut = end, ends = true;
+    }
+    if (narrowing)
+      for (const double change : {narrowing->to, narrowing->from})
+        if (change > std::max(cut, low) + same_um && change < from - same_um) cut = change, ends = false;
     std::uint32_t rest = h;
     if (cut >= 0 && from - to > same_um) {
       const double t = (from - cut) / (from - to);
@@ -190,23 +199,26 @@ void Planner::descend(std::uint32_t h, Span span, Turn turn) {
       }
     }
     if (out_.spans.size() < core_.size()) out_.spans.resize(core_.size());
-    if (rest == h && cut >= 0) {  // begins exactly where a bead ends
-      if (span.open)
-        span.open = false;
-      else
-        turn_back();
+    if (rest == h && ends) {  // begins exactly where a bead ends
+      end_innermost();
       continue;
     }
-    out_.spans[h / 2] = span;
-    out_.spans[h / 2].mouth = mouth_[h / 2] != 0;
+    Span laid = span;
+    laid.mouth = mouth_[h / 2] != 0;
+    if (narrowing && from <= narrowing->from + same_um) {
+      const double above = narrowing->inner_bound(innermost(), from);
+      const double below = narrowing->inner_bound(innermost(), s_.end(h).clearance);
+      const std::uint32_t start = bounds_up_to(span, above), end = bounds_up_to(span, below);
+      laid.at_start = h % 2 == 0 ? start : end;
+      laid.at_end = h % 2 == 0 ? end : start;
+      laid.narrows = above > below + same_um;
+    }
+    out_.spans[h / 2] = laid;
     if (mouth_[h / 2]) fill_beside(h, turn);
     turn.past += s_.length(h / 2);
     reached_[h / 2] = 1;
     if (rest != h) {
-      if (span.open)
-        span.open = false;
-      else
-        turn_back();
+      if (ends) end_innermost();
       h = rest;
       continue;
     }

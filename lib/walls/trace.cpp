@@ -1,6 +1,7 @@
 #include "walls/trace.h"
 
 #include "core/stop.h"
+#include "core/tolerances.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,18 +26,29 @@ double fit(double area, double mean_width, double length) {
 /// One bead over one half: its two ends.
 struct Piece {
   Vertex start, end;
+  bool narrows = false;  ///< on its way into a sharp corner
 };
 
 Piece pair_piece(const Skeleton& s, const Laying& laying, std::uint32_t h, std::size_t i) {
   const double *a = laying.start(h), *b = laying.end(h);
   Piece p{{s.on_start_rib(h, (a[i] + a[i + 1]) / 2), a[i + 1] - a[i]},
-          {s.on_end_rib(h, (b[i] + b[i + 1]) / 2), b[i + 1] - b[i]}};
-  if (laying.spans[h / 2].core || laying.spans[h / 2].mouth) {
+          {s.on_end_rib(h, (b[i] + b[i + 1]) / 2), b[i + 1] - b[i]},
+          false};
+  const Span& span = laying.spans[h / 2];
+  p.narrows = span.narrows && std::abs(p.start.width - p.end.width) > 0.5;
+  if (span.core || span.mouth || p.narrows) {
     const double area = quad_area(s.on_start_rib(h, a[i]), s.on_end_rib(h, b[i]), s.on_end_rib(h, b[i + 1]),
                                   s.on_start_rib(h, a[i + 1]));
-    const double f = fit(area, (p.start.width + p.end.width) / 2, distance(p.start.at, p.end.at));
-    p.start.width *= f;
-    p.end.width *= f;
+    const double length = distance(p.start.at, p.end.at), mean = (p.start.width + p.end.width) / 2;
+    const double f = fit(area, mean, length);
+    // What is printed as one move needs no more than the right mean, and no second step.
+    if (p.narrows && f * std::abs(p.start.width - p.end.width) <= tolerances::band_leap) {
+      double& wide = p.start.width < p.end.width ? p.end.width : p.start.width;
+      wide -= 2 * (1 - f) * mean;
+    } else {
+      p.start.width *= f;
+      p.end.width *= f;
+    }
   }
   return p;
 }
@@ -131,13 +143,15 @@ bool steps(const Vertex& a, const Vertex& b) {
   return std::abs(a.width - b.width) > least_step_um;
 }
 
+/// Not at the end of a piece, but so near that no more of it is spread.
+Vertex near(const Vertex& from, const Vertex& other) {
+  constexpr double step_um = 10;
+  return lerp(from, other, std::min(0.25, step_um / std::max(1.0, distance(from.at, other.at))));
+}
+
 /// A step of width stays where it is, or it would be spread over the length of the pieces. `before` and `after` are the
 /// vertices around it.
 void put_step(const Vertex& before, Vertex& end, Vertex& middle, Vertex& start, const Vertex& after) {
-  constexpr double step_um = 10;  // on either side
-  const auto near = [&](const Vertex& from, const Vertex& other) {
-    return lerp(from, other, std::min(0.25, step_um / std::max(1.0, distance(from.at, other.at))));
-  };
   middle = {end.at, (end.width + start.width) / 2};
   end = near(end, before);
   start = near(start, after);
@@ -145,11 +159,16 @@ void put_step(const Vertex& before, Vertex& end, Vertex& middle, Vertex& start, 
 
 }  // namespace
 
-void append(std::vector<Vertex>& path, Vertex start, const Vertex& end) {
+void append(std::vector<Vertex>& path, Vertex start, const Vertex& end, StepIn in) {
   if (path.empty() || distance(path.back().at, start.at) >= same_um) {
     path.push_back(start);
   } else if (!steps(path.back(), start) || path.size() < 2) {
     path.back().width = (path.back().width + start.width) / 2;
+  } else if (in == StepIn::next) {
+    path.push_back(near(start, end));
+  } else if (in == StepIn::last) {
+    path.back() = near(path.back(), path[path.size() - 2]);
+    path.push_back(start);
   } else {
     Vertex middle;
     put_step(path[path.size() - 2], path.back(), middle, start, end);
@@ -186,11 +205,16 @@ std::vector<Line> trace_pairs(const Skeleton& s, const Laying& laying) {
       Loop loop;
       loop.chains.emplace_back();
       std::uint32_t h = begin;
-      bool turned_last = false;
+      bool turned_last = false, narrowed = false;
       do {
         seen[first[h] + k] = 1;
         const Piece piece = pair_piece(s, laying, h, k);
-        append(loop.chains.back().path, piece.start, piece.end);
+        // The short piece of a bend takes the step, and the long one keeps its length.
+        append(loop.chains.back().path, piece.start, piece.end,
+               piece.narrows == narrowed ? StepIn::both
+               : piece.narrows           ? StepIn::next
+                                         : StepIn::last);
+        narrowed = piece.narrows;
         std::uint32_t g = s.halves[h].next;
         while (laying.spans[g / 2].pairs <= i) g = s.halves[Skeleton::twin(g)].next;
         turned_last = false;
