@@ -11,7 +11,9 @@ using namespace weft::test;
 
 namespace {
 
-WallLayer walls_with(double corner_width, const Region& region, Um outer = 0.45_mm) {
+constexpr Um usual_wall = 0.45_mm;
+
+WallLayer walls_with(double corner_width, const Region& region, Um outer = usual_wall) {
   WallSettings settings;
   settings.wall_line_width_0 = outer;
   settings.wall_line_width_x = 0.45_mm;
