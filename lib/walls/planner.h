@@ -157,6 +157,12 @@ class Planner {
   void descend_from(std::uint32_t n, const Span& span, bool only_mouths);
   /// Beads end on the axis where the clearance falls to their distance.
   void descend(std::uint32_t h, Span span, Turn turn);
+  /// What changes next on a way down, and whether a bead ends there; negative: nothing before `low`.
+  struct Change {
+    double clearance = -1;
+    bool ends = false;
+  };
+  Change next_change(const Span& span, const std::optional<Narrowing>& narrowing, double from, double low) const;
 
   // sharp corners
   /// The clearance from which on a half leads straight down into a sharp corner; 0 if it does not.
@@ -167,6 +173,8 @@ class Planner {
   std::optional<Narrowing> narrowing_of(const Span& span, double sharp_from) const;
   /// The clearance at which the innermost wall turns back. Pre: there is one.
   double turn_at(const Span& span, const std::optional<Narrowing>& narrowing) const;
+  /// The span on a half in a corner. Pre: nothing changes between its ends.
+  Span in_corner(std::uint32_t h, const Span& span, const std::optional<Narrowing>& narrowing);
   /// The bounds of a span with that innermost bound.
   std::uint32_t bounds_up_to(const Span& span, double innermost);
 

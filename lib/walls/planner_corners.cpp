@@ -157,6 +157,20 @@ void Planner::descend_from(std::uint32_t n, const Span& span, bool only_mouths) 
   }
 }
 
+Planner::Change Planner::next_change(const Span& span, const std::optional<Narrowing>& narrowing, double from,
+                                     double low) const {
+  Change out;
+  if (span.open || span.pairs > 0) {
+    const double end =
+        span.open ? out_.bounds[span.at_start + static_cast<std::size_t>(span.pairs)] : turn_at(span, narrowing);
+    if (end > low + same_um) out = {end, true};
+  }
+  if (narrowing)
+    for (const double clearance : {narrowing->to, narrowing->from})
+      if (clearance > std::max(out.clearance, low) + same_um && clearance < from - same_um) out = {clearance, false};
+  return out;
+}
+
 void Planner::descend(std::uint32_t h, Span span, Turn turn) {
   const double sharp = sharp_from(h);
   const auto innermost = [&] { return out_.bounds[span.at_start + static_cast<std::size_t>(span.pairs)]; };
@@ -178,16 +192,7 @@ void Planner::descend(std::uint32_t h, Span span, Turn turn) {
       end_innermost();
       narrowing = narrowing_of(span, sharp);
     }
-    // The next clearance below at which something changes.
-    double cut = -1;
-    bool ends = false;
-    if (span.open || span.pairs > 0) {
-      const double end = span.open ? innermost() : turn_at(span, narrowing);
-      if (end > low + same_um) cut = end, ends = true;
-    }
-    if (narrowing)
-      for (const double change : {narrowing->to, narrowing->from})
-        if (change > std::max(cut, low) + same_um && change < from - same_um) cut = change, ends = false;
+    const auto [cut, ends] = next_change(span, narrowing, from, low);
     std::uint32_t rest = h;
     if (cut >= 0 && from - to > same_um) {
       const double t = (from - cut) / (from - to);
@@ -203,17 +208,7 @@ void Planner::descend(std::uint32_t h, Span span, Turn turn) {
       end_innermost();
       continue;
     }
-    Span laid = span;
-    laid.mouth = mouth_[h / 2] != 0;
-    if (narrowing && from <= narrowing->from + same_um) {
-      const double above = narrowing->inner_bound(innermost(), from);
-      const double below = narrowing->inner_bound(innermost(), s_.end(h).clearance);
-      const std::uint32_t start = bounds_up_to(span, above), end = bounds_up_to(span, below);
-      laid.at_start = h % 2 == 0 ? start : end;
-      laid.at_end = h % 2 == 0 ? end : start;
-      laid.narrows = above > below + same_um;
-    }
-    out_.spans[h / 2] = laid;
+    out_.spans[h / 2] = in_corner(h, span, narrowing);
     if (mouth_[h / 2]) fill_beside(h, turn);
     turn.past += s_.length(h / 2);
     reached_[h / 2] = 1;

@@ -48,6 +48,20 @@ double Planner::turn_at(const Span& span, const std::optional<Narrowing>& narrow
   return (b[0] + (narrowing ? narrowing->to : b[1])) / 2;
 }
 
+Span Planner::in_corner(std::uint32_t h, const Span& span, const std::optional<Narrowing>& narrowing) {
+  Span out = span;
+  out.mouth = mouth_[h / 2] != 0;
+  if (!narrowing || s_.start(h).clearance > narrowing->from + same_um) return out;
+  const double own = out_.bounds[span.at_start + static_cast<std::size_t>(span.pairs)];
+  const double above = narrowing->inner_bound(own, s_.start(h).clearance);
+  const double below = narrowing->inner_bound(own, s_.end(h).clearance);
+  const std::uint32_t start = bounds_up_to(span, above), end = bounds_up_to(span, below);
+  out.at_start = h % 2 == 0 ? start : end;
+  out.at_end = h % 2 == 0 ? end : start;
+  out.narrows = above > below + same_um;
+  return out;
+}
+
 std::uint32_t Planner::bounds_up_to(const Span& span, double innermost) {
   const auto at = static_cast<std::uint32_t>(out_.bounds.size());
   for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(span.pairs); ++i) {
