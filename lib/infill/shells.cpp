@@ -161,8 +161,8 @@ Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, cons
   }
   // strips between top and walls too narrow to fill apart go to the top
   if (kinds.top.any() && kinds.solid.any()) {
-    const Mask strips = kinds.solid - kinds.solid.opened(cells(0.5 * line, grid));
-    const Mask to_top = strips & kinds.top.grown(cells(line, grid));
+    Mask strips = kinds.solid - kinds.solid.opened(cells(0.5 * line, grid));
+    const Mask to_top = std::move(strips) & kinds.top.grown(cells(line, grid));
     kinds.top |= to_top, kinds.solid -= to_top;
   }
   return kinds;

@@ -107,16 +107,20 @@ void steady_start(std::vector<Vertex>& path, double most_uneven, double most_um)
 }
 
 void limit_steps(std::vector<Vertex>& path) {
+  const auto pieces_to = [&](std::size_t i) {
+    const Vertex &a = path[i - 1], &b = path[i];
+    const double steps = std::abs(b.width - a.width) / width_step_um;
+    return steps < 2 ? 1 : std::clamp(static_cast<int>(std::min(steps, distance(a.at, b.at) / 20)), 1, 1000);
+  };
+  std::size_t first = 1;
+  while (first < path.size() && pieces_to(first) == 1) ++first;
+  if (first >= path.size()) return;
   std::vector<Vertex> out;
-  out.reserve(path.size());
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    if (i > 0) {
-      const Vertex a = path[i - 1], b = path[i];
-      const double d = distance(a.at, b.at);
-      const int pieces =
-          std::clamp(static_cast<int>(std::min(std::abs(b.width - a.width) / width_step_um, d / 20)), 1, 1000);
-      for (int k = 1; k < pieces; ++k) out.push_back(lerp(a, b, static_cast<double>(k) / pieces));
-    }
+  out.reserve(2 * path.size());
+  out.assign(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(first));
+  for (std::size_t i = first; i < path.size(); ++i) {
+    const int pieces = pieces_to(i);
+    for (int k = 1; k < pieces; ++k) out.push_back(lerp(path[i - 1], path[i], static_cast<double>(k) / pieces));
     out.push_back(path[i]);
   }
   path = std::move(out);
