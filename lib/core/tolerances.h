@@ -25,7 +25,11 @@ inline constexpr Um band_step = 20_um;
 inline constexpr Um shortest_piece = 0.2_mm;
 
 /// … but where the band would change by more than this over it, three tenths of a bead: there, in corners, half as
-/// long is allowed.
+/// long is allowed. motion/resample, walls/trace.
 inline constexpr Um band_leap = 135_um;
+
+/// A piece of a bead no longer than this that goes straight on is part of the move before or after: it tells of a step
+/// in width, and firmware plans a limited number of moves a second. gcode/moves; walls/trace, walls/footprints.
+inline constexpr Um least_move = 12_um;
 
 }  // namespace weft::tolerances

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/microns.h"
+#include "core/tolerances.h"
 #include "model/bead.h"
 
 #include <cmath>
@@ -9,21 +9,17 @@
 /// Private to gcode: which moves a bead is printed with.
 namespace weft::gcode {
 
-/// A piece of a bead no longer than this is part of the move before or after it if that goes straight on: it tells of a
-/// step in width, and firmware plans a limited number of moves a second. µm.
-inline constexpr double least_move = 12;
-
 /// How far a vertex may lie off a move that goes straight on. µm.
 inline constexpr double straight_move = 1;
 
 /// A move to junction `to`, from where the last one ended, printed as the piece that ends at junction `piece` is.
 struct Move {
   std::size_t piece, to;
-  double volume_mm3;  ///< of all pieces since the last move, at flow 1
+  double volume_mm3;  ///< of all pieces since the last move
 };
 
-/// Calls `f` for each move of a path, in order. Post: the last ends at the path's last place; the volumes sum up to
-/// that of all pieces. Pre: at least two junctions.
+/// Calls `f` for each move of a path, in order: each piece, but those that tolerances::least_move tells of. Post: the
+/// last ends at the path's last place; the volumes sum up to that of all pieces. Pre: at least two junctions.
 template <class F>
 void for_each_move(const std::vector<Junction>& path, double height_mm, F f) {
   const std::size_t last = path.size() - 1;
@@ -44,12 +40,13 @@ void for_each_move(const std::vector<Junction>& path, double height_mm, F f) {
   for (std::size_t from = 0, i = 1; i <= last; ++i) {
     double ahead = i < last ? length(i + 1) : 0;
     volume += here / 1000.0 * mean_area_mm2(path[i - 1], path[i], height_mm);
-    if (from + 1 == i && i < last && here <= least_move && straight(from, i + 1)) {
+    if (from + 1 == i && i < last && here <= tolerances::least_move && straight(from, i + 1)) {
       here = ahead;
       continue;
     }
     std::size_t to = i;
-    if (i < last && ahead <= least_move && straight(from, i + 1) && (i + 1 == last || !straight(i, i + 2))) {
+    if (i < last && ahead <= tolerances::least_move && straight(from, i + 1) &&
+        (i + 1 == last || !straight(i, i + 2))) {
       to = i + 1;
       volume += ahead / 1000.0 * mean_area_mm2(path[i], path[to], height_mm);
       ahead = to < last ? length(to + 1) : 0;

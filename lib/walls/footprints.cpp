@@ -1,5 +1,6 @@
 #include "walls/footprints.h"
 
+#include "core/tolerances.h"
 #include "walls/keep_volume.h"
 #include "walls/move_aside.h"
 
@@ -88,7 +89,7 @@ Footprints::Footprints(Room& room, Point origin, Um nominal, Um narrowest, const
       const Um twice = bead.path[k].width + bead.path[(k + 1) % n].width;
       if (bead.closed && std::abs(twice - 2 * nominal) <= 2 * nominal_within) continue;
       const Piece p = piece_of(bead, k, origin);
-      if (distance(p.a, p.b) <= step_um) continue;
+      if (distance(p.a, p.b) <= tolerances::least_move) continue;  // a step of width
       const double swollen = (1 + most_change) * p.half;
       if (swollen - room.beside(p.a, p.b, swollen) > noticed_um) suspect.pieces.push_back(k);
     }

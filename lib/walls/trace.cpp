@@ -146,6 +146,7 @@ bool steps(const Vertex& a, const Vertex& b) {
 /// Not at the end of a piece, but so near that no more of it is spread.
 Vertex near(const Vertex& from, const Vertex& other) {
   constexpr double step_um = 10;
+  static_assert(step_um < tolerances::least_move, "no move of its own");
   return lerp(from, other, std::min(0.25, step_um / std::max(1.0, distance(from.at, other.at))));
 }
 
