@@ -9,19 +9,18 @@
 /// Private to gcode: which moves a bead is printed with.
 namespace weft::gcode {
 
-/// How far a vertex may lie off a move that goes straight on. µm.
-inline constexpr double straight_move = 1;
-
 /// A move to junction `to`, from where the last one ended, printed as the piece that ends at junction `piece` is.
 struct Move {
   std::size_t piece, to;
   double volume_mm3;  ///< of all pieces since the last move
 };
 
-/// Calls `f` for each move of a path, in order: each piece, but those that tolerances::least_move tells of. Post: the
-/// last ends at the path's last place; the volumes sum up to that of all pieces. Pre: at least two junctions.
+/// Calls `f` for each move of a path, in order: each piece, but those of no length and those that
+/// tolerances::least_move tells of. Pre: at least two junctions. Post: the last ends at the path's last place, no
+/// junction lies further off than `straight_um`, the volumes sum up to that of all pieces.
 template <class F>
 void for_each_move(const std::vector<Junction>& path, double height_mm, F f) {
+  constexpr double straight_um = 1;
   const std::size_t last = path.size() - 1;
   const auto length = [&](std::size_t i) { return distance(path[i - 1].at, path[i].at); };
   const auto straight = [&](std::size_t from, std::size_t to) {  // past the junctions in between, at most two
@@ -31,7 +30,7 @@ void for_each_move(const std::vector<Junction>& path, double height_mm, F f) {
     for (std::size_t i = from + 1; i < to; ++i) {
       const double u = static_cast<double>(path[i].at.x - a.x), v = static_cast<double>(path[i].at.y - a.y);
       const double off = u * y - v * x, along = u * x + v * y;
-      if (off * off >= straight_move * straight_move * length2 || along <= before || along >= length2) return false;
+      if (off * off >= straight_um * straight_um * length2 || along <= before || along >= length2) return false;
       before = along;
     }
     return true;

@@ -57,8 +57,9 @@ void add(Regions& to, Regions more) {
 template <class F>
 void by_batches(const Regions& what, const Regions& by, F f) {
   constexpr std::size_t batch = 512;
+  static const Regions none;
   if (what.size() <= batch) {
-    f(what, box_of(what).overlaps(box_of(by)) ? by : Regions{});
+    f(what, box_of(what).overlaps(box_of(by)) ? by : none);
     return;
   }
   std::vector<Box> boxes;

@@ -20,6 +20,7 @@ Regions regions_from_rings(std::span<const Ring> rings, WindingRule rule = Windi
 
 Regions unite(const Regions& regions);
 Regions unite(const Regions& a, const Regions& b);
+/// This and the two below: asks between batches of thousands of regions whether the job is to be stopped (core/stop.h).
 Regions intersect(const Regions& a, const Regions& b);
 /// What of `from` is not in `what`.
 Regions subtract(const Regions& from, const Regions& what);

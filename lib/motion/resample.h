@@ -14,7 +14,8 @@ namespace weft::motion {
 void thin_out(std::vector<Junction>& path);
 
 /// Cuts segments along which band times flow changes by more than tolerances::band_step, into pieces of at least
-/// tolerances::shortest_piece. The volume stays.
+/// tolerances::shortest_piece, or half of that where they would change by more than tolerances::band_leap. The volume
+/// stays.
 void cut_where_width_changes(std::vector<Junction>& path);
 
 /// Both.

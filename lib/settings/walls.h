@@ -71,8 +71,9 @@ inline constexpr std::tuple wall_schema{
     setting("min_wall_length", &WallSettings::min_wall_length, Unit::mm, 0_mm, 100_mm,
             "Shorter middle walls are left out."),
     setting("wall_corner_width", &WallSettings::wall_corner_width, Unit::percent, 50, 100,
-            "Width of a wall where it bends around a convex corner of up to 100°, as a share of its width: narrower "
-            "walls reach further into corners, and leave smaller gaps between each other; 100 keeps the width."),
+            "Width of a wall where it bends around a convex corner of up to 100°, as a share of its width (of "
+            "wall_line_width_0 where the outermost is wider): narrower walls reach further into corners, and leave "
+            "smaller gaps between each other; never below min_output_width; 100 keeps the width."),
     setting("flow_compensation", &WallSettings::flow_compensation,
             "Walls too narrow for a steady strand are planned at min_output_width with less flow."),
     setting("min_output_width", &WallSettings::min_output_width, Unit::mm, 0.01_mm, 5_mm,

@@ -13,7 +13,7 @@ constexpr double even_um = 2.0;      // … where the width is this close to the
 constexpr double parallel_um = 0.3;  // … of closed walls this close: where each loses other vertices they leave gaps
 constexpr double even_inside = 0.5;  // of the width: an end inside that tapers more keeps its steps
 constexpr double any_taper = 1.0;    // … no end tapers more
-constexpr double width_step_um = 15.0;  // a segment is printed at one width: no more difference over it than this
+constexpr double width_step_um = 15.0;  // a segment is printed at one width: from twice this difference on it is cut
 
 /// The chords from one vertex that lie at most `off` µm from the vertices they stand for, and whose width is within
 /// even_um of theirs: a cone of directions, and a range of changes of width by length, that each of those vertices

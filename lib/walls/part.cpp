@@ -121,9 +121,6 @@ Part part_of(const WallSettings& settings, const Widths& widths, const Region& r
   options.corner = std::max(options.steep, std::sin(corner_deg / 2 * std::numbers::pi / 180));
   options.ramp = settings.wall_transition_length.of(nozzle);
   options.filter = settings.wall_transition_filter_distance;
-  options.corner_width = settings.wall_corner_width / 100;
-  options.narrowest = std::max<double>(settings.min_output_width, std::max(widths.outer, widths.inner) / 4);
-  const Laying laying = lay(skeleton, widths, options);
   FinishOptions finishing;
   finishing.origin = axis.origin;
   finishing.part = index;
@@ -133,6 +130,9 @@ Part part_of(const WallSettings& settings, const Widths& widths, const Region& r
   finishing.stable_outer = std::max<double>(settings.min_output_width, widths.outer / 4);
   finishing.stable_inner = std::max<double>(settings.min_output_width, widths.inner / 4);
   finishing.most_width = widths.most;
+  options.corner_width = settings.wall_corner_width / 100;
+  options.narrowest = std::max(finishing.stable_outer, finishing.stable_inner);
+  const Laying laying = lay(skeleton, widths, options);
   // So small a part gets an even bead: what pieces of it would gain they would swell over each other.
   const bool dab = 1e6 * area_mm2(region) < dab_share * widths.outer * widths.outer;
   if (dab) finishing.even_taper = 1e9;

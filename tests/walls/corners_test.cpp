@@ -81,8 +81,8 @@ TEST_CASE("walls: bends take up to 100°, and no wall gets narrower than min_out
   CHECK(narrowest(walls_with(75, rectangle(0, 0, 10_mm, 10_mm), 0.3_mm)) == Approx(300 - 43).margin(2));
 }
 
-TEST_CASE("walls: a wall in a corner keeps to the outline and leaves nothing bare behind it", "[walls]") {
-  // The corner's tip apart, which no round bead reaches.
+TEST_CASE("walls: a wall in a corner keeps to the outline and leaves less bare behind it", "[walls]") {
+  // Less than with bends as wide as walls; the corner's tip apart, which no round bead reaches.
   const Region square = rectangle(0, 0, 10_mm, 10_mm);
   const auto bare = [](const WallLayer& walls) {
     int n = 0;
