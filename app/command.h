@@ -1,6 +1,6 @@
 #pragma once
 #include "console.h"
-#include "settings/profile.h"
+#include "profile/profile.h"
 
 #include <filesystem>
 #include <optional>

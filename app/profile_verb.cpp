@@ -1,9 +1,9 @@
 #include "command.h"
 #include "pipeline/profile_file.h"
+#include "profile/rules.h"
+#include "prusaslicer/export.h"
 #include "settings/catalogue.h"
 #include "settings/near.h"
-#include "settings/prusaslicer_export.h"
-#include "settings/rules.h"
 #include "verbs.h"
 
 #include <sstream>

@@ -1,6 +1,6 @@
 # weft_module(NAME [ONCE] [USES module...] [PUBLIC lib...] [PRIVATE lib...])
 #
-# A module is a folder of lib/ and the library made of the .cpp files in it. USES names the modules whose headers it may
+# A module is a folder of lib/ and the library made of the .cpp files in it and in folders of it. USES names the modules whose headers it may
 # include; the row also goes to modules.txt, from which a test checks every #include (tests/architecture.cmake). What
 # runs once a job is compiled to be small: a page of a program that is never run still takes memory beside one that is.
 set_property(GLOBAL PROPERTY WEFT_MODULES "")
@@ -8,7 +8,7 @@ file(WRITE ${CMAKE_BINARY_DIR}/modules.txt "")
 
 function(weft_module name)
   cmake_parse_arguments(arg "ONCE" "" "USES;PUBLIC;PRIVATE" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
   list(TRANSFORM arg_USES PREPEND weft_ OUTPUT_VARIABLE used)
   if(sources)
     add_library(weft_${name} STATIC ${sources})

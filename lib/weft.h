@@ -11,4 +11,4 @@
 /// Everything else below this folder may change without notice.
 
 #include "pipeline/pipeline.h"
-#include "settings/profile.h"
+#include "profile/profile.h"

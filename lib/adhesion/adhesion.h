@@ -2,7 +2,7 @@
 #include "core/notice.h"
 #include "core/polygon.h"
 #include "model/bead.h"
-#include "settings/adhesion.h"
+#include "settings/groups/adhesion.h"
 
 #include <span>
 #include <vector>

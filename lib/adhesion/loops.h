@@ -1,6 +1,6 @@
 #pragma once
 #include "core/polygon.h"
-#include "settings/adhesion.h"
+#include "settings/groups/adhesion.h"
 
 #include <vector>
 

@@ -4,9 +4,9 @@
 #include "core/error.h"
 #include "core/notice.h"
 #include "core/point.h"
-#include "settings/audit.h"
-#include "settings/machine.h"
-#include "settings/material.h"
+#include "settings/groups/audit.h"
+#include "settings/groups/machine.h"
+#include "settings/groups/material.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,7 +1,7 @@
 #pragma once
 #include "gcode/text.h"
 #include "model/bead.h"
-#include "settings/gcode.h"
+#include "settings/groups/gcode.h"
 
 #include <string_view>
 

@@ -1,8 +1,8 @@
 #pragma once
 #include "gcode/text.h"
 #include "model/plan.h"
-#include "settings/gcode.h"
-#include "settings/machine.h"
+#include "settings/groups/gcode.h"
+#include "settings/groups/machine.h"
 
 #include <string>
 #include <vector>

@@ -1,8 +1,8 @@
 #include "gcode/placeholders.h"
 
+#include "prusaslicer/keys.h"
 #include "settings/catalogue.h"
 #include "settings/gcode_variables.h"
-#include "settings/prusaslicer_keys.h"
 #include "settings/value.h"
 
 #include <algorithm>

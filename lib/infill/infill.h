@@ -1,8 +1,8 @@
 #pragma once
 #include "infill/shells.h"
 #include "model/layer.h"
-#include "settings/infill.h"
-#include "settings/shells.h"
+#include "settings/groups/infill.h"
+#include "settings/groups/shells.h"
 
 #include <cstddef>
 

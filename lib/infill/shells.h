@@ -1,7 +1,7 @@
 #pragma once
 #include "core/polygon.h"
-#include "settings/infill.h"
-#include "settings/shells.h"
+#include "settings/groups/infill.h"
+#include "settings/groups/shells.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #pragma once
 #include "core/polygon.h"
 #include "model/bead.h"
-#include "settings/infill.h"
+#include "settings/groups/infill.h"
 
 namespace weft::infill {
 

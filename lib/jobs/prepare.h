@@ -1,6 +1,6 @@
 #pragma once
 #include "jobs/job_list.h"
-#include "settings/profile.h"
+#include "profile/profile.h"
 
 namespace weft::jobs {
 

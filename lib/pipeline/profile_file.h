@@ -1,5 +1,5 @@
 #pragma once
-#include "settings/profile.h"
+#include "profile/profile.h"
 
 #include <filesystem>
 

@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 #include "gcode/placeholders.h"
-#include "settings/profile.h"
+#include "profile/profile.h"
 #include "settings/value.h"
 
 #include <charconv>

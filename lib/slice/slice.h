@@ -2,7 +2,7 @@
 #include "core/notice.h"
 #include "mesh/mesh.h"
 #include "model/layer.h"
-#include "settings/layers.h"
+#include "settings/groups/layers.h"
 
 #include <cstdint>
 #include <span>

@@ -1,5 +1,5 @@
 #pragma once
-#include "settings/travel.h"
+#include "settings/groups/travel.h"
 #include "travel/tour.h"
 
 #include <optional>

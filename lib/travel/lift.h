@@ -1,5 +1,5 @@
 #pragma once
-#include "settings/retraction.h"
+#include "settings/groups/retraction.h"
 #include "travel/travel.h"
 
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 #include "model/plan.h"
-#include "settings/travel.h"
+#include "settings/groups/travel.h"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #pragma once
 #include "model/bead.h"
-#include "settings/travel.h"
+#include "settings/groups/travel.h"
 #include "travel/comb.h"
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
 #include "core/point.h"
-#include "settings/travel.h"
+#include "settings/groups/travel.h"
 
 #include <cstdint>
 #include <optional>

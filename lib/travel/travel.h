@@ -1,7 +1,7 @@
 #pragma once
 #include "model/plan.h"
-#include "settings/retraction.h"
-#include "settings/travel.h"
+#include "settings/groups/retraction.h"
+#include "settings/groups/travel.h"
 #include "travel/comb.h"
 #include "travel/seam.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "settings/walls.h"
+#include "settings/groups/walls.h"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #pragma once
 #include "model/bead.h"
-#include "settings/walls.h"
+#include "settings/groups/walls.h"
 #include "walls/trace.h"
 
 /// Private to walls: from lines in fractional microns to beads on the lattice.

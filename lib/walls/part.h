@@ -1,6 +1,6 @@
 #pragma once
 #include "model/bead.h"
-#include "settings/walls.h"
+#include "settings/groups/walls.h"
 #include "walls/beading.h"
 
 /// Private to walls: the walls of one region of a layer.

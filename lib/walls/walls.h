@@ -1,6 +1,6 @@
 #pragma once
 #include "model/layer.h"
-#include "settings/walls.h"
+#include "settings/groups/walls.h"
 
 #include <cstddef>
 

@@ -9,7 +9,7 @@
 #include "infill/shells.h"
 #include "mesh/read.h"
 #include "motion/motion.h"
-#include "settings/profile.h"
+#include "profile/profile.h"
 #include "slice/slice.h"
 #include "travel/tour.h"
 #include "travel/travel.h"

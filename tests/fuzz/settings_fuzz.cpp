@@ -4,8 +4,8 @@
 //   build/fuzz/tests/fuzz_settings -max_total_time=900 -max_len=8192 corpus/ profiles tests/fuzz/seeds/settings
 #include "core/error.h"
 #include "gcode/writer.h"
+#include "profile/profile.h"
 #include "settings/catalogue.h"
-#include "settings/profile.h"
 
 #include <cstdint>
 #include <cstdlib>

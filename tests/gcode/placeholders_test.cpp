@@ -3,7 +3,7 @@
 #include "core/error.h"
 #include "gcode/custom_code.h"
 #include "gcode/writer.h"
-#include "settings/profile.h"
+#include "profile/profile.h"
 #include "settings_error.h"
 
 #include <filesystem>

@@ -3,8 +3,8 @@
 #include "cuboid.h"
 #include "pipeline/cached.h"
 #include "pipeline/pipeline.h"
+#include "profile/profile.h"
 #include "settings/catalogue.h"
-#include "settings/profile.h"
 
 #include <array>
 #include <atomic>

@@ -1,7 +1,7 @@
-#include "settings/machine.h"
+#include "settings/groups/machine.h"
 
 #include "core/error.h"
-#include "settings/profile.h"
+#include "profile/profile.h"
 
 #include <catch2/catch.hpp>
 

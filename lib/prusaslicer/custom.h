@@ -1,5 +1,5 @@
 #pragma once
-#include "settings/prusaslicer_lines.h"
+#include "prusaslicer/lines.h"
 
 #include <string>
 #include <vector>

@@ -1,11 +1,11 @@
-#include "settings/prusaslicer.h"
+#include "prusaslicer/import.h"
 
 #include "core/error.h"
-#include "settings/prusaslicer_custom.h"
-#include "settings/prusaslicer_defaults.h"
-#include "settings/prusaslicer_keys.h"
-#include "settings/prusaslicer_lines.h"
-#include "settings/prusaslicer_text.h"
+#include "prusaslicer/custom.h"
+#include "prusaslicer/defaults.h"
+#include "prusaslicer/keys.h"
+#include "prusaslicer/lines.h"
+#include "prusaslicer/text.h"
 #include "settings/value.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "settings/prusaslicer_text.h"
+#include "prusaslicer/text.h"
 
 #include "core/join.h"
 #include "settings/gcode_variables.h"

@@ -1,4 +1,4 @@
-#include "settings/prusaslicer.h"
+#include "prusaslicer/import.h"
 #include "settings/value.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "settings/rules.h"
+#include "profile/rules.h"
 
 #include "settings/value.h"
 

@@ -1,6 +1,6 @@
-#include "settings/machine.h"
-#include "settings/profile.h"
-#include "settings/rules.h"
+#include "profile/profile.h"
+#include "profile/rules.h"
+#include "settings/groups/machine.h"
 
 #include <filesystem>
 #include <set>

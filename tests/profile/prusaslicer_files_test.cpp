@@ -1,9 +1,9 @@
 #include "core/error.h"
+#include "profile/profile.h"
+#include "profile/rules.h"
+#include "prusaslicer/export.h"
 #include "settings/catalogue.h"
 #include "settings/gcode_variables.h"
-#include "settings/profile.h"
-#include "settings/prusaslicer_export.h"
-#include "settings/rules.h"
 
 #include <algorithm>
 #include <filesystem>

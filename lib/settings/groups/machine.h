@@ -110,7 +110,7 @@ inline constexpr std::tuple machine_schema{
 static_assert(complete<MachineSettings>(machine_schema));
 
 /// The print surface, counter-clockwise. A circle of diameter machine_width becomes an inscribed polygon that stands
-/// off it by at most tolerances::arc. Pre: a consistent machine (settings/profile.h).
+/// off it by at most tolerances::arc. Pre: a consistent machine (profile/profile.h).
 Ring print_surface(const MachineSettings& machine);
 
 /// The area that the nozzle can go to, counter-clockwise: machine_reach, or the print surface where that is empty.

@@ -1,7 +1,7 @@
 #pragma once
 #include "core/notice.h"
-#include "settings/prusaslicer.h"
-#include "settings/prusaslicer_bundle.h"
+#include "prusaslicer/bundle.h"
+#include "prusaslicer/import.h"
 #include "settings/settings.h"
 
 #include <filesystem>

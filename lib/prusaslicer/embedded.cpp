@@ -1,4 +1,4 @@
-#include "settings/prusaslicer_embedded.h"
+#include "prusaslicer/embedded.h"
 
 #include "core/error.h"
 #include "settings/value.h"

@@ -1,6 +1,6 @@
 #include "core/error.h"
+#include "profile/profile.h"
 #include "settings/catalogue.h"
-#include "settings/profile.h"
 
 #include <filesystem>
 #include <fstream>

@@ -1,9 +1,9 @@
-#include "settings/prusaslicer_lines.h"
+#include "prusaslicer/lines.h"
 
 #include "core/error.h"
-#include "settings/prusaslicer_keys.h"
-#include "settings/prusaslicer_old_keys.h"
-#include "settings/prusaslicer_text.h"
+#include "prusaslicer/keys.h"
+#include "prusaslicer/old_keys.h"
+#include "prusaslicer/text.h"
 #include "settings/value.h"
 
 #include <array>

@@ -1,11 +1,11 @@
-#include "settings/profile.h"
+#include "profile/profile.h"
 
 #include "core/error.h"
+#include "prusaslicer/embedded.h"
+#include "prusaslicer/import.h"
 #include "settings/catalogue.h"
 #include "settings/gcode_variables.h"
 #include "settings/ini.h"
-#include "settings/prusaslicer.h"
-#include "settings/prusaslicer_embedded.h"
 
 #include <fstream>
 #include <iterator>

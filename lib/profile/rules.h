@@ -1,6 +1,6 @@
 #pragma once
 #include "core/notice.h"
-#include "settings/profile.h"
+#include "profile/profile.h"
 
 namespace weft {
 

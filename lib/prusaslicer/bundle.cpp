@@ -1,10 +1,10 @@
-#include "settings/prusaslicer_bundle.h"
+#include "prusaslicer/bundle.h"
 
 #include "core/error.h"
 #include "macro/macro.h"
+#include "prusaslicer/defaults.h"
+#include "prusaslicer/text.h"
 #include "settings/near.h"
-#include "settings/prusaslicer_defaults.h"
-#include "settings/prusaslicer_text.h"
 #include "settings/value.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
-#include "settings/prusaslicer_custom.h"
+#include "prusaslicer/custom.h"
 
+#include "prusaslicer/text.h"
 #include "settings/catalogue.h"
-#include "settings/prusaslicer_text.h"
 #include "settings/value.h"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
-#include "settings/prusaslicer_export.h"
+#include "prusaslicer/export.h"
 
 #include "core/version.h"
+#include "prusaslicer/keys.h"
+#include "prusaslicer/text.h"
 #include "settings/catalogue.h"
-#include "settings/prusaslicer_keys.h"
-#include "settings/prusaslicer_text.h"
 #include "settings/value.h"
 
 #include <algorithm>

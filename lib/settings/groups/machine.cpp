@@ -1,4 +1,4 @@
-#include "settings/machine.h"
+#include "settings/groups/machine.h"
 
 #include "core/tolerances.h"
 

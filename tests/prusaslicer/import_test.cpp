@@ -1,8 +1,8 @@
-#include "settings/prusaslicer.h"
+#include "prusaslicer/import.h"
 
 #include "core/error.h"
+#include "prusaslicer/keys.h"
 #include "settings/catalogue.h"
-#include "settings/prusaslicer_keys.h"
 
 #include <algorithm>
 #include <set>

@@ -1,6 +1,7 @@
+#include "prusaslicer/bundle.h"
+
 #include "core/error.h"
-#include "settings/profile.h"
-#include "settings/prusaslicer_bundle.h"
+#include "profile/profile.h"
 #include "settings_error.h"
 
 #include <algorithm>
