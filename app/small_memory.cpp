@@ -11,7 +11,7 @@
 /// where the system grants no range, is malloc's. Source of the pages' lists: Leijen, Zorn & de Moura 2019, "Mimalloc:
 /// free list sharding in action".
 ///
-/// Not where a sanitizer watches memory: it has operators of its own.
+/// Where a sanitizer watches memory the operators are its own; `take` and `give` are there for tests that it sees.
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define WEFT_MEMORY_IS_WATCHED
@@ -21,16 +21,19 @@
 #endif
 #endif
 
-#if defined(__linux__) && !defined(WEFT_MEMORY_IS_WATCHED)
+#include "small_memory.h"
+
 #include <algorithm>
+#include <cstdlib>
+#include <new>
+
+#if defined(__linux__)
 #include <array>
 #include <atomic>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <mutex>
-#include <new>
 
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -286,6 +289,12 @@ void return_to_owner(Page* page, void* memory) {
   }
 }
 
+}  // namespace
+#endif
+
+namespace weft::small_memory {
+namespace {
+
 void* from_malloc(std::size_t bytes) {
   for (;;) {
     if (void* const memory = std::malloc(std::max<std::size_t>(bytes, 1))) return memory;
@@ -297,14 +306,15 @@ void* from_malloc(std::size_t bytes) {
 
 }  // namespace
 
-void* operator new(std::size_t bytes) {
+#if defined(__linux__)
+void* take(std::size_t bytes) {
   if (const std::size_t kind = kind_of(bytes); kind < kinds)
     if (Heap* const heap = mine != nullptr ? mine : find_heap())
       if (void* const piece = heap->take(kind)) return piece;
   return from_malloc(bytes);
 }
 
-void operator delete(void* memory) noexcept {
+void give(void* memory) noexcept {
   if (!range.holds(memory)) return std::free(memory);
   Page* const page = page_of(memory);
   if (page->owner == mine)
@@ -312,9 +322,28 @@ void operator delete(void* memory) noexcept {
   else
     return_to_owner(page, memory);
 }
-
-void operator delete(void* memory, std::size_t) noexcept {
-  operator delete(memory);
+#else
+void* take(std::size_t bytes) {
+  return from_malloc(bytes);
 }
 
+void give(void* memory) noexcept {
+  std::free(memory);
+}
+#endif
+
+}  // namespace weft::small_memory
+
+#if defined(__linux__) && !defined(WEFT_MEMORY_IS_WATCHED)
+void* operator new(std::size_t bytes) {
+  return weft::small_memory::take(bytes);
+}
+
+void operator delete(void* memory) noexcept {
+  weft::small_memory::give(memory);
+}
+
+void operator delete(void* memory, std::size_t) noexcept {
+  weft::small_memory::give(memory);
+}
 #endif

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What weft is built with: Debian 12 packages, and nothing from anywhere else. Installs those that are missing; when none is
-# missing it touches neither network nor package manager. Elsewhere (no dpkg): cmake names the library that it cannot find.
+# missing it touches neither network nor package manager. Packages named as arguments are wanted besides. Elsewhere (no dpkg): cmake names the library that it cannot find.
 set -euo pipefail
 
 packages=(
@@ -11,6 +11,8 @@ packages=(
   libminizip-dev libexpat1-dev libpng-dev                       # 3MF, pictures
   catch2 libzip-dev                                             # tests
 )
+
+packages+=("$@")
 
 command -v dpkg-query > /dev/null || exit 0
 missing=()

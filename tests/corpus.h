@@ -1,4 +1,6 @@
 #pragma once
+#include "source.h"
+
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
@@ -16,7 +18,7 @@
 inline std::optional<std::filesystem::path> corpus(std::string_view relative) {
   const char* named = std::getenv("WEFT_CORPUS");
   const std::filesystem::path root =
-      named && *named ? std::filesystem::path(named) : std::filesystem::path(WEFT_SOURCE_DIR) / "../shared/corpus";
+      named && *named ? std::filesystem::path(named) : tests::source / "../shared/corpus";
   auto path = root / relative;
   std::error_code error;
   if (std::filesystem::exists(path, error)) return path;

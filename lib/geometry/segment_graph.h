@@ -23,13 +23,21 @@
 #include <CGAL/Triangulation_data_structure_2.h>
 #include <CGAL/property_map.h>
 #include <CGAL/spatial_sort.h>
+#include <CGAL/version.h>
 
 /// Private to medial_axis: CGAL's segment Delaunay graph, grown by a way of our own.
 ///
 /// A site is inserted by finding the Voronoi vertices whose circles it enters. CGAL computes each circle anew whenever
 /// it is asked, in interval arithmetic; here a circle is computed once, in double, with a bound of its error, and what
-/// that bound leaves open is asked of CGAL: the graph is the same.
+/// that bound leaves open is asked of CGAL: the graph is the same (tests/geometry/segment_graph_test.cpp compares
+/// them). The order of insertion, the search for the faces that a site enters and the filling of their hole follow
+/// Segment_Delaunay_graph_2 of CGAL (Menelaos Karavelas; GPL-3.0-or-later), whose protected members they use.
 namespace weft::geometry::detail {
+
+static_assert(
+    CGAL_VERSION_NR >= 1050500000 && CGAL_VERSION_NR < 1050600000,
+    "members of CGAL that are not documented are used here, as CGAL 5.5 has them: with another version run the "
+    "tests of the segment graph, then widen this");
 
 /// A vertex or a face of CGAL's that carries data of ours.
 template <class Base, class Data>

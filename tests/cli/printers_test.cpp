@@ -1,4 +1,5 @@
 #include "cli/program.h"
+#include "source.h"
 
 #include <algorithm>
 
@@ -9,7 +10,7 @@ using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
 TEST_CASE("printers: the example passes the audit on each printer that comes with weft") {
-  const fs::path root = WEFT_SOURCE_DIR;
+  const fs::path root = tests::source;
   Scratch scratch;
   std::size_t printers = 0;
   for (const auto& entry : fs::directory_iterator(root / "profiles/printers")) {

@@ -5,6 +5,7 @@
 #include "gcode/writer.h"
 #include "profile/profile.h"
 #include "settings_error.h"
+#include "source.h"
 
 #include <filesystem>
 
@@ -100,7 +101,7 @@ TEST_CASE("gcode: no name smuggles a command in") {
 
 TEST_CASE("gcode: the custom G-code of every profile expands") {
   std::size_t count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(WEFT_SOURCE_DIR) + "/profiles/printers")) {
+  for (const auto& entry : std::filesystem::directory_iterator(tests::source / "profiles/printers")) {
     INFO(entry.path().filename());
     Profile profile;
     apply_file(profile, entry.path());
@@ -112,6 +113,6 @@ TEST_CASE("gcode: the custom G-code of every profile expands") {
 
 TEST_CASE("gcode: the example of custom G-code is sound") {
   Profile profile;
-  apply_file(profile, std::string(WEFT_SOURCE_DIR) + "/examples/custom-gcode.ini");
+  apply_file(profile, tests::source / "examples/custom-gcode.ini");
   CHECK_NOTHROW(check_custom_code(profile.settings));
 }

@@ -1,4 +1,5 @@
 #include "macro/macro.h"
+#include "source.h"
 
 #include <fstream>
 #include <string>
@@ -12,7 +13,7 @@ namespace {
 /// The printer of tests/data/macro, and what the print variables were when PrusaSlicer was asked.
 Variables printer() {
   Variables out;
-  std::ifstream in(std::string(WEFT_TEST_DATA) + "/macro/printer.ini");
+  std::ifstream in(tests::source / "tests/data/macro/printer.ini");
   for (std::string line; std::getline(in, line);) {
     const auto equals = line.find(" = ");
     if (line[0] == '#' || equals == std::string::npos) continue;
@@ -41,7 +42,7 @@ Variables printer() {
 
 TEST_CASE("macro: what PrusaSlicer 2.5 makes of custom G-code, weft makes of it", "[golden]") {
   const auto variables = printer();
-  std::ifstream in(std::string(WEFT_TEST_DATA) + "/macro/expressions.txt");
+  std::ifstream in(tests::source / "tests/data/macro/expressions.txt");
   std::size_t count = 0;
   for (std::string line; std::getline(in, line); ++count) {
     const auto tab = line.find('\t');

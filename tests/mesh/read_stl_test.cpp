@@ -4,6 +4,7 @@
 #include "mesh/fixtures.h"
 #include "mesh/formats.h"
 #include "mesh/weld.h"
+#include "source.h"
 #include "tasks/tasks.h"
 
 #include <algorithm>
@@ -263,7 +264,7 @@ TEST_CASE("mesh: a file that cannot be read is an error of the file, not of the 
     return Error::Kind::usage;
   };
   CHECK(kind_of("/nonexistent/part.stl") == Error::Kind::file);
-  CHECK(kind_of(WEFT_SOURCE_DIR) == Error::Kind::file);
+  CHECK(kind_of(tests::source.string()) == Error::Kind::file);
   CHECK(kind_of("/dev/null") == Error::Kind::model);
 }
 

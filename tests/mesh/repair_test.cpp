@@ -1,5 +1,6 @@
 #include "mesh/box_tree.h"
 #include "mesh/fixtures.h"
+#include "source.h"
 #include "tasks/tasks.h"
 
 #include <algorithm>
@@ -327,7 +328,7 @@ TEST_CASE("mesh: a vertex of very many edges does not slow the repair down", "[m
 
 TEST_CASE("mesh: the example models are sound as they are", "[mesh][repair]") {
   const std::string name = GENERATE("box.stl", "bracket.stl", "calibration-tower.stl");
-  const Loaded loaded = read_file(std::string(WEFT_SOURCE_DIR) + "/examples/" + name);
+  const Loaded loaded = read_file(tests::source / "examples/" / name);
   REQUIRE(loaded.objects.size() == 1);
   CHECK(loaded.objects[0].repairs == Repairs{.shells = 1});
   CHECK(loaded.objects[0].mesh.triangles.size() == loaded.triangles_in_file);

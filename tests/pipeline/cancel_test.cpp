@@ -1,5 +1,6 @@
 #include "core/error.h"
 #include "pipeline/pipeline.h"
+#include "source.h"
 
 #include <algorithm>
 #include <atomic>
@@ -21,7 +22,7 @@ namespace {
 
 Job box_job() {
   Job job;
-  job.models = {std::string(WEFT_SOURCE_DIR) + "/examples/box.stl"};
+  job.models = {tests::source / "examples/box.stl"};
   job.settings.machine.machine_width = job.settings.machine.machine_depth = 200_mm;
   return job;
 }

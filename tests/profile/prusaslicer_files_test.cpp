@@ -4,6 +4,7 @@
 #include "prusaslicer/export.h"
 #include "settings/catalogue.h"
 #include "settings/gcode_variables.h"
+#include "source.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -73,8 +74,7 @@ TEST_CASE("files: G-code without a configuration, and binary G-code, are errors 
 
 TEST_CASE("export: what is written for PrusaSlicer says the same when it is read again") {
   for (const auto* folder : {"printers", "materials", "quality"})
-    for (const auto& entry :
-         std::filesystem::directory_iterator(std::filesystem::path(WEFT_SOURCE_DIR) / "profiles" / folder)) {
+    for (const auto& entry : std::filesystem::directory_iterator(tests::source / "profiles" / folder)) {
       INFO(entry.path().filename().string());
       Profile before;
       apply_file(before, entry.path());

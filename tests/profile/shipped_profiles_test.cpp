@@ -1,6 +1,7 @@
 #include "profile/profile.h"
 #include "profile/rules.h"
 #include "settings/groups/machine.h"
+#include "source.h"
 
 #include <filesystem>
 #include <set>
@@ -15,7 +16,7 @@ namespace {
 /// The profiles of that folder that come with weft, in order of name.
 std::vector<fs::path> shipped(const char* folder) {
   std::set<fs::path> out;
-  for (const auto& entry : fs::directory_iterator(fs::path(WEFT_SOURCE_DIR) / "profiles" / folder))
+  for (const auto& entry : fs::directory_iterator(tests::source / "profiles" / folder))
     if (entry.path().extension() == ".ini") out.insert(entry.path());
   return {out.begin(), out.end()};
 }
@@ -75,8 +76,8 @@ TEST_CASE("profiles: a printer that comes with weft leaves nothing to doubt, and
     apply_file(profile, printer);
     apply_file(profile, shipped("materials").begin()->parent_path() / "pla.ini");
     const auto nozzle = nozzle_of(printer);
-    apply_file(profile, fs::path(WEFT_SOURCE_DIR) / "profiles/quality" /
-                            (nozzle == "0.4" ? "standard.ini" : "standard-" + nozzle + ".ini"));
+    apply_file(profile,
+               tests::source / "profiles/quality" / (nozzle == "0.4" ? "standard.ini" : "standard-" + nozzle + ".ini"));
     for (const auto& doubt : doubts_about(profile)) FAIL_CHECK(doubt.message);
     CHECK(names.insert(profile.settings.machine.machine_name + nozzle).second);
   }

@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# What is run before a capability is called done, beside .ci/run; an hour on two cores:  bash tests/thorough.sh
+#   - the thread sanitizer over what runs on several threads,
+#   - the same bytes from clang as from g++ (tests/jobs/compilers.sh),
+#   - each fuzzer for a minute (MINUTES=15 bash tests/thorough.sh: for as many).
+# The closing lines say what of it passed; exit status: how many did not.
+set -uo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+minutes=${MINUTES:-1}
+bash cmake/packages.sh clang libclang-rt-14-dev || exit 1
+results=() failed=0
+told() {  # what, status
+  if [ "$2" -eq 0 ]; then results+=("passed  $1"); else results+=("FAILED  $1"); failed=$((failed + 1)); fi
+}
+
+threaded='^(tasks|batch|jobs|pipeline|stage cache|small memory|crew|cancel)'
+bash tests/run.sh tsan -R "$threaded"
+told "thread sanitizer: $threaded" $?
+
+bash tests/run.sh release -R '^$' --no-tests=ignore && cmake --preset clang > /dev/null &&
+  cmake --build --preset clang --target weft_app && bash tests/jobs/compilers.sh build/release/app/weft
+told 'the same bytes from clang' $?
+
+cmake --preset fuzz > /dev/null && cmake --build --preset fuzz
+told 'fuzzers built' $?
+for seeds in tests/fuzz/seeds/*/; do
+  name=$(basename "$seeds")
+  fuzzer=build/fuzz/tests/fuzz_$name
+  [ -x "$fuzzer" ] || continue
+  mkdir -p "build/fuzz/corpus/$name"
+  "$fuzzer" -max_total_time=$((60 * minutes)) -timeout=60 -rss_limit_mb=4096 -print_final_stats=1 \
+    "build/fuzz/corpus/$name" "$seeds" 2>&1 | tail -n 4
+  told "fuzz: $name, $minutes min" "${PIPESTATUS[0]}"
+done
+
+printf '%s\n' '' "${results[@]}"
+echo "$((${#results[@]} - failed)) passed, $failed failed"
+exit "$failed"
