@@ -1,5 +1,7 @@
 #include "geometry/medial_axis.h"
 
+#include "picture.h"
+
 #include <cmath>
 #include <random>
 
@@ -38,6 +40,7 @@ double distance_to_outline(const Region& region, double x, double y) {
 }
 
 void check_clearance(const Region& region, const MedialAxis& axis, double margin_um = 0.2) {
+  tests::look_at({region});
   for (const auto& node : axis.nodes)
     CHECK(distance_to_outline(region, node.at.x + axis.origin.x, node.at.y + axis.origin.y) ==
           Approx(node.clearance).margin(margin_um));

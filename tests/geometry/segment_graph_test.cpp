@@ -6,6 +6,7 @@
 #include "geometry/boolean.h"
 #include "geometry/medial_axis_outline.h"
 #include "geometry/shapes.h"
+#include "picture.h"
 
 #include <array>
 #include <fstream>
@@ -108,6 +109,7 @@ Difference compare(const Region& region) {
 void check_equal(const Regions& regions) {
   std::size_t compared = 0;
   for (const Region& region : regions) {
+    tests::look_at({region});
     const Difference d = compare(region);
     CAPTURE(region.outer.size(), region.holes.size());
     compared += d.vertices;

@@ -2,6 +2,7 @@
 #include "band.h"
 #include "core/polygon.h"
 #include "model/bead.h"
+#include "picture.h"
 #include "rectangle.h"
 
 #include <algorithm>
@@ -33,6 +34,7 @@ inline bool holds(const Regions& regions, Point p) {
 
 /// Volume of beads of unit height, mm² : what they cover if they do not overlap.
 inline double covered_mm2(const Beads& beads) {
+  tests::show_beads(beads);
   double sum = 0;
   for (const Bead& bead : beads) sum += volume_mm3(bead, 1000);
   return sum;

@@ -21,6 +21,7 @@ LayerAreas solid_area(Region region) {
   return areas;
 }
 FillInput input(const LayerAreas& areas, std::size_t index = 0) {
+  tests::look_at(areas[0].solid);
   return {.areas = areas, .index = index, .z = 200, .height = 200, .nozzle = 400};
 }
 Region turned(const Region& region, double angle) {

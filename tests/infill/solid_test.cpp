@@ -1,6 +1,7 @@
 #include "infill/solid.h"
 
 #include "areas.h"
+#include "picture.h"
 
 #include <algorithm>
 
@@ -13,7 +14,9 @@ using infill::SolidStyle;
 namespace {
 Beads filled(const Region& region, const SolidStyle& style) {
   Beads beads;
+  tests::look_at({region});
   infill::fill_solid(region, style, beads);
+  tests::show_beads(beads);
   return beads;
 }
 }  // namespace

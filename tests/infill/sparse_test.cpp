@@ -1,6 +1,7 @@
 #include "infill/sparse.h"
 
 #include "areas.h"
+#include "picture.h"
 
 #include <algorithm>
 
@@ -13,7 +14,9 @@ using infill::SparseStyle;
 namespace {
 Beads filled(const Region& region, const SparseStyle& style) {
   Beads beads;
+  tests::look_at({region});
   infill::fill_sparse(region, style, beads);
+  tests::show_beads(beads);
   return beads;
 }
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 #include "geometry/boolean.h"
 #include "geometry/offset.h"
+#include "picture.h"
 #include "rectangle.h"
 #include "travel/travel.h"
 
@@ -76,6 +77,7 @@ inline ObjectLayer object(const Regions& outline, Um spacing = 2000, std::uint32
 }
 
 inline LayerInput layer(Regions outline, std::size_t index = 0, Um spacing = 2000, std::uint32_t sequence = 0) {
+  tests::look_at(outline);
   LayerInput input;
   input.index = index;
   input.height = 200;

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/polygon.h"
+#include "picture.h"
 #include "rectangle.h"
 #include "walls/walls.h"
 
@@ -41,7 +42,10 @@ constexpr Um usual_nozzle = 0.4_mm;
 /// Walls of one layer, the second of an object.
 inline WallLayer built(const Regions& regions, const WallSettings& settings = {}, Um nozzle = usual_nozzle) {
   const SlicedLayer layer = layer_of(regions);
-  return walls::build(settings, {.layer = layer, .index = 1, .nozzle_diameter = nozzle});
+  tests::look_at(regions);
+  WallLayer walls = walls::build(settings, {.layer = layer, .index = 1, .nozzle_diameter = nozzle});
+  tests::show_beads(walls.beads);
+  return walls;
 }
 
 /// Area of the bands of all beads, mm².
