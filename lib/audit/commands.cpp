@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 
 #include <fmt/format.h>
 
@@ -12,53 +11,6 @@ namespace weft::audit {
 namespace {
 
 using namespace std::string_view_literals;
-
-/// Klipper's commands that leave the nozzle and the coordinates alone. Everything else that is spelt out is a macro,
-/// and a macro may do anything. Sorted.
-constexpr std::array harmless_commands{
-    "ACTIVATE_EXTRUDER"sv,
-    "BED_MESH_CLEAR"sv,
-    "BED_MESH_OUTPUT"sv,
-    "BED_MESH_PROFILE"sv,
-    "CANCEL_PRINT_BASE"sv,
-    "CLEAR_PAUSE"sv,
-    "DEFINE_OBJECT"sv,
-    "EXCLUDE_OBJECT"sv,
-    "EXCLUDE_OBJECT_DEFINE"sv,
-    "EXCLUDE_OBJECT_END"sv,
-    "EXCLUDE_OBJECT_START"sv,
-    "GET_POSITION"sv,
-    "RESPOND"sv,
-    "SAVE_GCODE_STATE"sv,
-    "SAVE_VARIABLE"sv,
-    "SET_DISPLAY_GROUP"sv,
-    "SET_DISPLAY_TEXT"sv,
-    "SET_EXTRUDER_ROTATION_DISTANCE"sv,
-    "SET_FAN_SPEED"sv,
-    "SET_FILAMENT_SENSOR"sv,
-    "SET_GCODE_VARIABLE"sv,
-    "SET_HEATER_TEMPERATURE"sv,
-    "SET_IDLE_TIMEOUT"sv,
-    "SET_INPUT_SHAPER"sv,
-    "SET_LED"sv,
-    "SET_PIN"sv,
-    "SET_PRESSURE_ADVANCE"sv,
-    "SET_PRINT_STATS_INFO"sv,
-    "SET_RETRACTION"sv,
-    "SET_SERVO"sv,
-    "SET_SKEW"sv,
-    "SET_STEPPER_ENABLE"sv,
-    "SET_TEMPERATURE_FAN_TARGET"sv,
-    "SET_TMC_CURRENT"sv,
-    "SET_TMC_FIELD"sv,
-    "SET_VELOCITY_LIMIT"sv,
-    "SKEW_PROFILE"sv,
-    "STATUS"sv,
-    "TEMPERATURE_WAIT"sv,
-    "TURN_OFF_HEATERS"sv,
-    "UPDATE_DELAYED_GCODE"sv,
-};
-static_assert(std::is_sorted(harmless_commands.begin(), harmless_commands.end()));
 
 /// M-codes after which the nozzle may be elsewhere: probing, parking, filament changes, files and macros of the
 /// firmware, vibration tests, changes of the coordinates that firmwares do in different ways.
@@ -71,25 +23,6 @@ constexpr std::array text_m_codes{16,  23,  28,  29,  30,  32,  33,  36,  38,  1
 template <class List, class T>
 bool contains(const List& list, const T& wanted) {
   return std::binary_search(list.begin(), list.end(), wanted);
-}
-
-/// The value of `KEY=value` among the arguments of an extended command, without its quotes; empty when absent.
-std::string_view argument(std::string_view arguments, std::string_view key) {
-  for (std::size_t at = 0; (at = arguments.find(key, at)) != std::string_view::npos; at += key.size()) {
-    if ((at > 0 && !scan::is_blank(arguments[at - 1])) || arguments.substr(at + key.size()).substr(0, 1) != "=")
-      continue;
-    auto v = arguments.substr(at + key.size() + 1);
-    const char quote = v.empty() ? '\0' : v.front();
-    if (quote == '\'' || quote == '"') return v.remove_prefix(1), v.substr(0, v.find(quote));
-    return v.substr(0, v.find_first_of(" \t"));
-  }
-  return {};
-}
-
-double number_from(std::string_view text) {
-  double v = 0;
-  std::from_chars(text.data(), text.data() + text.size(), v);
-  return v;
 }
 
 }  // namespace
@@ -228,7 +161,7 @@ void Reader::home(const Words& w) {
     if (!all && !w.names(letters[i])) continue;
     state_.known[i] = home_ && i != z && !w.names('O');  // O: only if it is not homed yet, so it may also stay
     if (state_.known[i]) state_.position[i] = i == x ? home_->x : home_->y;
-    state_.offset[i] = 0;
+    state_.offset[i] = state_.homing_offset[i];  // Klipper keeps its offset when it homes
     state_.offset_known[i] = !offset_lost_[i];
   }
 }
@@ -252,49 +185,6 @@ void Reader::lose_offsets(const Words& w) {
   const bool all = !w.names('X') && !w.names('Y') && !w.names('Z');
   for (std::size_t i = 0; i < 3; ++i)
     if (all || w.names(letters[i])) offset_lost_[i] = true, state_.offset_known[i] = false;
-}
-
-/// SET_GCODE_OFFSET: what is written means another place from now on; the nozzle stays.
-void Reader::klipper_offset(std::string_view arguments) {
-  static constexpr std::string_view axes[] = {"X", "Y", "Z"}, steps[] = {"X_ADJUST", "Y_ADJUST", "Z_ADJUST"};
-  for (std::size_t i = 0; i < 3; ++i) {
-    double wanted = klipper_[i];
-    if (const auto v = argument(arguments, axes[i]); !v.empty())
-      wanted = number_from(v);
-    else if (const auto step = argument(arguments, steps[i]); !step.empty())
-      wanted += number_from(step);
-    state_.offset[i] += wanted - klipper_[i];
-    klipper_[i] = wanted;
-  }
-  if (!argument(arguments, "MOVE").empty()) forget_position();
-}
-
-void Reader::extended_command(const char* p, const char* end) {
-  const char* name_end = p;
-  while (name_end < end && (scan::is_letter(*name_end) || scan::is_digit(*name_end) || *name_end == '_')) ++name_end;
-  std::array<char, 48> upper;
-  const auto n = std::min(static_cast<std::size_t>(name_end - p), upper.size());
-  std::transform(p, p + n, upper.begin(), scan::upper);
-  const std::string_view name(upper.data(), n), arguments(name_end, static_cast<std::size_t>(end - name_end));
-  if (name == "EXCLUDE_OBJECT_START") context_.set_object(argument(arguments, "NAME"));
-  if (name == "EXCLUDE_OBJECT_END") context_.set_object({});
-  if (name == "SET_GCODE_OFFSET") return klipper_offset(arguments);
-  const auto state_name = argument(arguments, "NAME");
-  constexpr std::size_t most_saved = 16;
-  if (name == "SAVE_GCODE_STATE" && (saved_.size() < most_saved || saved_.contains(state_name)))
-    saved_.insert_or_assign(std::string(state_name), state_);
-  if (name == "RESTORE_GCODE_STATE") {
-    if (const auto at = saved_.find(state_name); at != saved_.end()) {
-      const State now = state_;
-      state_ = at->second;
-      const bool moves = argument(arguments, "MOVE") == "1";
-      state_.position = moves ? state_.position : now.position;
-      state_.known = moves ? state_.known : now.known;
-      return;
-    }
-    return opaque_command(name);
-  }
-  if (!contains(harmless_commands, name)) opaque_command(name);
 }
 
 }  // namespace weft::audit

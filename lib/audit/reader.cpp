@@ -38,11 +38,12 @@ void Reader::line(const char* p, const char* end) {
   problems_.clear();
   if (line_number_ == 1 && end - p >= 3 && std::memcmp(p, "\xEF\xBB\xBF", 3) == 0) p += 3;  // UTF-8's mark
   for (;;) {
-    machine_coordinates_ = false;
+    machine_coordinates_ = line_is_numbered_ = false;
     line_begin_ = p;
     while (p < end && is_blank(*p)) ++p;
     if (p < end && scan::upper(*p) == 'N' && is_digit(p[1])) {
       double line_number = 0;
+      line_is_numbered_ = true;
       p = scan::number(p + 1, line_number);
       while (p < end && is_blank(*p)) ++p;
     }
@@ -87,6 +88,7 @@ const char* Reader::words(const char* p, const char* end, bool strict, Words& ou
         out.valued |= bit;
         out.value[letter] = v;
         p = number_end;
+        if (!(std::abs(v) <= scan::limit_of(letter))) problem("a number beyond any machine"), out.sound = false;
         if (strict && starts_number(*p)) problem("a malformed number"), out.sound = false;
       } else {
         p = behind;
@@ -143,10 +145,15 @@ const char* Reader::command(const char* p, const char* end) {
     while (p < end && *p != ')' && *p != '\r') ++p;
     return p < end && *p == ')' ? p + 1 : p;
   }
+  if (is_letter(letter) && is_blank(p[1]) && (letter == 'G' || letter == 'M' || letter == 'T' || letter == 'N')) {
+    const char* q = p + 1;
+    while (is_blank(*q)) ++q;
+    // Marlin obeys "G 1", Klipper does not know it.
+    if (is_digit(*q)) problem("a blank within a command"), forget_position(), lose_offsets({});
+  }
+  if (is_letter(letter) || letter == '_') return extended_command(p, end);
   const char* const behind = skip_words(p, end);
-  if (is_letter(letter) || letter == '_') {
-    extended_command(p, behind);
-  } else if (letter == '{' || letter == '[') {
+  if (letter == '{' || letter == '[') {
     problem("a placeholder that was not filled in");
   } else if (letter == '*') {
     if (!checksum_holds(line_begin_, p)) problem("a checksum that does not match its line");
@@ -208,16 +215,9 @@ void Reader::move(const Words& w) {
     if (is_arc && w.valued != 1U << ('F' - 'A')) problem("an arc without an end, centre or radius");
     return;
   }
-  Motion& m = motions_.emplace_back();
   const Vec from{state_.position[x], state_.position[y]}, end{to[x], to[y]};
-  m.from_known = state_.known[x] && state_.known[y];
-  m.from_home = std::exchange(state_.homed, false);
-  m.x_known = known[x], m.y_known = known[y], m.z_known = known[z];
+  Motion& m = begin_motion(to, known);
   const bool ends_known = m.from_known && known[x] && known[y];
-  m.path = {.from = ends_known ? from : end, .to = end};
-  m.z_to = to[z];
-  m.z_from = state_.known[z] ? state_.position[z] : to[z];
-  m.tool = tool_;
   m.e_mm = e_mm;
   m.volumetric = volumetric_;
   if (is_arc) arc(w, m, from, end, ends_known);
@@ -229,6 +229,21 @@ void Reader::move(const Words& w) {
                                             : Motion::Kind::travel;
   state_.position = to;
   state_.known = known;
+}
+
+/// A motion from where the nozzle is, straight.
+Motion& Reader::begin_motion(const std::array<double, 3>& to, const std::array<bool, 3>& known) {
+  Motion& m = motions_.emplace_back();
+  const Vec end{to[x], to[y]};
+  m.from_known = state_.known[x] && state_.known[y];
+  m.from_home = std::exchange(state_.homed, false);
+  m.x_known = known[x], m.y_known = known[y], m.z_known = known[z];
+  m.path = {.from = m.from_known && known[x] && known[y] ? Vec{state_.position[x], state_.position[y]} : end,
+            .to = end};
+  m.z_to = to[z];
+  m.z_from = state_.known[z] ? state_.position[z] : to[z];
+  m.tool = tool_;
+  return m;
 }
 
 /// Turns the motion's path into the arc that G2 or G3 means.

@@ -1,5 +1,6 @@
 #pragma once
 #include "audit/comments.h"
+#include "audit/klipper.h"
 #include "audit/path.h"
 
 #include <array>
@@ -71,6 +72,8 @@ class Reader {
     std::array<bool, 3> known{};
     std::array<double, 3> offset{};  ///< machine = written + offset
     std::array<bool, 3> offset_known{true, true, true};
+    std::array<double, 3> homing_offset{};  ///< of SET_GCODE_OFFSET, mm: homing keeps it
+    double homing_e = 0;
     double e = 0;
     bool homed = false;  ///< no move since G28
     bool relative = false, e_relative = false, inches = false, absolute_centre = false;
@@ -91,7 +94,7 @@ class Reader {
   const char* m_command(int number, const char* p, const char* end);
   const char* motion_line(const char* p, const char* end);
   const char* skip_words(const char* p, const char* end);
-  void extended_command(const char* p, const char* end);
+  const char* extended_command(const char* p, const char* end);
   void comment(const char* p, const char* end, bool alone);
   void move(const Words& w);
   bool target(const Words& w, std::array<double, 3>& to, std::array<bool, 3>& known);
@@ -99,7 +102,17 @@ class Reader {
   void bezier(const Words& w);
   void home(const Words& w);
   void set_position(const Words& w);
-  void klipper_offset(std::string_view arguments);
+  using KlipperHandler = void (Reader::*)(const klipper::Arguments& arguments);
+  void klipper_command(KlipperHandler handler, std::string_view text);
+  void klipper_offset(const klipper::Arguments& arguments);
+  void klipper_save(const klipper::Arguments& arguments);
+  void klipper_restore(const klipper::Arguments& arguments);
+  void klipper_object(const klipper::Arguments& arguments);
+  void klipper_object_end(const klipper::Arguments& arguments);
+  bool klipper_moves(const klipper::Arguments& arguments);
+  std::optional<double> klipper_number(const std::string& text);
+  Motion& begin_motion(const std::array<double, 3>& to, const std::array<bool, 3>& known);
+  void move_straight_to(const std::array<double, 3>& to, const std::array<bool, 3>& known);
   void forget_position();
   void lose_offsets(const Words& w);
   void opaque_command(std::string_view name);
@@ -108,12 +121,11 @@ class Reader {
   std::optional<Vec> home_;
   State state_;
   std::array<bool, 3> offset_lost_{};                ///< by M206, G55 …: not mended by homing
-  std::array<double, 3> klipper_{};                  ///< of SET_GCODE_OFFSET
   std::map<std::string, State, std::less<>> saved_;  ///< by SAVE_GCODE_STATE
   int motion_mode_ = -1;                             ///< G0 … G3, for lines that are only words
   int plane_ = 17, tool_ = 0;
   bool machine_coordinates_ = false;  ///< G53 on this line
-  bool volumetric_ = false;
+  bool volumetric_ = false, line_is_numbered_ = false;
   const char* line_begin_ = nullptr;
   std::int64_t line_number_ = 0, opaque_count_ = 0;
   double speed_mm_s_ = 0;

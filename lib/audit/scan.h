@@ -10,6 +10,17 @@ inline constexpr double powers_of_ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1
                                            1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18};
 inline constexpr int most_digits = 18;  // of a 64-bit mantissa
 
+/// Lengths beyond this are no place of any machine: a number was damaged. Numbers that are no lengths along an axis
+/// (E of a whole spool, F) must only be ones that can be reckoned with.
+inline constexpr double furthest_mm = 1e5, largest_number = 1e9;
+
+/// @param letter of the word, from A = 0
+constexpr double limit_of(unsigned letter) {
+  constexpr std::uint32_t lengths = 1U << ('X' - 'A') | 1U << ('Y' - 'A') | 1U << ('Z' - 'A') | 1U << ('I' - 'A') |
+                                    1U << ('J' - 'A') | 1U << ('K' - 'A') | 1U << ('R' - 'A');
+  return (lengths >> letter) & 1U ? furthest_mm : largest_number;
+}
+
 constexpr bool is_digit(char c) {
   return static_cast<unsigned char>(c - '0') < 10;
 }
