@@ -82,7 +82,7 @@ int audit_verb(const Words& words) {
     out << "weft audit FILE.gcode... -p PROFILE: checks any slicer's G-code against a build volume\n\n"
         << options << "\n"
         << common_help();
-    return fmt::print("{}", out.str()), 0;
+    return write_output("-", out.str()), 0;
   }
   const auto format = command.options["format"].as<std::string>();
   if (format != "json" && format != "junit")

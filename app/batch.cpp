@@ -75,7 +75,7 @@ int batch(const Words& words) {
            "them.\n\n"
         << options << "\n"
         << common_help();
-    return fmt::print("{}", out.str()), 0;
+    return write_output("-", out.str()), 0;
   }
   if (command.inputs.empty())
     throw Error{Error::Kind::usage, "no list of jobs was given", "weft batch",

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+namespace fs = std::filesystem;
 namespace po = boost::program_options;
 
 namespace weft::app {
@@ -54,6 +55,24 @@ void tell(Console& console, const jobs::JobLine& line, jobs::Fate fate, const jo
     case jobs::Fate::not_run:
       break;
   }
+}
+
+/// No result may be a file that some job reads. What jobs leave beside their G-code is checked by its names.
+void check_files(const std::vector<jobs::Prepared>& jobs, const Command& command, std::vector<Error>& errors) {
+  Files files = command.files;
+  const auto noted = [&](const jobs::Prepared& job, const auto& check) {
+    try {
+      check();
+    } catch (const Error& error) {
+      errors.emplace_back(error.kind(), fmt::format("output {}", error.problem()), job.line.where, error.hint());
+    }
+  };
+  for (const auto& job : jobs)
+    noted(job, [&] {
+      for (const auto& path : job.read) files.reads(path.string());
+    });
+  for (const auto& job : jobs)
+    noted(job, [&] { files.writes((fs::path(*command.output) / job.line.output).string(), "output"); });
 }
 
 std::uint64_t bytes_from(const std::string& text, const std::string& option) {
@@ -134,6 +153,7 @@ jobs::BatchOptions batch_options_of(const Command& command) {
 
 std::vector<jobs::Prepared> prepare_all(Console& console, jobs::JobList list, const Command& command) {
   auto jobs = jobs::prepare(std::move(list.jobs), {command.profiles, command.settings, command.import}, list.errors);
+  if (list.errors.empty()) check_files(jobs, command, list.errors);
   if (list.errors.empty()) return jobs;
   constexpr std::size_t most = 20;  // a list with a wrong column has an error on every line
   const auto count = list.errors.size();
@@ -148,7 +168,6 @@ Finished run_jobs(Console& console, const std::vector<jobs::Prepared>& jobs, con
                   const std::string& suffix) {
   std::signal(SIGINT, note_batch_interrupt);
   std::signal(SIGTERM, note_batch_interrupt);
-  std::signal(SIGPIPE, SIG_IGN);
   jobs::BatchWatch watch;
   watch.interrupted = [] { return interrupted.load(); };
   watch.progress = [&](const jobs::Progress& p) { show(console, p); };

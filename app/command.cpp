@@ -6,6 +6,7 @@
 #include "settings/value.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <cstdio>
@@ -119,9 +120,23 @@ void take_preset(prusaslicer::PresetChoice& presets, const std::string& text) {
   throw Error{Error::Kind::usage, problem.what(), {}, "see --help"};
 }
 
+/// Options of verbs whose value is a file that is written.
+constexpr std::array written = {"output", "report", "preview"};
+
+/// What is read is known before anything that is written is looked at.
+void check_files(Command& command, Result result) {
+  for (const auto& input : command.inputs) command.files.reads(input);
+  for (const auto& profile : command.profiles) command.files.reads(profile.string());
+  for (const std::string option : written)
+    if (command.options.count(option))
+      command.files.writes(command.options[option].as<std::string>(), option == "output" ? "-o" : "--" + option,
+                           option == "output" && result == Result::profile);
+}
+
 }  // namespace
 
-Command parse_command(const std::vector<std::string>& words, const po::options_description& verb_options) {
+Command parse_command(const std::vector<std::string>& words, const po::options_description& verb_options,
+                      Result result) {
   po::options_description all, hidden;
   hidden.add_options()("input", po::value<std::vector<std::string>>());
   const auto settings = setting_options();
@@ -171,6 +186,7 @@ Command parse_command(const std::vector<std::string>& words, const po::options_d
   command.console.progress = choice<ProgressMode>(
       "--progress", o["progress"].as<std::string>(),
       {{"auto", ProgressMode::automatic}, {"always", ProgressMode::always}, {"never", ProgressMode::never}});
+  if (!command.help) check_files(command, result);
   return command;
 }
 
@@ -185,6 +201,8 @@ Profile resolve(const Command& command) {
   for (const auto& file : command.profiles) apply_profile(profile, file, command.import);
   for (const auto& [key, text] : command.settings) apply_value(profile, key, text, "--set " + key);
   check_consistency(profile);
+  Files files = command.files;
+  for (const auto& parent : profile.parents) files.reads(parent.string());
   return profile;
 }
 

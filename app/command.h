@@ -1,5 +1,6 @@
 #pragma once
 #include "console.h"
+#include "outputs.h"
 #include "profile/profile.h"
 
 #include <filesystem>
@@ -22,18 +23,25 @@ struct Command {
   ConsoleOptions console;
   bool help = false;
   boost::program_options::variables_map options;  ///< of the verb
+  Files files;                                    ///< that are read, and written
 };
+
+/// What -o of a verb may be.
+enum class Result : bool { never_a_profile, profile };
 
 /// Parses the words behind the verb.
 /// @param verb_options what this verb understands beside the common options
-/// @throws Error{usage} naming the option, with the nearest known one
+/// @throws Error{usage} naming the option, with the nearest known one; or where a file would be read and written, or
+/// written twice
 Command parse_command(const std::vector<std::string>& words,
-                      const boost::program_options::options_description& verb_options);
+                      const boost::program_options::options_description& verb_options,
+                      Result result = Result::never_a_profile);
 
 /// The help text of the options that every verb understands.
 std::string common_help();
 
 /// Profiles and settings of the command, laid over the defaults in the order of the contract: files, then options.
+/// @throws Error; {usage} when a profile that another inherits is an output
 Profile resolve(const Command& command);
 
 /// Two numbers separated by a comma, mm. @throws Error{usage}

@@ -19,7 +19,8 @@ struct ConsoleOptions {
   ProgressMode progress = ProgressMode::automatic;
 };
 
-/// The only code that writes to standard error. Standard output belongs to G-code, reports and what was asked for.
+/// The only code that writes to standard error. What cannot be told there is lost, and changes nothing. Standard output
+/// belongs to G-code, reports and what was asked for.
 class Console {
  public:
   explicit Console(ConsoleOptions options);
@@ -27,17 +28,17 @@ class Console {
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
 
-  void error(const Error& error);
-  void internal_error(std::string_view what);
-  void warning(const Notice& notice);
-  void info(std::string_view message);
-  void detail(std::string_view message);
+  void error(const Error& error) noexcept;
+  void internal_error(std::string_view what) noexcept;
+  void warning(const Notice& notice) noexcept;
+  void info(std::string_view message) noexcept;
+  void detail(std::string_view message) noexcept;
 
   /// Shows `share` (0 … 1, never falling) of the work as done; at most ten times a second.
-  void progress(std::string_view stage, double share);
+  void progress(std::string_view stage, double share) noexcept;
   /// The same with words of one's own behind the bar, or with facts (a JSON object) for --log-format json, where it is
   /// told once a second and whatever --progress says unless it is never.
-  void progress_of(double share, std::string_view words, std::string_view facts);
+  void progress_of(double share, std::string_view words, std::string_view facts) noexcept;
 
  private:
   void log(std::string_view level, std::string_view message, std::string_view code = {});

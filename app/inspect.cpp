@@ -66,7 +66,7 @@ int inspect(const Words& words) {
   if (command.help) {
     std::ostringstream out;
     out << "weft inspect MODEL...: mesh facts and what a repair would do\n\n" << none << "\n" << common_help();
-    return fmt::print("{}", out.str()), 0;
+    return write_output("-", out.str()), 0;
   }
   if (command.inputs.empty()) throw Error{Error::Kind::usage, "no model was given", "weft inspect"};
   const auto format = command.options["format"].as<std::string>();

@@ -3,6 +3,7 @@
 #include "jobs/memory.h"
 
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <exception>
@@ -10,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -121,6 +123,18 @@ void explain_termination() {
     if (::write(STDERR_FILENO, text.data(), text.size()) < 0) std::_Exit(1);
     std::_Exit(limited ? exit_status(Error::Kind::interrupted) : 1);
   });
+}
+
+void hold_standard_streams() {
+  std::signal(SIGPIPE, SIG_IGN);
+  // Opened the wrong way round, so that using it is the error that it would have been.
+  for (const auto& [stream, mode] :
+       {std::pair(STDIN_FILENO, O_WRONLY), {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_RDONLY}})
+    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF)
+      if (const int opened = ::open("/dev/null", mode); opened >= 0 && opened != stream) {
+        ::dup2(opened, stream);
+        ::close(opened);
+      }
 }
 
 }  // namespace weft::app

@@ -69,4 +69,8 @@ class Watchdog {
 /// the thread library does not report otherwise: an error of one line and status 130; 1 for anything else.
 void explain_termination();
 
+/// Makes of standard streams what the program counts on: one that is closed is not the next file that is opened, whose
+/// bytes would then have messages among them, and one whose reader has gone is an error of writing, no end by a signal.
+void hold_standard_streams();
+
 }  // namespace weft::app

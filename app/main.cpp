@@ -29,8 +29,8 @@ const Verb* find_verb(const std::string& name) {
 
 int run(Words words) {
   if (words.empty()) throw Error{Error::Kind::usage, "no verb was given", {}, "see weft --help"};
-  if (words[0] == "--version" || words[0] == "-V") return fmt::print("weft {}\n", version), 0;
-  if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") return fmt::print("{}", overview()), 0;
+  if (words[0] == "--version" || words[0] == "-V") return write_output("-", fmt::format("weft {}\n", version)), 0;
+  if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") return write_output("-", overview()), 0;
   if (const auto* verb = find_verb(words[0])) return verb->run({words.begin() + 1, words.end()});
   // Hands used to PrusaSlicer: `weft -g part.stl` is `weft slice part.stl`.
   const auto is_export = [](const std::string& w) { return w == "-g" || w == "--export-gcode" || w == "--gcode"; };
@@ -58,6 +58,7 @@ Console early_console(const Words& words) {
 
 int main(int count, char** arguments) {
   explain_termination();
+  hold_standard_streams();
   const Words words(arguments + 1, arguments + std::max(count, 1));
   try {
     return run(words);

@@ -1,6 +1,6 @@
 #include "audit/audit.h"
 #include "command.h"
-#include "mesh/file_bytes.h"
+#include "core/file_bytes.h"
 #include "preview_file.h"
 #include "settings/value.h"
 #include "verbs.h"
@@ -106,7 +106,7 @@ int preview(const Words& words) {
            "svg and png show one layer, html all of them; beads are drawn as wide as their filament makes them.\n\n"
         << options << "\n"
         << common_help();
-    return fmt::print("{}", out.str()), 0;
+    return write_output("-", out.str()), 0;
   }
   if (command.inputs.size() != 1)
     throw Error{Error::Kind::usage, fmt::format("takes one G-code file, not {}", command.inputs.size()),
@@ -116,7 +116,7 @@ int preview(const Words& words) {
 
   Console console(command.console);
   const Profile profile = resolve(command);
-  const mesh::FileBytes file(command.inputs[0]);
+  const FileBytes file(command.inputs[0]);
   const std::string_view gcode = file.view();
   const auto paths = preview::read(gcode, profile.settings.material.filament_diameter);
   if (paths.layers.empty())

@@ -139,7 +139,7 @@ int profile(const Words& words) {
       "show: where the value of KEY comes from, and what it shadows; all: of every setting that a profile sets")(
       "format", po::value<std::string>()->value_name("weft|prusaslicer")->default_value("weft"),
       "show: in whose words");
-  auto command = parse_command(words, options);
+  auto command = parse_command(words, options, Result::profile);
   if (command.help || words.empty()) {
     std::ostringstream out;
     out << "weft profile check FILE...   validate profiles, laid over each other in their order\n"
@@ -151,7 +151,7 @@ int profile(const Words& words) {
            "fit it\n\n"
         << options << "\n"
         << common_help();
-    return fmt::print("{}", out.str()), words.empty() ? 2 : 0;
+    return write_output("-", out.str()), words.empty() ? 2 : 0;
   }
   if (command.inputs.empty())
     throw Error{Error::Kind::usage, "check, diff, import, list or show?", "weft profile",

@@ -77,7 +77,7 @@ int settings(const Words& words) {
   if (command.help) {
     std::ostringstream out;
     out << "weft settings [KEY...]: every setting, or those named\n\n" << options << "\n" << common_help();
-    return fmt::print("{}", out.str()), 0;
+    return write_output("-", out.str()), 0;
   }
   std::vector<const CatalogueEntry*> entries;
   if (command.inputs.empty())

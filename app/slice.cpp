@@ -144,7 +144,7 @@ int slice(const Words& words) {
   if (command.help) {
     std::ostringstream out;
     out << "weft slice MODEL... -p PROFILE [-s KEY=VALUE]... -o OUT.gcode\n\n" << options << "\n" << common_help();
-    return fmt::print("{}", out.str()), 0;
+    return write_output("-", out.str()), 0;
   }
   if (command.inputs.empty())
     throw Error{Error::Kind::usage, "no model was given", "weft slice",
@@ -161,7 +161,6 @@ int slice(const Words& words) {
 
   Console console(command.console);
   const Limits limits(limit_of(command.options, "timeout"), limit_of(command.options, "max-memory"));
-  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of writing, told as one
 
   Report report;
   const auto finish = [&] {

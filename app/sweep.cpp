@@ -1,7 +1,7 @@
 #include "jobs/sweep.h"
 
 #include "batch_run.h"
-#include "mesh/file_bytes.h"
+#include "core/file_bytes.h"
 #include "preview/preview.h"
 #include "tasks/crew.h"
 #include "verbs.h"
@@ -49,7 +49,7 @@ jobs::SweepOptions combine_of(const Command& command) {
 /// A small picture of one layer of finished G-code; none when it cannot be drawn.
 std::string picture_of(const std::filesystem::path& gcode, const Settings& settings, double share) {
   try {
-    const mesh::FileBytes file(gcode.string());
+    const FileBytes file(gcode.string());
     const auto paths = preview::read(file.view(), settings.material.filament_diameter);
     if (paths.layers.empty()) return {};
     preview::View view;
@@ -104,7 +104,7 @@ int sweep(const Words& words) {
            "needs no network.\n\n"
         << options << "\n"
         << common_help();
-    return fmt::print("{}", out.str()), 0;
+    return write_output("-", out.str()), 0;
   }
   if (command.inputs.empty())
     throw Error{Error::Kind::usage, "no model was given", "weft sweep",

@@ -1,8 +1,8 @@
 #include "command.h"
+#include "core/file_bytes.h"
 #include "core/hash.h"
 #include "core/version.h"
 #include "limits.h"
-#include "mesh/file_bytes.h"
 #include "pipeline/provenance.h"
 #include "verbs.h"
 
@@ -25,7 +25,7 @@ std::string find_model(const Provenance::Model& wanted, const std::vector<std::s
   std::string other;
   for (const auto& path : candidates) {
     if (std::error_code error; !std::filesystem::is_regular_file(path, error)) continue;
-    if (sha256(mesh::FileBytes(path).view()) == wanted.sha256) return path;
+    if (sha256(FileBytes(path).view()) == wanted.sha256) return path;
     if (std::filesystem::path(path).filename() == wanted.name) other = path;
   }
   if (!other.empty())
@@ -56,17 +56,17 @@ int verify(const Words& words) {
   const po::options_description none("Options of weft verify");
   const auto command = parse_command(words, none);
   if (command.help)
-    return fmt::print(
-               "weft verify FILE.gcode [MODEL...]\n\nSlices again from the settings, the placement and the model that "
-               "the file names, and compares every byte.\n\n{}",
-               common_help()),
+    return write_output("-",
+                        "weft verify FILE.gcode [MODEL...]\n\nSlices again from the settings, the placement and the "
+                        "model that the file names, and compares every byte.\n\n" +
+                            common_help()),
            0;
   if (command.inputs.empty())
     throw Error{Error::Kind::usage, "no G-code was given", "weft verify", "as in weft verify part.gcode part.stl"};
   Console console(command.console);
   const Limits limits(0, 0);
   const auto& path = command.inputs.front();
-  const mesh::FileBytes file(path);
+  const FileBytes file(path);
   auto made_of = provenance_of(file.view(), path);
   if (made_of.version != version)
     throw Error{Error::Kind::file, fmt::format("was made by weft {}, and this is {}", made_of.version, version), path,

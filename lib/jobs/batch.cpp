@@ -1,6 +1,7 @@
 #include "jobs/batch.h"
 
 #include "core/build_id.h"
+#include "core/stop.h"
 #include "jobs/memory.h"
 #include "jobs/memory_gate.h"
 #include "jobs/workplace.h"
@@ -59,9 +60,10 @@ class Run {
   }
 
   BatchResult work() {
-    tasks::run_crew(
+    const auto broken = tasks::run_crew(
         options_.threads, [this] { return next(); }, [this](std::size_t i) { run_one(i); });
     const std::lock_guard lock(mutex_);
+    for (const auto& piece : broken) result_.fates[piece.piece] = Fate::failed;  // not even its end could be noted
     result_.interrupted = watch_.interrupted();
     result_.progress = progress();
     return result_;
@@ -88,25 +90,51 @@ class Run {
   }
 
   void run_one(std::size_t i) {
-    const auto& job = jobs_[i];
+    auto& running = *running_[i];
+    const std::function<bool()> whether = [&] {
+      return look_around(i), running.stop != Stop::no || watch_.interrupted();
+    };
     Outcome outcome;
     Fate fate = Fate::failed;
-    bool again = false;
+    bool known = false;
     try {
-      outcome.inputs_sha256 = inputs_hash(job.job, files_);
-      const auto record = read_record(options_.folder, job.line);
-      if (record && record->inputs_sha256 == outcome.inputs_sha256 && record->build == build_id() && stands(*record)) {
-        fate = record->exit_status == 0 ? Fate::unchanged : Fate::failed;
-        if (fate == Fate::failed) outcome.exit_status = record->exit_status, outcome.error = record->error;
-      } else {
-        fate = make(i, outcome, again);
-      }
-    } catch (const Error& error) {
-      outcome.exit_status = exit_status(error.kind());
-      outcome.error = error.what();
-      note(i, outcome);
+      const StopWhen stop_when(&whether);  // ends with the work: what became of it is noted also when it is to stop
+      const auto before = fate_before(i, outcome);
+      known = before.has_value();
+      fate = known ? *before : make(i, whether, outcome);
+    } catch (...) {
+      fate = after_error(running, outcome);
     }
-    end(i, again ? Fate::not_run : fate, outcome, again);
+    if (!known && fate != Fate::not_run) conclude(i, outcome);
+    end(i, fate, outcome, fate == Fate::not_run && running.stop == Stop::put_back && !watch_.interrupted());
+  }
+
+  /// What an earlier run has made of the same job, where that stands. Post: the hash of its inputs is in the outcome.
+  /// @throws whatever a job can throw
+  std::optional<Fate> fate_before(std::size_t i, Outcome& outcome) {
+    const auto& job = jobs_[i];
+    outcome.report.warnings = job.notices;
+    refuse_what_never_fits(i);
+    outcome.inputs_sha256 = inputs_hash(job.job, files_);
+    const auto record = read_record(options_.folder, job.line);
+    if (!record || record->inputs_sha256 != outcome.inputs_sha256 || record->build != build_id() || !stands(*record))
+      return std::nullopt;
+    outcome.exit_status = record->exit_status, outcome.error = record->error;
+    return record->exit_status == 0 ? Fate::unchanged : Fate::failed;
+  }
+
+  /// @throws whatever a job can throw; then it has made nothing
+  Fate make(std::size_t i, const std::function<bool()>& whether, Outcome& outcome) {
+    const auto& job = jobs_[i];
+    auto& running = *running_[i];
+    Watch watch;
+    watch.progress = [&](std::string_view, double share) { running.share = share, look_around(i); };
+    watch.cancelled = whether;
+    const auto gcode = run(job.job, watch, outcome.report, options_.cache);
+    outcome.exit_status = gcode ? 0 : exit_status(Error::Kind::audit);
+    outcome.error = outcome.report.error;
+    if (gcode) write_gcode(options_.folder / job.line.output, *gcode);
+    return outcome.exit_status == 0 ? Fate::made : Fate::failed;
   }
 
   /// Whether what is known of an unchanged job makes running it needless.
@@ -115,43 +143,55 @@ class Run {
     return options_.resume && record.exit_status >= 3 && record.exit_status <= 5;
   }
 
-  Fate make(std::size_t i, Outcome& outcome, bool& again) {
-    const auto& job = jobs_[i];
-    auto& running = *running_[i];
-    Watch watch;
-    watch.progress = [&](std::string_view, double share) { running.share = share, look_around(i); };
-    watch.cancelled = [&] { return look_around(i), running.stop != Stop::no || watch_.interrupted(); };
-    outcome.report.warnings = job.notices;
-    try {
-      const auto gcode = run(job.job, watch, outcome.report, options_.cache);
-      outcome.exit_status = gcode ? 0 : exit_status(Error::Kind::audit);
-      outcome.error = outcome.report.error;
-      if (gcode) write_gcode(options_.folder / job.line.output, *gcode);
-    } catch (const Error& error) {
-      if (error.kind() == Error::Kind::interrupted && (watch_.interrupted() || running.stop == Stop::put_back)) {
-        again = running.stop == Stop::put_back && !watch_.interrupted();
-        return Fate::not_run;
-      }
-      outcome.exit_status = exit_status(error.kind());
-      outcome.error = error.kind() == Error::Kind::interrupted ? why(running.stop) : error.what();
-    } catch (const std::bad_alloc&) {
-      outcome.exit_status = 1;
-      outcome.error = "out of memory; try a lower --max-memory, or fewer --threads";
-    } catch (const std::exception& error) {
-      outcome.exit_status = 1;
-      outcome.error = fmt::format("internal error: {}; this is a bug, please report it", error.what());
+  /// A mesh takes no less memory than its file: what is larger than all of it need not be read for minutes first.
+  void refuse_what_never_fits(std::size_t i) {
+    for (const auto& model : jobs_[i].job.models) {
+      std::error_code unknown;
+      if (const auto size = fs::file_size(model, unknown); unknown || gate_.limit() == 0 || size <= gate_.limit())
+        continue;
+      running_[i]->stop = Stop::too_large;
+      throw Stopped{};
     }
+  }
+
+  /// What becomes of a job that the error at hand has ended. Pre: in a handler.
+  Fate after_error(const Running& running, Outcome& outcome) const {
+    outcome.exit_status = 1;
+    try {
+      throw;
+    } catch (const Error& error) {
+      outcome.exit_status = exit_status(error.kind());
+      outcome.error = error.what();
+    } catch (const Stopped&) {
+      outcome.exit_status = exit_status(Error::Kind::interrupted);
+    } catch (const std::bad_alloc&) {
+      outcome.exit_status = exit_status(Error::Kind::interrupted);
+      outcome.error = "the machine's memory is used up; try a lower --max-memory, or fewer --threads";
+      return Fate::failed;
+    } catch (const std::exception& error) {
+      outcome.error = fmt::format("internal error: {}; this is a bug, please report it", error.what());
+    } catch (...) {
+      outcome.error = "internal error; this is a bug, please report it";
+    }
+    if (outcome.exit_status != exit_status(Error::Kind::interrupted)) return Fate::failed;
+    if (watch_.interrupted() || running.stop == Stop::put_back) return Fate::not_run;
+    outcome.error = why(running.stop);
+    return Fate::failed;
+  }
+
+  /// Completes the outcome and keeps it.
+  void conclude(std::size_t i, Outcome& outcome) {
     if (outcome.exit_status != 0 && outcome.report.status != Report::Status::rejected)
       outcome.report.status = Report::Status::failed;
     outcome.report.peak_memory_mb = peak_memory_mb();
-    outcome.seconds = seconds_since(running.begin);
+    outcome.seconds = seconds_since(running_[i]->begin);
     note(i, outcome);
-    return outcome.exit_status == 0 ? Fate::made : Fate::failed;
   }
 
   std::string why(Stop stop) const {
     if (stop == Stop::timeout)
       return fmt::format("stopped after {:g} s; give it more with --job-timeout", options_.timeout_s);
+    if (stop == Stop::no) return "was broken off; nothing was written";
     return fmt::format("stopped: alone it needs more than {} MB; give it more with --max-memory", gate_.limit() >> 20);
   }
 
@@ -161,6 +201,8 @@ class Run {
       write_record(options_.folder, jobs_[i].line, outcome);
     } catch (const Error& error) {
       if (outcome.exit_status == 0) outcome.exit_status = exit_status(error.kind()), outcome.error = error.what();
+    } catch (const std::exception& error) {
+      if (outcome.exit_status == 0) outcome.exit_status = 1, outcome.error = error.what();
     }
   }
 
@@ -176,8 +218,16 @@ class Run {
     result_.fates[i] = outcome.exit_status != 0 && fate == Fate::made ? Fate::failed : fate;
     layers_ += result_.fates[i] == Fate::made ? outcome.report.layers : 0;
     if (fate == Fate::not_run) return;
-    watch_.ended(jobs_[i].line, result_.fates[i], outcome);
-    watch_.progress(progress());
+    tell([&] { watch_.ended(jobs_[i].line, result_.fates[i], outcome), watch_.progress(progress()); });
+  }
+
+  /// Who watches cannot break what he watches.
+  template <class Tell>
+  static void tell(const Tell& what) {
+    try {
+      what();
+    } catch (const std::exception&) {  // it was a message, no more
+    }
   }
 
   /// Every few milliseconds of a job: is it late, is memory short, is it time to tell how far things are?
@@ -194,7 +244,7 @@ class Run {
     const std::unique_lock lock(mutex_, std::try_to_lock);
     if (!lock) return;
     heed(gate_.look(resident_bytes()));
-    watch_.progress(progress());
+    tell([&] { watch_.progress(progress()); });
   }
 
   void heed(MemoryGate::Verdict verdict) {

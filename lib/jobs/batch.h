@@ -37,7 +37,7 @@ struct Progress {
   std::optional<double> left_s;  ///< until the end, as far as can be told
 };
 
-/// How a caller watches a run. Never called by two threads at once.
+/// How a caller watches a run. Never called by two threads at once; what is thrown changes nothing.
 struct BatchWatch {
   std::function<void(const Progress&)> progress = [](const Progress&) {};
   std::function<void(const JobLine&, Fate, const Outcome&)> ended = [](const JobLine&, Fate, const Outcome&) {};

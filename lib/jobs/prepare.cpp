@@ -54,6 +54,9 @@ Prepared prepare_one(JobLine line, const Common& common, ProfileShelf& shelf) {
   Prepared out;
   out.job = {.models = line.models, .settings = profile.settings, .placement = line.placement, .audit = line.audit};
   out.notices = profile.notices;
+  out.read.assign(line.models.begin(), line.models.end());
+  out.read.insert(out.read.end(), files.begin(), files.end());
+  out.read.insert(out.read.end(), profile.parents.begin(), profile.parents.end());
   out.line = std::move(line);
   return out;
 }

@@ -16,7 +16,8 @@ struct Common {
 struct Prepared {
   JobLine line;
   Job job;
-  Notices notices;  ///< of its profiles
+  Notices notices;                          ///< of its profiles
+  std::vector<std::filesystem::path> read;  ///< its models and profiles, inherited ones too
 };
 
 /// Resolves and checks every job before the first is run: profiles and settings as `weft slice` would, models by

@@ -1,12 +1,12 @@
 #include "jobs/record.h"
 
 #include "core/build_id.h"
+#include "core/file_bytes.h"
 #include "core/hash.h"
 #include "settings/exact.h"
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -16,14 +16,20 @@ namespace fs = std::filesystem;
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr int record_format = 1;
+// 1 was written by versions that could take a file of fewer layers for a whole one: what it tells is not believed.
+constexpr int record_format = 2;
 
-std::optional<std::string> contents(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return std::nullopt;
-  std::string out{std::istreambuf_iterator<char>(in), {}};
-  if (in.bad()) return std::nullopt;
-  return out;
+/// Of a file of any size, in little memory. @throws Error{file}
+std::string hash_of(const fs::path& path) {
+  InputFile file(path.string());
+  std::vector<char> block(1 << 20);
+  Sha256 hash;
+  for (std::size_t got = block.size(); got == block.size();) {
+    got = file.read(block.data(), block.size());
+    hash.add({block.data(), got});
+  }
+  file.check_whole();
+  return hash.digest();
 }
 
 std::string dumped(const Json& json) {
@@ -52,10 +58,9 @@ void write_record(const fs::path& folder, const JobLine& job, const Outcome& out
 }
 
 std::optional<Record> read_record(const fs::path& folder, const JobLine& job) {
-  const auto text = contents(record_path(folder, job));
-  if (!text) return std::nullopt;
   try {
-    const auto json = Json::parse(*text);
+    const FileBytes text(record_path(folder, job).string());
+    const auto json = Json::parse(text.view());
     if (json.at("format") != record_format) return std::nullopt;
     const auto& r = json.at("report");
     Record out;
@@ -80,6 +85,8 @@ std::optional<Record> read_record(const fs::path& folder, const JobLine& job) {
     return out;
   } catch (const Json::exception&) {
     return std::nullopt;
+  } catch (const Error&) {  // none is there, or it cannot be read
+    return std::nullopt;
   }
 }
 
@@ -88,9 +95,7 @@ std::string FileHashes::of(const std::string& path) {
     const std::lock_guard lock(mutex_);
     if (const auto at = known_.find(path); at != known_.end()) return at->second;
   }
-  const auto bytes = contents(path);  // twice, when two threads meet here: no harm
-  if (!bytes) throw Error{Error::Kind::file, "cannot be read", path, "check the path and its permissions"};
-  auto hash = sha256(*bytes);
+  auto hash = hash_of(path);  // twice, when two threads meet here: no harm
   const std::lock_guard lock(mutex_);
   return known_.emplace(path, std::move(hash)).first->second;
 }
@@ -113,8 +118,11 @@ std::string inputs_hash(const Job& job, FileHashes& files) {
 }
 
 bool has_hash(const fs::path& file, const std::string& hash) {
-  const auto bytes = contents(file);
-  return bytes && sha256(*bytes) == hash;
+  try {
+    return hash_of(file) == hash;
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 }  // namespace weft::jobs

@@ -60,6 +60,19 @@ std::string own_value(const JobLine& line, const std::string& key) {
 
 }  // namespace
 
+namespace {
+
+/// Whether the record is of what the job is now. Of a model that cannot be read nothing is known but that.
+bool is_of(const Record& record, const Job& job, FileHashes& files) {
+  try {
+    return record.inputs_sha256 == inputs_hash(job, files);
+  } catch (const Error&) {
+    return record.exit_status != 0 && record.inputs_sha256.empty();
+  }
+}
+
+}  // namespace
+
 Collected collect(const std::vector<Prepared>& jobs, const std::filesystem::path& folder) {
   Collected out;
   FileHashes files;
@@ -67,7 +80,7 @@ Collected collect(const std::vector<Prepared>& jobs, const std::filesystem::path
     Collected::Entry entry{job.line, read_record(folder, job.line)};
     std::error_code ignored;
     const bool gone = entry.ok() && !std::filesystem::exists(folder / entry.line.output, ignored);
-    if (gone || (entry.record && entry.record->inputs_sha256 != inputs_hash(job.job, files))) entry.record.reset();
+    if (gone || (entry.record && !is_of(*entry.record, job.job, files))) entry.record.reset();
     out.missing += !entry.record;
     out.ok += entry.ok();
     out.failed += entry.record && !entry.ok();

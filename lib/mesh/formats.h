@@ -1,5 +1,5 @@
 #pragma once
-#include "mesh/file_bytes.h"
+#include "core/file_bytes.h"
 #include "mesh/read.h"
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 #include "core/hash.h"
-#include "mesh/file_bytes.h"
+#include "core/file_bytes.h"
 #include "mesh/formats.h"
 #include "tasks/tasks.h"
 

@@ -1,6 +1,6 @@
 #include "pipeline/plate.h"
 
-#include "mesh/file_bytes.h"
+#include "core/file_bytes.h"
 #include "mesh/placement.h"
 #include "mesh/read.h"
 #include "pipeline/cached.h"
@@ -40,7 +40,7 @@ void note_model(const mesh::Loaded& model, Report& report) {
 /// A model, welded and repaired. Messages name it as it was typed, so that name is part of the key.
 mesh::Loaded read_model(const std::string& path, double scale, StageCache* cache) {
   if (!cache) return mesh::read_file(path, {.scale = scale});
-  const mesh::FileBytes file(path);
+  const FileBytes file(path);
   const auto hash = sha256(file.view());
   return cached(
              cache, [&] { return StageKey("read", 1).with(path).with(hash).with(scale); },

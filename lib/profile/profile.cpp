@@ -132,6 +132,7 @@ void apply_text(Profile& profile, std::string_view text, const std::filesystem::
     if (!std::filesystem::is_regular_file(parent))
       throw Error{Error::Kind::settings, fmt::format("inherits '{}', which is not there", parent.string()), where,
                   "the path is relative to this file"};
+    profile.parents.push_back(parent);
     apply_text(profile, read_profile(parent), parent, options, chain);
   }
   for (const auto& e : entries)

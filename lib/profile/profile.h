@@ -24,6 +24,7 @@ struct Profile {
   std::map<std::string, std::vector<Origin>>
       origins;  ///< by key; oldest first, the last one holds; absent: the default
   Notices notices;
+  std::vector<std::filesystem::path> parents;  ///< files that were inherited
 };
 
 /// How profiles of PrusaSlicer's family are read.

@@ -14,14 +14,19 @@
 
 namespace weft::tasks {
 
-/// All results; where there are errors, that of the lowest index is rethrown.
+/// What is there. @throws Stopped where nothing is: it was not made
 template <class Out>
-std::vector<Out> taken_out(std::vector<std::optional<Out>>& results, const std::vector<std::exception_ptr>& failed) {
-  for (const auto& error : failed)
-    if (error) std::rethrow_exception(error);
+Out taken(std::optional<Out>& result) {
+  if (!result) throw Stopped{};
+  return std::move(*result);
+}
+
+/// All results, the only way to them. @throws Stopped when one is missing: there is no shorter list
+template <class Out>
+std::vector<Out> taken_out(std::vector<std::optional<Out>>& results) {
   std::vector<Out> out;
   out.reserve(results.size());
-  for (auto& result : results) out.push_back(std::move(*result));
+  for (auto& result : results) out.push_back(taken(result));
   return out;
 }
 
@@ -32,16 +37,8 @@ template <class F>
 auto parallel_map(std::size_t count, F f) {
   using Out = std::invoke_result_t<F&, std::size_t>;
   std::vector<std::optional<Out>> slots(count);
-  std::vector<std::exception_ptr> failed(count);
-  for_each_index(count, [&](std::size_t i) {
-    try {
-      stop_if_asked();
-      slots[i].emplace(f(i));
-    } catch (...) {
-      failed[i] = std::current_exception();
-    }
-  });
-  return taken_out(slots, failed);
+  for_each_index(count, [&](std::size_t i) { stop_if_asked(), slots[i].emplace(f(i)); });
+  return taken_out(slots);
 }
 
 /// take(i, f(i)) for i in [0, count): f in any order and side by side, take in index order and one at a time. Few
@@ -68,7 +65,7 @@ void parallel_in_order(std::size_t count, F f, Take take) {
   const auto take_out = [&](std::size_t i) {
     Piece& piece = pieces[i % slots];
     if (piece.failed) std::rethrow_exception(piece.failed);
-    take(i, std::move(*piece.out));
+    take(i, taken(piece.out));
     piece.out.reset();
   };
   for_each_in_order(count, slots, {.make = make, .take = take_out});
@@ -104,16 +101,18 @@ auto parallel_linked(std::size_t count, F f, Link link, G g) {
   const auto take = [&](std::size_t i) {
     if (failed[i]) broken = true;
     if (broken) return;
-    guarded(i, [&](Piece& piece) { piece.linked.emplace(link(i, std::move(*piece.made))); });
+    guarded(i, [&](Piece& piece) { piece.linked.emplace(link(i, taken(piece.made))); });
     if (failed[i]) broken = true;
   };
   const auto finish = [&](std::size_t i) {
     if (!pieces[i % slots].linked) return;
-    guarded(i, [&](Piece& piece) { stop_if_asked(), results[i].emplace(g(i, std::move(*piece.linked))); });
+    guarded(i, [&](Piece& piece) { stop_if_asked(), results[i].emplace(g(i, taken(piece.linked))); });
     pieces[i % slots].linked.reset();
   };
   for_each_in_order(count, slots, {.make = make, .take = take, .finish = finish});
-  return taken_out(results, failed);
+  for (const auto& error : failed)
+    if (error) std::rethrow_exception(error);
+  return taken_out(results);
 }
 
 }  // namespace weft::tasks

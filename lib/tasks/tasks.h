@@ -6,7 +6,9 @@
 /// Everything that weft asks of TBB, but for the crew of a batch.
 namespace weft::tasks {
 
-/// task(i) for i in [0, count), side by side in any order; returns when all are done. Pre: task does not throw.
+/// task(i) for i in [0, count), side by side in any order; returns when all are done, and only then.
+/// @throws the error of the lowest index that throws, when all have been tried; Stopped where not all were: a loop that
+/// was cut short, by whatever, never looks like one that was not
 void for_each_index(std::size_t count, const std::function<void(std::size_t)>& task);
 
 /// What is done with each piece of a row, one step after the other.
@@ -18,7 +20,8 @@ struct Steps {
 };
 /// The steps of i for i in [0, count), several pieces on their way at once. Those of i may use the place i % places of
 /// what has so many: i − places is done with it.
-/// @throws what `take` throws, then nothing more is taken. Pre: the others do not throw; places > 0 unless count is 0
+/// @throws what a step throws, then no further step is begun; Stopped where it was cut short. Pre: places > 0 unless
+/// count is 0
 void for_each_in_order(std::size_t count, std::size_t places, const Steps& steps);
 /// Places that keep all threads at work: for each one that is worked on and one that waits for its turn.
 std::size_t most_in_flight();
@@ -33,7 +36,7 @@ class Beside {
   Beside(const Beside&) = delete;
   Beside& operator=(const Beside&) = delete;
 
-  /// @throws what the work has thrown
+  /// @throws what the work has thrown; Stopped where it was not done
   void wait();
 
  private:
@@ -50,6 +53,7 @@ class Once {
   Once& operator=(const Once&) = delete;
 
   /// Post: some call of `work` has ended without an error, and is seen. When one throws, who waits tries in its turn.
+  /// @throws what its call throws; Stopped where none was made
   void run(const std::function<void()>& work);
 
  private:

@@ -75,7 +75,7 @@ TEST_CASE("tasks: pieces of a crew that share threads ask each their own", "[tas
   std::vector<std::atomic<int>> asked(pieces);
   std::vector<char> stopped(pieces, 0);
   std::size_t begun = 0;
-  tasks::run_crew(
+  const auto broken = tasks::run_crew(
       4, [&]() -> std::optional<std::size_t> { return begun < pieces ? std::optional(begun++) : std::nullopt; },
       [&](std::size_t i) {
         const std::function<bool()> whether = [&, i] { return ++asked[i] > 100 && i % 3 == 0; };

@@ -1,4 +1,4 @@
-#include "mesh/file_bytes.h"
+#include "core/file_bytes.h"
 
 #include "core/error.h"
 #include "core/stop.h"
@@ -14,7 +14,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-namespace weft::mesh {
+namespace weft {
 namespace {
 
 Error unreadable(const std::string& path, int error) {
@@ -86,4 +86,4 @@ void FileBytes::take(InputFile& file) {
   file.check_whole();
 }
 
-}  // namespace weft::mesh
+}  // namespace weft

@@ -7,7 +7,7 @@
 
 #include <sys/stat.h>
 
-namespace weft::mesh {
+namespace weft {
 
 /// A file that is read from its beginning to its end, as it was at one moment. It is not mapped: one that another
 /// program cuts short meanwhile would take the job down (SIGBUS).
@@ -61,4 +61,4 @@ class FileBytes {
   std::size_t size_ = 0;
 };
 
-}  // namespace weft::mesh
+}  // namespace weft

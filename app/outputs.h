@@ -1,0 +1,30 @@
+#pragma once
+#include "core/file_place.h"
+
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace weft::app {
+
+/// The files of a run, by what they are: none that is read is written, and none is written twice.
+class Files {
+ public:
+  /// A file that is read. What is not there is left to who reads it.
+  /// @throws Error{usage} when it is written
+  void reads(const std::string& path);
+  /// A file that is written, or "-" for standard output.
+  /// @param option   that names it
+  /// @param profiles may it be one? A model never is
+  /// @throws Error{usage} when it is read, or written already, or named like a model or a profile
+  void writes(const std::string& path, std::string_view option, bool profiles = false);
+
+ private:
+  struct Output {
+    std::string path, option;
+  };
+  std::map<FilePlace, std::string> read_;  // and how the user calls it
+  std::map<FilePlace, Output> written_;
+};
+
+}  // namespace weft::app

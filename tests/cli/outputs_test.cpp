@@ -1,0 +1,121 @@
+// No file that is read is written, and none is written twice: whatever the paths are called.
+#include "cli/program.h"
+
+#include <filesystem>
+
+#include <catch2/catch.hpp>
+
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Desk {
+  Scratch scratch;
+  std::string model = box_stl(10, 10, 2);
+  Desk() {
+    scratch.write("part.stl", model);
+    scratch.write("base.ini", "layer_height = 0.2\n");
+    scratch.write("my.ini", "inherits = base.ini\n");
+    scratch.write("plain", "layer_height = 0.3\n");
+    scratch.write("old.gcode", "the old one\n");
+    fs::create_directory(scratch.path() / "folder");
+    fs::create_symlink("part.stl", scratch.path() / "link.gcode");
+    fs::create_hard_link(scratch.path() / "part.stl", scratch.path() / "hard.gcode");
+    fs::create_symlink("new.json", scratch.path() / "to-come");  // leads to nothing yet
+    fs::create_symlink("loop", scratch.path() / "loop");
+  }
+  /// Wrong use, that says so, and all is as it was.
+  void refuses(std::vector<std::string> words, const std::string& message) const {
+    CAPTURE(words, message);
+    const auto before = scratch.names();
+    const auto run = weft(words, scratch.path());
+    CHECK(run.status == 2);
+    CHECK_THAT(run.err, Contains(message));
+    CHECK((scratch.read("part.stl") == model));
+    CHECK(scratch.read("my.ini") == "inherits = base.ini\n");
+    CHECK(scratch.read("base.ini") == "layer_height = 0.2\n");
+    CHECK(scratch.read("plain") == "layer_height = 0.3\n");
+    CHECK(scratch.read("old.gcode") == "the old one\n");
+    CHECK(scratch.names() == before);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("outputs: what a slice reads it never writes") {
+  const Desk desk;
+  const std::string absolute = (desk.scratch.path() / "folder/../part.stl").string();
+  desk.refuses({"slice", "part.stl", "-o", "part.stl"}, "-o: part.stl is named like a model");
+  desk.refuses({"slice", "part.stl", "-o", "new.STL"}, "-o: new.STL is named like a model");
+  desk.refuses({"slice", "part.stl", "-o", "new.3mf"}, "-o: new.3mf is named like a model");
+  desk.refuses({"slice", "part.stl", "-p", "my.ini", "-o", "my.ini"}, "-o: my.ini is named like a profile");
+  desk.refuses({"slice", "part.stl", "-o", "out.gcode", "--report", "my.ini"},
+               "--report: my.ini is named like a profile");
+  desk.refuses({"slice", "part.stl", "-o", "link.gcode"}, "-o: link.gcode is the file part.stl, which is read");
+  desk.refuses({"slice", "part.stl", "-o", "hard.gcode"}, "-o: hard.gcode is the file part.stl, which is read");
+  desk.refuses({"slice", absolute, "-o", "./folder/../link.gcode"}, "which is read and would be lost");
+  desk.refuses({"slice", "part.stl", "-p", "plain", "-o", "plain"}, "-o: plain is read, and would be lost");
+  desk.scratch.write("child.ini", "inherits = plain\n");
+  desk.refuses({"slice", "part.stl", "-p", "child.ini", "-o", "plain"}, "-o: plain is read, and would be lost");
+  desk.refuses({"slice", "part.stl", "-o", "out.gcode", "--report", "link.gcode"},
+               "--report: link.gcode is the file part.stl");
+  desk.refuses({"slice", "part.stl", "-o", "out.gcode", "--preview", "part.stl"},
+               "--preview: part.stl is named like a model");
+}
+
+TEST_CASE("outputs: no file is written twice, be it there or not") {
+  const Desk desk;
+  desk.refuses({"slice", "part.stl", "-o", "x", "--report", "x"}, "--report: x is the file of -o x");
+  desk.refuses({"slice", "part.stl", "-o", "x.html", "--preview", "x.html"},
+               "--preview: x.html is the file of -o x.html");
+  desk.refuses({"slice", "part.stl", "-o", "old.gcode", "--report", "folder/../old.gcode"},
+               "is the file of -o old.gcode");
+  desk.refuses({"slice", "part.stl", "-o", "new.json", "--report", "to-come"},
+               "--report: to-come is the file of -o new.json");
+  desk.refuses({"slice", "part.stl", "-o", "-", "--report", "/dev/stdout"},
+               "--report: /dev/stdout is the file of -o standard output");
+  const auto into = shell("$WEFT slice part.stl -o - >> part.stl", desk.scratch.path());
+  CHECK(into.status == 2);
+  CHECK((desk.scratch.read("part.stl") == desk.model));
+}
+
+TEST_CASE("outputs: every verb keeps what it reads") {
+  const Desk desk;
+  REQUIRE(weft({"slice", "part.stl", "-o", "good.gcode"}, desk.scratch.path()).status == 0);
+  desk.refuses({"audit", "good.gcode", "--report", "good.gcode"}, "--report: good.gcode is read");
+  desk.refuses({"verify", "good.gcode", "part.stl", "--report", "link.gcode"}, "is the file part.stl, which is read");
+  desk.refuses({"inspect", "part.stl", "--report", "hard.gcode"}, "is the file part.stl, which is read");
+  desk.refuses({"inspect", "part.stl", "-o", "hard.gcode"}, "is the file part.stl, which is read");
+  desk.refuses({"profile", "show", "my.ini", "-o", "my.ini"}, "-o: my.ini is read");
+  desk.refuses({"profile", "show", "my.ini", "-o", "base.ini"}, "-o: base.ini is read");
+  desk.refuses({"profile", "diff", "my.ini", "base.ini", "-o", "base.ini"}, "-o: base.ini is read");
+  desk.refuses({"settings", "--report", "new.ini"}, "named like a profile");
+  fs::copy_file(desk.scratch.path() / "good.gcode", desk.scratch.path() / "good.svg");
+  desk.refuses({"preview", "good.svg", "-o", "good.svg"}, "-o: good.svg is read");
+  CHECK(weft({"profile", "show", "my.ini", "-o", "new.ini"}, desk.scratch.path()).status == 0);
+}
+
+TEST_CASE("outputs: a batch writes no file that one of its jobs reads") {
+  const Desk desk;
+  desk.scratch.write("jobs", R"({"models": ["part.stl"], "output": "part.stl"})"
+                             "\n");
+  desk.refuses({"batch", "jobs", "-o", "."}, "jobs:1: output ./part.stl is named like a model");
+  desk.scratch.write("jobs", R"({"models": ["part.stl"], "profiles": ["plain"], "output": "a.gcode"})"
+                             "\n"
+                             R"({"models": ["part.stl"], "output": "plain"})"
+                             "\n");
+  desk.refuses({"batch", "jobs", "-o", "."}, "jobs:2: output ./plain is the file plain, which is read");
+  desk.scratch.write("jobs", R"({"models": ["part.stl"], "output": "jobs"})"
+                             "\n");
+  desk.refuses({"batch", "jobs", "-o", "."}, "jobs:1: output ./jobs is the file jobs, which is read");
+  desk.scratch.write("jobs", R"({"models": ["part.stl"], "output": "hard.gcode"})"
+                             "\n");
+  desk.refuses({"batch", "jobs", "-o", "."}, "jobs:1: output ./hard.gcode is the file part.stl, which is read");
+  desk.refuses({"batch", "jobs", "-o", "results", "--report", "jobs"}, "--report: jobs is read");
+}
+
+TEST_CASE("outputs: devices take any number of results") {
+  const Desk desk;
+  CHECK(weft({"slice", "part.stl", "-o", "/dev/null", "--report", "/dev/null"}, desk.scratch.path()).status == 0);
+}
