@@ -14,11 +14,11 @@ using namespace std::string_view_literals;
 
 /// M-codes after which the nozzle may be elsewhere: probing, parking, filament changes, files and macros of the
 /// firmware, vibration tests, changes of the coordinates that firmwares do in different ways.
-constexpr std::array moving_m_codes{48, 98, 125, 428, 600, 601, 602, 701, 702, 970, 974};
+constexpr std::array moving_m_codes{48, 98, 125, 226, 428, 600, 601, 602, 701, 702, 970, 974};
 
 /// M-codes followed by a text, which may hold anything.
-constexpr std::array text_m_codes{16,  23,  28,  29,  30,  32,  33,  36,  38,  111, 115, 117,
-                                  118, 291, 486, 550, 552, 581, 587, 815, 862, 928, 929, 1002};
+constexpr std::array text_m_codes{0,   1,   16,  23,  28,  29,  30,  32,  33,  36,  38,  111, 115,
+                                  117, 118, 291, 486, 550, 552, 581, 587, 815, 862, 928, 929, 1002};
 
 template <class List, class T>
 bool contains(const List& list, const T& wanted) {

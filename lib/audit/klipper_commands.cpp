@@ -16,7 +16,6 @@ using namespace std::string_view_literals;
 /// Klipper's commands that leave the nozzle and the coordinates alone. Everything else that is spelt out is a macro,
 /// and a macro may do anything. Sorted.
 constexpr std::array harmless_commands{
-    "ACTIVATE_EXTRUDER"sv,
     "BED_MESH_CLEAR"sv,
     "BED_MESH_OUTPUT"sv,
     "BED_MESH_PROFILE"sv,
@@ -166,6 +165,16 @@ void Reader::klipper_command(KlipperHandler handler, std::string_view text) {
   forget_position();
 }
 
+/// "extruder" is the first tool, "extruder1" the one with that number; what else it is called tells none.
+void Reader::klipper_activate(const Arguments& arguments) {
+  constexpr std::string_view first = "extruder";
+  const auto* const found = find(arguments, "EXTRUDER");
+  if (!found || !found->starts_with(first)) return;
+  const std::string_view name = *found;
+  const auto number = klipper::integer_of(name.substr(first.size()));
+  if (name == first || number) tool_ = number.value_or(0);
+}
+
 void Reader::klipper_object(const Arguments& arguments) {
   context_.set_object(name_in(arguments, {}));
 }
@@ -180,9 +189,9 @@ const char* Reader::extended_command(const char* p, const char* end) {
     KlipperHandler handler;
   };
   static constexpr Modelled modelled[] = {
-      {"EXCLUDE_OBJECT_END", &Reader::klipper_object_end}, {"EXCLUDE_OBJECT_START", &Reader::klipper_object},
-      {"RESTORE_GCODE_STATE", &Reader::klipper_restore},   {"SAVE_GCODE_STATE", &Reader::klipper_save},
-      {"SET_GCODE_OFFSET", &Reader::klipper_offset},
+      {"ACTIVATE_EXTRUDER", &Reader::klipper_activate},  {"EXCLUDE_OBJECT_END", &Reader::klipper_object_end},
+      {"EXCLUDE_OBJECT_START", &Reader::klipper_object}, {"RESTORE_GCODE_STATE", &Reader::klipper_restore},
+      {"SAVE_GCODE_STATE", &Reader::klipper_save},       {"SET_GCODE_OFFSET", &Reader::klipper_offset},
   };
   const char* name_end = p;
   while (name_end < end && (scan::is_letter(*name_end) || scan::is_digit(*name_end) || *name_end == '_')) ++name_end;

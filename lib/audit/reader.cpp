@@ -155,6 +155,9 @@ const char* Reader::command(const char* p, const char* end) {
   const char* const behind = skip_words(p, end);
   if (letter == '{' || letter == '[') {
     problem("a placeholder that was not filled in");
+  } else if (letter == '@') {  // for the host, which may do anything: @pause
+    const auto line = std::string_view(p, static_cast<std::size_t>(behind - p));
+    opaque_command(line.substr(0, line.find_first_of(" \t")));
   } else if (letter == '*') {
     if (!checksum_holds(line_begin_, p)) problem("a checksum that does not match its line");
   } else if (letter != '%' && letter != ')' && letter != '/') {  // % and / are marks of older controls

@@ -105,6 +105,7 @@ class Reader {
   using KlipperHandler = void (Reader::*)(const klipper::Arguments& arguments);
   void klipper_command(KlipperHandler handler, std::string_view text);
   void klipper_offset(const klipper::Arguments& arguments);
+  void klipper_activate(const klipper::Arguments& arguments);
   void klipper_save(const klipper::Arguments& arguments);
   void klipper_restore(const klipper::Arguments& arguments);
   void klipper_object(const klipper::Arguments& arguments);

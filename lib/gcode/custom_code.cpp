@@ -84,7 +84,7 @@ void add_figures(const Job& job, Variables& out) {
     if (const auto* real = std::get_if<double>(&first)) cost_per_kg = *real;
   }
   out["total_cost"] = rounded_to(t.filament_g / 1000 * cost_per_kg, 2);
-  out["total_toolchanges"] = count(0);
+  out["total_toolchanges"] = count(tool_changes(job));
   out["has_wipe_tower"] = macro::variable(false);
   out["has_single_extruder_multi_material_priming"] = macro::variable(false);
 }
@@ -145,7 +145,12 @@ Variables print_variables(const Job& job) {
   out["total_layer_count"] = count(job.plan.layers.size());
   out["max_layer_z"] = macro::variable(to_mm(top_of(job.plan)));
   out["num_objects"] = out["num_instances"] = count(job.plan.objects.size());
-  out["num_extruders"] = out["num_printing_extruders"] = count(1);
+  const auto& tools = job.statistics.tools;
+  out["num_extruders"] = count(std::max<std::size_t>(1, tools.size()));
+  out["num_printing_extruders"] = count(
+      tools.empty() ? 1 : static_cast<std::size_t>(std::count_if(tools.begin(), tools.end(), [](const auto& tool) {
+        return tool.filament_mm3 > 0;
+      })));
   out["is_extruder_used"] = macro::variable(true);
   for (const auto* tool : {"initial_tool", "initial_extruder", "current_extruder", "previous_extruder", "next_extruder",
                            "filament_extruder_id", "current_object_idx"})
@@ -159,6 +164,12 @@ Variables print_variables(const Job& job) {
 void set_layer(Variables& variables, std::size_t index, Um z) {
   variables["layer_num"] = count(index);
   variables["layer_z"] = macro::variable(to_mm(z));
+}
+
+void set_tool_change(Variables& variables, ToolId from, ToolId to, Um z) {
+  variables["previous_extruder"] = count(from);
+  variables["next_extruder"] = variables["current_extruder"] = variables["filament_extruder_id"] = count(to);
+  variables["toolchange_z"] = macro::variable(to_mm(z));
 }
 
 bool has_command(std::string_view code, std::string_view command) {

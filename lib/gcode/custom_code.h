@@ -23,6 +23,9 @@ struct CustomCode {
 macro::Variables print_variables(const Job& job);
 void set_layer(macro::Variables& variables, std::size_t index, Um z);
 
+/// From that tool to another, on a layer whose top is at z.
+void set_tool_change(macro::Variables& variables, ToolId from, ToolId to, Um z);
+
 /// Does a line of the code begin with that command, such as "M104"?
 bool has_command(std::string_view code, std::string_view command);
 

@@ -87,6 +87,59 @@ void Dialect::travel_acceleration(Text& out, std::int64_t mm_s2) const {
   }
 }
 
+void Dialect::select(Text& out, ToolId tool) const {
+  if (firmware != Firmware::klipper)
+    out << 'T' << std::int64_t{tool} << '\n';
+  else if (tool == 0)
+    out << "ACTIVATE_EXTRUDER EXTRUDER=extruder\n";
+  else
+    out << "ACTIVATE_EXTRUDER EXTRUDER=extruder" << std::int64_t{tool} << '\n';
+}
+
+void Dialect::temperature(Text& out, const SetTemperature& heat) const {
+  using Heater = SetTemperature::Heater;
+  const auto set = [&](std::string_view at_once, std::string_view waiting) {
+    out << (heat.wait ? waiting : at_once);
+    if (heat.heater == Heater::nozzle && heat.tool != any_tool) out << " T" << std::int64_t{heat.tool};
+    out << " S" << std::int64_t{heat.celsius} << '\n';
+  };
+  switch (heat.heater) {
+    case Heater::bed:
+      return set("M140", "M190");
+    case Heater::chamber:
+      return set("M141", "M191");
+    case Heater::nozzle:
+      break;
+  }
+  if (firmware != Firmware::reprapfirmware || heat.tool == any_tool) return set("M104", "M109");
+  out << "G10 P" << std::int64_t{heat.tool} << " S" << std::int64_t{heat.celsius} << '\n';
+  if (heat.wait) out << "M116 P" << std::int64_t{heat.tool} << '\n';
+}
+
+void Dialect::pause(Text& out, const std::string& text) const {
+  switch (firmware) {
+    case Firmware::klipper:
+      if (!text.empty()) out << "M117 " << text << '\n';
+      out << "PAUSE\n";
+      break;
+    case Firmware::reprapfirmware:
+      if (!text.empty()) out << "M117 " << text << '\n';
+      out << "M226\n";
+      break;
+    case Firmware::repetier:
+      out << "@pause" << (text.empty() ? "" : " ") << text << '\n';
+      break;
+    case Firmware::smoothie:
+      if (!text.empty()) out << "M117 " << text << '\n';
+      out << "M600\n";
+      break;
+    case Firmware::marlin:
+    case Firmware::marlin2:
+      out << "M0" << (text.empty() ? "" : " ") << text << '\n';
+      break;
+  }
+}
+
 std::string Dialect::machine_limits(const MachineSettings& m) const {
   const auto axes = [](double x, double y, double z, double e) {
     return fmt::format(" X{} Y{} Z{} E{}", value::number(x, 3), value::number(y, 3), value::number(z, 3),

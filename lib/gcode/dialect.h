@@ -32,6 +32,12 @@ struct Dialect {
   void print_acceleration(Text& out, std::int64_t mm_s2) const;
   void travel_acceleration(Text& out, std::int64_t mm_s2) const;
 
+  /// Loads a tool.
+  void select(Text& out, ToolId tool) const;
+  void temperature(Text& out, const SetTemperature& heat) const;
+  /// Waits for the user; what firmwares call this they do in ways of their own.
+  void pause(Text& out, const std::string& text) const;
+
   /// Limits of speed, acceleration and jerk; nothing for Klipper, which has them in its own configuration.
   std::string machine_limits(const MachineSettings& machine) const;
 

@@ -30,7 +30,6 @@ void take_in(LayerDigest& out, const Travel& travel, bool own_acceleration) {
 
 void take_in(LayerDigest& out, const Retract& retract, Um z) {
   for (const Point p : retract.wipe) out.extents.add({p.x, p.y, z});
-  out.retracted = true;
   if (!retract.wipe.empty()) out.wiped_to = retract.wipe.back();
 }
 
@@ -49,25 +48,41 @@ LayerDigest digest_of(const Settings& settings, const LayerPlan& layer) {
   const Dialect dialect = dialect_of(settings.machine, settings.gcode);
   LayerDigest out;
   out.bytes = 1024 + 96 * layer.steps.size();
-  for (const auto& step : layer.steps) {
-    if (const auto* bead = std::get_if<Extrude>(&step))
-      take_in(out, *bead, layer.z);
-    else if (const auto* travel = std::get_if<Travel>(&step))
-      take_in(out, *travel, dialect.separate_travel_acceleration());
-    else if (const auto* retract = std::get_if<Retract>(&step))
-      take_in(out, *retract, layer.z);
-    else if (std::holds_alternative<Prime>(step))
-      out.retracted = false;
-    else if (const auto* fan = std::get_if<SetFan>(&step))
-      out.fan = fan->share;
-  }
+  const auto set_retracted = [&](bool v) { (out.changes.empty() ? out.retracted : out.changes.back().retracted) = v; };
+  const auto lose_place = [&] {
+    out.place_lost = true;
+    out.at.reset(), out.wiped_to.reset();
+  };
+  const overloaded take{[&](const Extrude& bead) { take_in(out, bead, layer.z); },
+                        [&](const Travel& travel) { take_in(out, travel, dialect.separate_travel_acceleration()); },
+                        [&](const Retract& retract) {
+                          take_in(out, retract, layer.z);
+                          set_retracted(true);
+                        },
+                        [&](const Prime&) { set_retracted(false); },
+                        [&](const SetFan& fan) { out.fan = fan.share; },
+                        [&](const ToolChange& change) {
+                          out.changes.push_back({change.tool, {}});
+                          lose_place();
+                        },
+                        [&](const Pause& pause) {
+                          out.bytes += pause.text.size();
+                          lose_place();
+                        },
+                        LeavesAlone<ObjectStart, ObjectEnd, SetTemperature>{}};
+  for (const auto& step : layer.steps) std::visit(take, step);
   return out;
 }
 
 void advance(MachineState& state, const LayerDigest& layer) {
+  if (layer.place_lost) state.at.reset();
   if (layer.at) state.at = layer.at;
   if (layer.wiped_to && state.at) state.at = Point3{layer.wiped_to->x, layer.wiped_to->y, state.at->z};
-  if (layer.retracted) state.retracted = *layer.retracted;
+  if (layer.retracted) state.set_retracted(*layer.retracted);
+  for (const auto& change : layer.changes) {
+    state.tool = change.tool;
+    if (change.retracted) state.set_retracted(*change.retracted);
+  }
   if (layer.fan) state.fan = *layer.fan;
   if (layer.print_acceleration > 0) state.print_acceleration = layer.print_acceleration;
   if (layer.travel_acceleration > 0) state.travel_acceleration = layer.travel_acceleration;

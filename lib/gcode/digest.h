@@ -3,7 +3,9 @@
 #include "model/plan.h"
 #include "settings/settings.h"
 
+#include <bitset>
 #include <optional>
+#include <vector>
 
 /// What the rest of a file must know of a layer, so that its steps need not be there until they are written.
 namespace weft::gcode {
@@ -13,7 +15,11 @@ struct MachineState {
   std::optional<Point3> at;
   double fan = -1;                                         ///< −1: not said yet
   double print_acceleration = 0, travel_acceleration = 0;  ///< mm/s²; 0: not said yet
-  bool retracted = false;
+  ToolId tool = 0;                                         ///< that is loaded
+  std::bitset<any_tool + 1U> drawn_back{};                 ///< by tool: is its filament?
+
+  bool retracted() const { return drawn_back[tool]; }
+  void set_retracted(bool drawn) { drawn_back[tool] = drawn; }
 };
 
 /// Where the nozzle goes.
@@ -32,7 +38,13 @@ struct LayerDigest {
   // What it changes of the machine's state; where it says nothing: nothing.
   std::optional<Point3> at;       ///< the end of its last bead or travel
   std::optional<Point> wiped_to;  ///< after that, at the same height
-  std::optional<bool> retracted;
+  bool place_lost = false;        ///< by a tool change or a pause; `at` and `wiped_to` are of moves after the last one
+  std::optional<bool> retracted;  ///< the tool that it begins with
+  struct Change {
+    ToolId tool = 0;
+    std::optional<bool> retracted;  ///< that tool, until the next change
+  };
+  std::vector<Change> changes;
   std::optional<double> fan;
   double print_acceleration = 0, travel_acceleration = 0;  ///< mm/s²; 0: not said
 };

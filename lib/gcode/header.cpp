@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -40,7 +41,20 @@ Extents extents_of(const Job& job) {
 }
 
 Box first_layer_box(const Job& job) {
-  return job.plan.layers.empty() ? Box{} : digest_of(job, 0).covered;
+  Box covered;
+  for (std::size_t i = 0; i < job.plan.layers.size(); ++i)
+    if (job.plan.layers[i].time.first()) covered.add(digest_of(job, i).covered);
+  return covered;
+}
+
+std::size_t tool_changes(const Job& job) {
+  std::size_t changes = 0;
+  if (job.statistics.tools.size() < 2) return changes;
+  ToolId loaded = 0;
+  for (std::size_t i = 0; i < job.plan.layers.size(); ++i)
+    for (const auto& change : digest_of(job, i).changes)
+      changes += std::exchange(loaded, change.tool) != change.tool ? 1 : 0;
+  return changes;
 }
 
 std::string duration(double seconds) {
@@ -113,8 +127,25 @@ std::string further(const Settings& s, std::string_view name, std::string otherw
   return otherwise;
 }
 
+/// "12.50", or of each tool where the plan names some: "12.50, 0.00".
+std::string of_tools(const Statistics& t, double all, double Statistics::Tool::*of_tool, double unit) {
+  if (t.tools.size() < 2) return fmt::format("{:.2f}", all / unit);
+  std::string out;
+  for (const auto& tool : t.tools) out += fmt::format("{}{:.2f}", out.empty() ? "" : ", ", tool.*of_tool / unit);
+  return out;
+}
+
+/// Those that print something.
+std::string referenced_tools(const Statistics& t) {
+  std::string out;
+  for (std::size_t i = 0; i < t.tools.size(); ++i)
+    if (t.tools[i].filament_mm3 > 0) out += fmt::format("{}{}", out.empty() ? "" : ",", i);
+  return out.empty() ? "0" : out;
+}
+
 /// What print servers look for under PrusaSlicer's names. A filament without a colour is shown grey.
-std::string named_as_prusaslicer(const Settings& s) {
+std::string named_as_prusaslicer(const Job& job) {
+  const auto& s = job.settings;
   const auto& m = s.material;
   std::string out = fmt::format("; filament_type = {}\n", one_line(m.material_type));
   out +=
@@ -129,7 +160,8 @@ std::string named_as_prusaslicer(const Settings& s) {
   out += fmt::format("; filament_settings_id = {}\n; filament_colour = {}\n; extruder_colour = {}\n",
                      further(s, "filament_settings_id", one_line(m.material_type)),
                      further(s, "filament_colour", "#808080"), further(s, "extruder_colour", "#808080"));
-  out += "; total toolchanges = 0\n; referenced_tools = 0\n; single_extruder_multi_material = 0\n";
+  out += fmt::format("; total toolchanges = {}\n; referenced_tools = {}\n; single_extruder_multi_material = 0\n",
+                     tool_changes(job), referenced_tools(job.statistics));
   if (!s.machine.machine_name.empty()) out += fmt::format("; printer_model = {}\n", one_line(s.machine.machine_name));
   return out;
 }
@@ -175,15 +207,18 @@ std::string bottom_comments(const Job& job) {
   const auto& t = job.statistics;
   const bool orca = s.gcode.gcode_comment_dialect == CommentDialect::orca;
   std::string out = orca ? "; EXECUTABLE_BLOCK_END\n\n" : "";
-  out += fmt::format("; filament used [mm] = {:.2f}\n; filament used [cm3] = {:.2f}\n; filament used [g] = {:.2f}\n",
-                     t.filament_mm, t.filament_mm3 / 1000, t.filament_g);
+  using Tool = Statistics::Tool;
+  out += fmt::format("; filament used [mm] = {}\n; filament used [cm3] = {}\n; filament used [g] = {}\n",
+                     of_tools(t, t.filament_mm, &Tool::filament_mm, 1),
+                     of_tools(t, t.filament_mm3, &Tool::filament_mm3, 1000),
+                     of_tools(t, t.filament_g, &Tool::filament_g, 1));
   out += fmt::format("; total filament used [g] = {:.2f}\n; total layers count = {}\n", t.filament_g,
                      job.plan.layers.size());
   out += fmt::format("; estimated printing time (normal mode) = {}\n", duration(t.print_time_s));
   if (!t.layer_s.empty())
     out += fmt::format("; estimated first layer printing time (normal mode) = {}\n", duration(t.layer_s[0]));
   out += orca ? "\n; CONFIG_BLOCK_START\n" : "\n";
-  out += named_as_prusaslicer(s) + "\n" + settings_block(s) + job.provenance;
+  out += named_as_prusaslicer(job) + "\n" + settings_block(s) + job.provenance;
   return orca ? out + "; CONFIG_BLOCK_END\n" : out;
 }
 

@@ -13,6 +13,9 @@ std::string bottom_comments(const Job& job);
 /// Of a layer of the job: the one that it has, or made from the plan.
 LayerDigest digest_of(const Job& job, std::size_t layer);
 
+/// How often another tool is loaded.
+std::size_t tool_changes(const Job& job);
+
 /// 1d 2h 3m 4s, without the zeros in front, as PrusaSlicer writes durations.
 std::string duration(double seconds);
 
@@ -22,7 +25,7 @@ Extents extents_of(const Job& job);
 /// Z of the highest layer; 0 without layers.
 Um top_of(const PrintPlan& plan);
 
-/// What the beads of the first layer cover, their width included.
+/// What the beads of first layers cover, their width included.
 Box first_layer_box(const Job& job);
 
 }  // namespace weft::gcode

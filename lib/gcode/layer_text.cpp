@@ -1,6 +1,7 @@
 #include "gcode/layer_text.h"
 
 #include "core/stop.h"
+#include "gcode/custom_code.h"
 #include "gcode/moves.h"
 #include "model/flow.h"
 
@@ -179,8 +180,8 @@ class LayerText {
   void print(const Retract& retract) {
     const auto& r = job_.settings.retraction;
     const double amount = to_mm(r.retraction_amount) * units_per_mm;
-    const bool draws = !state_.retracted;
-    state_.retracted = true;
+    const bool draws = !state_.retracted();
+    state_.set_retracted(true);
     const double before = r.firmware_retraction ? 1 : retract.before_wipe;
     if (draws && r.firmware_retraction)
       out_ << "G10\n";
@@ -204,8 +205,8 @@ class LayerText {
   }
 
   void print(const Prime&) {
-    if (!state_.retracted) return;
-    state_.retracted = false;
+    if (!state_.retracted()) return;
+    state_.set_retracted(false);
     const auto& r = job_.settings.retraction;
     const double speed = r.retraction_prime_speed.value_or(r.retraction_retract_speed);
     if (r.firmware_retraction) out_ << "G11\n";
@@ -219,6 +220,34 @@ class LayerText {
     job_.dialect.fan(out_, fan.share);
   }
 
+  /// Firmware or the user may have had the nozzle elsewhere: the place is said again before anything is laid down.
+  void lose_place() {
+    state_.at.reset();
+    feed_ = 0;
+  }
+
+  /// What the profile brings for it, and the tool itself unless that has chosen it.
+  void print(const ToolChange& change) {
+    const std::string_view code =
+        tool_changes_ < job_.tool_changes.size() ? std::string_view(job_.tool_changes[tool_changes_]) : "";
+    ++tool_changes_;
+    custom(code);
+    Text chosen;
+    job_.dialect.select(chosen, change.tool);
+    const auto select = std::move(chosen).take();
+    if (!has_command(code, std::string_view(select).substr(0, select.size() - 1))) out_ << select;
+    state_.tool = change.tool;
+    lose_place();
+    if (job_.settings.gcode.relative_extrusion) return;
+    out_ << "G92 E0\n";
+    e_wanted_ = 0, e_written_ = 0;
+  }
+  void print(const SetTemperature& heat) { job_.dialect.temperature(out_, heat); }
+  void print(const Pause& pause) {
+    job_.dialect.pause(out_, pause.text);
+    lose_place();
+  }
+
   void print(const ObjectStart& object) { job_.dialect.object_start(out_, object.object, job_.names); }
   void print(const ObjectEnd& object) { job_.dialect.object_end(out_, object.object, job_.names); }
 
@@ -230,6 +259,7 @@ class LayerText {
   std::int64_t e_written_ = 0;  // likewise
   std::int64_t feed_ = 0;       // 0: not said in this layer
   int role_ = -1;
+  std::size_t tool_changes_ = 0;
   Um height_ = 0, band_ = 0;
 };
 

@@ -18,7 +18,8 @@ struct LayerJob {
   std::string_view preamble;      ///< after ;LAYER_CHANGE, before the first move
   std::string_view before_layer;  ///< custom G-code
   std::string_view after_layer;
-  double end_s = 0;  ///< time of the print when the layer is done
+  const std::vector<std::string>& tool_changes;  ///< custom G-code of each
+  double end_s = 0;                              ///< time of the print when the layer is done
 };
 
 std::string layer_text(const LayerJob& job);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -69,15 +70,21 @@ void Writer::expand_custom_code() {
   start_sets_nozzle_ = heating.nozzle, start_sets_bed_ = heating.bed, start_sets_chamber_ = heating.chamber;
   const auto& g = job_.settings.gcode;
   const auto& layers = job_.plan.layers;
-  before_layer_.resize(layers.size()), after_layer_.resize(layers.size());
+  before_layer_.resize(layers.size()), after_layer_.resize(layers.size()), tool_changes_.resize(layers.size());
   for (std::size_t i = 0; i < layers.size(); ++i) {
     stop_if_asked();
-    const bool next_object = i > 0 && layers[i].z < layers[i - 1].z;  // one object after the other
-    if (g.before_layer_gcode.empty() && g.layer_gcode.empty() && !next_object) continue;
+    const bool next_object = layers[i].time.comes_down;  // one object after the other
+    const auto changes = g.tool_change_gcode.empty() ? std::vector<LayerDigest::Change>{} : digest_of(job_, i).changes;
+    if (g.before_layer_gcode.empty() && g.layer_gcode.empty() && !next_object && changes.empty()) continue;
     set_layer(variables, i, layers[i].z);
     if (next_object) before_layer_[i] = expanded(code.between_objects);
     before_layer_[i] += expanded(code.before_layer);
     after_layer_[i] = expanded(code.layer);
+    ToolId loaded = entries_[i].tool;
+    for (const auto& change : changes) {
+      set_tool_change(variables, std::exchange(loaded, change.tool), change.tool, layers[i].z);
+      tool_changes_[i].push_back(expanded(code.tool_change));
+    }
   }
   if (!layers.empty()) set_layer(variables, layers.size() - 1, layers.back().z);
   end_ = expanded(code.end);
@@ -108,10 +115,12 @@ std::string Writer::head() const {
 std::string Writer::layer(std::size_t index) const {
   const auto& m = job_.settings.material;
   std::string preamble;
-  if (index == 1) {  // the first layer is over
+  const bool first = job_.plan.layers[index].time.first();
+  if (index > 0 && job_.plan.layers[index - 1].time.first() != first) {  // the first layer is over, or another begins
     if (m.material_print_temperature != first_nozzle(m))
-      preamble += fmt::format("M104 S{}\n", m.material_print_temperature);
-    if (m.material_bed_temperature != first_bed(m)) preamble += fmt::format("M140 S{}\n", m.material_bed_temperature);
+      preamble += fmt::format("M104 S{}\n", first ? first_nozzle(m) : m.material_print_temperature);
+    if (m.material_bed_temperature != first_bed(m))
+      preamble += fmt::format("M140 S{}\n", first ? first_bed(m) : m.material_bed_temperature);
   }
   if (job_.settings.gcode.gcode_progress && index > 0) {
     const auto now = progress(elapsed_s_[index], elapsed_s_.back());
@@ -127,6 +136,7 @@ std::string Writer::layer(std::size_t index) const {
                      .preamble = preamble,
                      .before_layer = before_layer_[index],
                      .after_layer = after_layer_[index],
+                     .tool_changes = tool_changes_[index],
                      .end_s = elapsed_s_[index + 1]});
 }
 
@@ -161,7 +171,8 @@ void check_custom_code(const Settings& settings) {
                      {middle.x + 10'000, middle.y + 10'000},
                      {middle.x - 10'000, middle.y + 10'000}};
   PrintPlan cube;
-  for (Um z = 200; z <= 20'000; z += 200) cube.layers.push_back({.z = z, .height = 200});
+  for (std::uint32_t i = 0; i < 100; ++i)
+    cube.layers.push_back({.z = 200 * static_cast<Um>(i + 1), .height = 200, .time = {.index = i, .number = i}});
   Extrude bead{.path = {}, .role = Role::outer_wall, .height = 200, .speed_mm_s = 50};
   for (const Point p : outline) bead.path.push_back({p, 400, 1.F});
   cube.layers.front().steps.emplace_back(bead);

@@ -53,6 +53,7 @@ class Writer {
   std::vector<MachineState> entries_;                    // when each layer begins
   std::vector<double> elapsed_s_;                        // then; one more for the end
   std::vector<std::string> before_layer_, after_layer_;  // custom G-code, expanded; empty where there is none
+  std::vector<std::vector<std::string>> tool_changes_;   // of each layer; likewise, and empty where there is no code
   std::vector<std::string> names_;                       // of the objects
   std::string start_, end_;
   bool start_sets_nozzle_ = false, start_sets_bed_ = false, start_sets_chamber_ = false;

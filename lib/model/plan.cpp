@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace weft {
 
@@ -13,14 +14,20 @@ double speed_between(const Travel& travel, Point3 a, Point3 b) {
 }
 
 Point3 end_of(const LayerPlan& layer, Point3 before) {
-  for (auto step = layer.steps.rbegin(); step != layer.steps.rend(); ++step) {
-    if (const auto* extrude = std::get_if<Extrude>(&*step); extrude && !extrude->path.empty())
-      return place_of(*extrude, extrude->path.size() - 1, layer.z);
-    if (const auto* travel = std::get_if<Travel>(&*step); travel && !travel->path.empty()) return travel->path.back();
-    if (const auto* retract = std::get_if<Retract>(&*step); retract && !retract->wipe.empty())
-      return {retract->wipe.back().x, retract->wipe.back().y, layer.z};
-  }
-  return before;
+  std::optional<Point3> end;
+  const overloaded look{[&](const Extrude& bead) {
+                          if (!bead.path.empty()) end = place_of(bead, bead.path.size() - 1, layer.z);
+                        },
+                        [&](const Travel& travel) {
+                          if (!travel.path.empty()) end = travel.path.back();
+                        },
+                        [&](const Retract& retract) {
+                          if (!retract.wipe.empty())
+                            end = Point3{retract.wipe.back().x, retract.wipe.back().y, layer.z};
+                        },
+                        LeavesAlone<Prime, SetFan, ObjectStart, ObjectEnd, ToolChange, SetTemperature, Pause>{}};
+  for (auto step = layer.steps.rbegin(); step != layer.steps.rend() && !end; ++step) std::visit(look, *step);
+  return end.value_or(before);
 }
 
 }  // namespace weft

@@ -1,6 +1,8 @@
 #pragma once
 #include "core/notice.h"
+#include "core/overloaded.h"
 #include "model/bead.h"
+#include "model/sequence.h"
 
 #include <string>
 #include <variant>
@@ -13,8 +15,10 @@ namespace weft {
 struct Extrude {
   std::vector<Junction> path;
   Role role = Role::outer_wall;
-  Um height = 0;          ///< of the layer at this place
-  double speed_mm_s = 0;  ///< set by motion; 0 before
+  ToolId tool = any_tool;  ///< what it is printed with: the tool that a ToolChange before it loaded
+  ScopeId scope = 0;       ///< what settings it is printed with
+  Um height = 0;           ///< of the layer at this place
+  double speed_mm_s = 0;   ///< set by motion; 0 before
   std::vector<float>
       segment_speed_mm_s{};       ///< set by motion where speed varies along the path: one a segment; else empty
   double acceleration_mm_s2 = 0;  ///< set by motion; 0: whatever the firmware has
@@ -60,11 +64,38 @@ struct ObjectEnd {
   std::uint32_t object = 0;
 };
 
-using Step = std::variant<Extrude, Travel, Retract, Prime, SetFan, ObjectStart, ObjectEnd>;
+/// From here on another tool prints. It brings its own filament: what was drawn back of the one before stays so.
+/// Where the nozzle is afterwards is not known to who reads the file: firmware may have gone to a rack.
+/// Pre: filament is drawn back, or both tools stand still anyway.
+struct ToolChange {
+  ToolId tool = 0;
+  friend bool operator==(const ToolChange&, const ToolChange&) = default;
+};
+
+/// What a heater is to reach.
+struct SetTemperature {
+  enum class Heater : std::uint8_t { nozzle, bed, chamber };
+  Heater heater = Heater::nozzle;
+  ToolId tool = any_tool;  ///< of a nozzle
+  int celsius = 0;         ///< 0: off
+  bool wait = false;       ///< until it is reached
+  friend bool operator==(const SetTemperature&, const SetTemperature&) = default;
+};
+
+/// The printer waits for somebody to let it go on. Firmware may park the nozzle meanwhile.
+struct Pause {
+  std::string text;  ///< what to do, for the display; one line
+  friend bool operator==(const Pause&, const Pause&) = default;
+};
+
+using Step =
+    std::variant<Extrude, Travel, Retract, Prime, SetFan, ObjectStart, ObjectEnd, ToolChange, SetTemperature, Pause>;
 
 /// One layer of the whole plate, in the order it is printed.
 struct LayerPlan {
   Um z = 0, height = 0;
+  Moment time{};
+  ScopeId scope = 0;  ///< the settings of what belongs to no bead: travels, fan
   std::vector<Step> steps{};
 };
 

@@ -4,6 +4,11 @@
 
 namespace weft {
 
+Statistics::Tool& Statistics::tool(ToolId id) {
+  if (tools.size() <= id) tools.resize(id + std::size_t{1});
+  return tools[id];
+}
+
 void Statistics::append(const Statistics& later) {
   for (std::size_t i = 0; i < features.size(); ++i) {
     features[i].mm += later.features[i].mm;
@@ -21,6 +26,13 @@ void Statistics::append(const Statistics& later) {
   travel.retractions += later.travel.retractions;
   travel.wall_crossings += later.travel.wall_crossings;
   travel.retraction_s += later.travel.retraction_s;
+  for (std::size_t i = 0; i < later.tools.size(); ++i) {
+    auto& sum = tool(static_cast<ToolId>(i));
+    sum.filament_mm += later.tools[i].filament_mm;
+    sum.filament_mm3 += later.tools[i].filament_mm3;
+    sum.filament_g += later.tools[i].filament_g;
+    sum.changes += later.tools[i].changes;
+  }
   filament_mm += later.filament_mm;
   filament_mm3 += later.filament_mm3;
   filament_g += later.filament_g;

@@ -30,9 +30,19 @@ struct Statistics {
     double retraction_s = 0;  ///< retracting, priming and wiping
   } travel;
 
+  /// Of one tool.
+  struct Tool {
+    double filament_mm = 0, filament_mm3 = 0, filament_g = 0;
+    std::int64_t changes = 0;  ///< to it
+  };
+  std::vector<Tool> tools;  ///< by ToolId; empty where the plan names none
+
   double filament_mm = 0, filament_mm3 = 0, filament_g = 0;  ///< with material_flow and extra prime
   std::vector<double> layer_s;                               ///< one a layer
   double print_time_s = 0;                                   ///< sum of layer_s: without heating and custom G-code
+
+  /// Of that tool, which then is one of `tools`.
+  Tool& tool(ToolId id);
 
   /// Adds the layers that come after these.
   void append(const Statistics& later);

@@ -28,18 +28,20 @@ Slowdown slowdown_for(const Rules& rules, const std::vector<Move>& moves, double
 }
 
 void slow_down(LayerPlan& layer, const Slowdown& slowdown) {
-  for (auto& step : layer.steps)
-    if (auto* bead = std::get_if<Extrude>(&step)) {
-      bead->speed_mm_s = slowdown.of(bead->speed_mm_s);
-      for (auto& v : bead->segment_speed_mm_s) v = static_cast<float>(slowdown.of(static_cast<double>(v)));
-    }
+  const overloaded slow{
+      [&](Extrude& bead) {
+        bead.speed_mm_s = slowdown.of(bead.speed_mm_s);
+        for (auto& v : bead.segment_speed_mm_s) v = static_cast<float>(slowdown.of(static_cast<double>(v)));
+      },
+      LeavesAlone<Travel, Retract, Prime, SetFan, ObjectStart, ObjectEnd, ToolChange, SetTemperature, Pause>{}};
+  for (auto& step : layer.steps) std::visit(slow, step);
 }
 
-double fan_share(const CoolingSettings& cooling, std::size_t index, double seconds) {
+double fan_share(const CoolingSettings& cooling, std::size_t number, double seconds) {
   const auto off = static_cast<std::size_t>(cooling.cool_fan_off_layers),
              full = static_cast<std::size_t>(cooling.cool_fan_full_layer);
   if (!cooling.cool_fan_enabled) return 0;
-  if (index < off) return cooling.cool_fan_speed_0 / 100.0;
+  if (number < off) return cooling.cool_fan_speed_0 / 100.0;
   const double least = cooling.cool_fan_speed_min, most = std::max(least, cooling.cool_fan_speed_max);
   const double fast_s = cooling.cool_min_layer_time, slow_s = cooling.cool_min_layer_time_fan_speed_max;
   double percent = most;
@@ -47,26 +49,30 @@ double fan_share(const CoolingSettings& cooling, std::size_t index, double secon
     percent = cooling.cool_fan_always_on ? least : 0;
   else if (seconds > fast_s)
     percent = most + (least - most) * (seconds - fast_s) / (slow_s - fast_s);
-  if (index + 1 < full) {  // from cool_fan_speed_0 in the last layer without fan to all of it in layer `full`
-    const double t = static_cast<double>(index + 1 - off) / static_cast<double>(full - off);
+  if (number + 1 < full) {  // from cool_fan_speed_0 in the last layer without fan to all of it in layer `full`
+    const double t = static_cast<double>(number + 1 - off) / static_cast<double>(full - off);
     percent = cooling.cool_fan_speed_0 + t * (percent - cooling.cool_fan_speed_0);
   }
   return percent / 100.0;
 }
 
-void set_fan(const CoolingSettings& cooling, LayerPlan& layer, std::size_t index, double seconds) {
-  const double share = fan_share(cooling, index, seconds);
-  const bool over_air_too = cooling.cool_fan_enabled && index >= static_cast<std::size_t>(cooling.cool_fan_off_layers);
+void set_fan(const CoolingSettings& cooling, LayerPlan& layer, double seconds) {
+  const std::size_t number = layer.time.number;
+  const double share = fan_share(cooling, number, seconds);
+  const bool over_air_too = cooling.cool_fan_enabled && number >= static_cast<std::size_t>(cooling.cool_fan_off_layers);
   const double over_air = over_air_too ? std::max(share, cooling.bridge_fan_speed / 100.0) : share;
   std::vector<Step> steps;
   steps.reserve(layer.steps.size() + 8);
   steps.emplace_back(SetFan{share});
   double now = share;
+  const overloaded before{
+      [&](const Extrude& bead) {
+        const double wanted = bead.role == Role::bridge || bead.role == Role::overhang_wall ? over_air : share;
+        if (wanted != now) steps.emplace_back(SetFan{now = wanted});
+      },
+      LeavesAlone<Travel, Retract, Prime, SetFan, ObjectStart, ObjectEnd, ToolChange, SetTemperature, Pause>{}};
   for (auto& step : layer.steps) {
-    if (const auto* bead = std::get_if<Extrude>(&step)) {
-      const double wanted = bead->role == Role::bridge || bead->role == Role::overhang_wall ? over_air : share;
-      if (wanted != now) steps.emplace_back(SetFan{now = wanted});
-    }
+    std::visit(before, step);
     steps.push_back(std::move(step));
   }
   layer.steps = std::move(steps);

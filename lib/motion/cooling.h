@@ -11,9 +11,10 @@ Slowdown slowdown_for(const Rules& rules, const std::vector<Move>& moves, double
 void slow_down(LayerPlan& layer, const Slowdown& slowdown);
 
 /// The fan of a layer that takes so long, 0 … 1.
-double fan_share(const CoolingSettings& cooling, std::size_t index, double seconds);
+/// @param number of the layer on its way up from the bed (Moment)
+double fan_share(const CoolingSettings& cooling, std::size_t number, double seconds);
 
 /// Puts SetFan steps in: for the layer, and around bridges and overhangs.
-void set_fan(const CoolingSettings& cooling, LayerPlan& layer, std::size_t index, double seconds);
+void set_fan(const CoolingSettings& cooling, LayerPlan& layer, double seconds);
 
 }  // namespace weft::motion

@@ -108,6 +108,8 @@ struct Collector {
     }
     at = to;
   }
+  /// Moves before and after do not run into each other.
+  void stand_still(std::uint32_t step) { moves.push_back({.step = step}); }
   void pause(double s, std::uint32_t step) {
     if (s > 0) moves.push_back({.pause_s = s, .step = step});
   }
@@ -121,44 +123,58 @@ double Slowdown::of(double speed_mm_s) const {
 
 std::vector<Move> moves_of(const Rules& rules, const LayerPlan& layer, std::optional<Point3> start) {
   std::size_t count = 0;
-  for (const auto& step : layer.steps) {
-    ++count;
-    if (const auto* bead = std::get_if<Extrude>(&step)) count += bead->path.size();
-    if (const auto* travel = std::get_if<Travel>(&step)) count += travel->path.size();
-  }
+  const overloaded points_of{
+      [](const Extrude& bead) { return bead.path.size(); }, [](const Travel& travel) { return travel.path.size(); },
+      [](const Retract& r) { return r.wipe.size(); },       [](const Prime&) { return std::size_t{0}; },
+      [](const SetFan&) { return std::size_t{0}; },         [](const ObjectStart&) { return std::size_t{0}; },
+      [](const ObjectEnd&) { return std::size_t{0}; },      [](const ToolChange&) { return std::size_t{0}; },
+      [](const SetTemperature&) { return std::size_t{0}; }, [](const Pause&) { return std::size_t{0}; }};
+  for (const auto& step : layer.steps) count += 1 + std::visit(points_of, step);
   std::vector<Move> moves;
   moves.reserve(count);
   Collector out{rules.machine, moves, start};
   const auto& r = rules.retraction;
   const double unset = rules.speeds.acceleration_print, amount_mm = to_mm(r.retraction_amount);
   bool retracted = false;
-  for (std::uint32_t i = 0; i < layer.steps.size(); ++i) {
-    const auto& step = layer.steps[i];
-    if (const auto* bead = std::get_if<Extrude>(&step)) {
-      const double a = bead->acceleration_mm_s2 > 0 ? bead->acceleration_mm_s2 : unset;
-      const bool varies = !bead->segment_speed_mm_s.empty();
-      for (std::size_t k = 0; k < bead->path.size(); ++k) {
-        const double v = varies && k > 0 ? static_cast<double>(bead->segment_speed_mm_s[k - 1]) : bead->speed_mm_s;
-        out.go(place_of(*bead, k, layer.z), v, a, i, true);
-      }
-    } else if (const auto* travel = std::get_if<Travel>(&step)) {
-      for (const Point3 to : travel->path)
-        out.go(to, out.at ? speed_between(*travel, *out.at, to) : travel->speed_mm_s,
-               travel->acceleration_mm_s2 > 0 ? travel->acceleration_mm_s2 : unset, i, false);
-    } else if (const auto* retract = std::get_if<Retract>(&step)) {
-      if (!retracted)
-        out.pause(extruder_s(amount_mm * retract->before_wipe, r.retraction_retract_speed, rules.machine), i);
-      for (const Point p : retract->wipe)
-        out.go({p.x, p.y, out.at ? out.at->z : layer.z}, retract->wipe_speed_mm_s, travel_acceleration_mm_s2(rules), i,
-               false);
-      retracted = true;
-    } else if (std::holds_alternative<Prime>(step)) {
-      out.pause(extruder_s(amount_mm + to_mm(r.retraction_extra_prime_amount),
-                           r.retraction_prime_speed.value_or(r.retraction_retract_speed), rules.machine),
-                i);
-      retracted = false;
-    }
-  }
+  std::uint32_t i = 0;
+  const overloaded add{
+      [&](const Extrude& bead) {
+        const double a = bead.acceleration_mm_s2 > 0 ? bead.acceleration_mm_s2 : unset;
+        const bool varies = !bead.segment_speed_mm_s.empty();
+        for (std::size_t k = 0; k < bead.path.size(); ++k) {
+          const double v = varies && k > 0 ? static_cast<double>(bead.segment_speed_mm_s[k - 1]) : bead.speed_mm_s;
+          out.go(place_of(bead, k, layer.z), v, a, i, true);
+        }
+      },
+      [&](const Travel& travel) {
+        for (const Point3 to : travel.path)
+          out.go(to, out.at ? speed_between(travel, *out.at, to) : travel.speed_mm_s,
+                 travel.acceleration_mm_s2 > 0 ? travel.acceleration_mm_s2 : unset, i, false);
+      },
+      [&](const Retract& retract) {
+        if (!retracted)
+          out.pause(extruder_s(amount_mm * retract.before_wipe, r.retraction_retract_speed, rules.machine), i);
+        for (const Point p : retract.wipe)
+          out.go({p.x, p.y, out.at ? out.at->z : layer.z}, retract.wipe_speed_mm_s, travel_acceleration_mm_s2(rules), i,
+                 false);
+        retracted = true;
+      },
+      [&](const Prime&) {
+        out.pause(extruder_s(amount_mm + to_mm(r.retraction_extra_prime_amount),
+                             r.retraction_prime_speed.value_or(r.retraction_retract_speed), rules.machine),
+                  i);
+        retracted = false;
+      },
+      [&](const ToolChange&) {
+        out.stand_still(i);
+        retracted = false;
+      },
+      [&](const SetTemperature& heat) {
+        if (heat.wait) out.stand_still(i);
+      },
+      [&](const Pause&) { out.stand_still(i); },
+      LeavesAlone<SetFan, ObjectStart, ObjectEnd>{}};
+  for (; i < layer.steps.size(); ++i) std::visit(add, layer.steps[i]);
   return moves;
 }
 

@@ -18,7 +18,8 @@ bool is_wall(Role role) {
   return role == Role::outer_wall || role == Role::inner_wall || role == Role::overhang_wall;
 }
 
-void count_bead(const Extrude& bead, Statistics& s) {
+/// @returns its volume, mm³
+double count_bead(const Extrude& bead, Statistics& s) {
   auto& feature = s.features[static_cast<std::size_t>(bead.role)];
   const bool wall = is_wall(bead.role);
   const double height_mm = to_mm(bead.height);
@@ -40,6 +41,7 @@ void count_bead(const Extrude& bead, Statistics& s) {
     }
   feature.mm += mm;
   feature.mm3 += mm3;
+  return mm3;
 }
 
 void count_travel(const Travel& travel, std::optional<Point3> from, Statistics& s) {
@@ -53,39 +55,74 @@ void count_travel(const Travel& travel, std::optional<Point3> from, Statistics& 
 
 void count_times(const LayerPlan& layer, const std::vector<Move>& moves, const std::vector<double>& seconds,
                  Statistics& s) {
-  double total = 0;
+  double total = 0, of_the_user = 0;
+  const overloaded spent_on{
+      [&](const Extrude& bead) { return &s.features[static_cast<std::size_t>(bead.role)].s; },
+      [&](const Travel&) { return &s.travel.s; },
+      [&](const Retract&) { return &s.travel.retraction_s; },
+      [&](const Prime&) { return &s.travel.retraction_s; },
+      [&](const ToolChange&) { return &s.travel.retraction_s; },
+      // These take no move, and what they wait for nobody knows.
+      [&](const SetFan&) { return &of_the_user; },
+      [&](const ObjectStart&) { return &of_the_user; },
+      [&](const ObjectEnd&) { return &of_the_user; },
+      [&](const SetTemperature&) { return &of_the_user; },
+      [&](const Pause&) { return &of_the_user; },
+  };
   for (std::size_t i = 0; i < moves.size(); ++i) {
-    const auto& step = layer.steps[moves[i].step];
-    if (const auto* bead = std::get_if<Extrude>(&step))
-      s.features[static_cast<std::size_t>(bead->role)].s += seconds[i];
-    else if (std::holds_alternative<Travel>(step))
-      s.travel.s += seconds[i];
-    else
-      s.travel.retraction_s += seconds[i];
+    *std::visit(spent_on, layer.steps[moves[i].step]) += seconds[i];
     total += seconds[i];
   }
   s.layer_s.push_back(total);
   s.print_time_s = total;
 }
 
+/// What each tool takes: `primes` of it beside its beads.
+void count_tools(const Rules& rules, double area_mm2, const std::vector<std::int64_t>& primes, Statistics& s) {
+  for (std::size_t i = 0; i < s.tools.size(); ++i) {
+    auto& tool = s.tools[i];
+    tool.filament_mm3 *= rules.material.material_flow / 100.0;
+    if (i < primes.size())
+      tool.filament_mm3 +=
+          static_cast<double>(primes[i]) * to_mm(rules.retraction.retraction_extra_prime_amount) * area_mm2;
+    tool.filament_mm = tool.filament_mm3 / area_mm2;
+    tool.filament_g = tool.filament_mm3 * rules.material.material_density / 1000.0;
+  }
+}
+
 Statistics count(const Rules& rules, const LayerPlan& layer, std::optional<Point3> at) {
   Statistics s;
   std::int64_t primes = 0;
+  std::vector<std::int64_t> tool_primes;
+  ToolId loaded = any_tool;
+  const auto prime = [&] {
+    ++primes;
+    if (loaded == any_tool) return;
+    tool_primes.resize(std::max<std::size_t>(tool_primes.size(), loaded + std::size_t{1}));
+    ++tool_primes[loaded];
+  };
+  const overloaded count_step{[&](const Extrude& bead) {
+                                const double mm3 = count_bead(bead, s);
+                                if (bead.tool != any_tool) loaded = bead.tool;
+                                if (loaded != any_tool) s.tool(loaded).filament_mm3 += mm3;
+                                at = place_of(bead, bead.path.size() - 1, layer.z);
+                              },
+                              [&](const Travel& travel) {
+                                count_travel(travel, at, s);
+                                at = travel.path.back();
+                              },
+                              [&](const Retract& retract) {
+                                ++s.travel.retractions;
+                                if (!retract.wipe.empty())
+                                  at = Point3{retract.wipe.back().x, retract.wipe.back().y, at ? at->z : layer.z};
+                              },
+                              [&](const Prime&) { prime(); },
+                              [&](const ToolChange& change) { ++s.tool(loaded = change.tool).changes; },
+                              LeavesAlone<SetFan, ObjectStart, ObjectEnd, SetTemperature, Pause>{}};
   StopNowAndThen stop(64);
   for (const auto& step : layer.steps) {
     stop.step();
-    if (const auto* bead = std::get_if<Extrude>(&step)) {
-      count_bead(*bead, s);
-      at = place_of(*bead, bead->path.size() - 1, layer.z);
-    } else if (const auto* travel = std::get_if<Travel>(&step)) {
-      count_travel(*travel, at, s);
-      at = travel->path.back();
-    } else if (const auto* retract = std::get_if<Retract>(&step)) {
-      ++s.travel.retractions;
-      if (!retract->wipe.empty()) at = Point3{retract->wipe.back().x, retract->wipe.back().y, at ? at->z : layer.z};
-    } else if (std::holds_alternative<Prime>(step)) {
-      ++primes;
-    }
+    std::visit(count_step, step);
   }
   const double diameter_mm = to_mm(rules.material.filament_diameter);
   const double area_mm2 = std::numbers::pi / 4 * diameter_mm * diameter_mm;
@@ -93,6 +130,7 @@ Statistics count(const Rules& rules, const LayerPlan& layer, std::optional<Point
   s.filament_mm3 += static_cast<double>(primes) * to_mm(rules.retraction.retraction_extra_prime_amount) * area_mm2;
   s.filament_mm = s.filament_mm3 / area_mm2;
   s.filament_g = s.filament_mm3 * rules.material.material_density / 1000.0;
+  count_tools(rules, area_mm2, tool_primes, s);
   return s;
 }
 
@@ -102,8 +140,8 @@ Rules rules_of(const Settings& s) {
   return {s.machine, s.material, s.layers, s.walls, s.retraction, s.speeds, s.cooling};
 }
 
-PlannedLayer plan_layer(const Rules& rules, LayerPlan layer, std::size_t index, std::optional<Point3> start) {
-  set_speeds(rules, layer, index == 0, start);
+PlannedLayer plan_layer(const Rules& rules, LayerPlan layer, std::optional<Point3> start) {
+  set_speeds(rules, layer, start);
   auto moves = moves_of(rules, layer, start);
   std::vector<double> seconds;
   seconds_of(rules.machine, moves, {}, seconds);
@@ -116,7 +154,7 @@ PlannedLayer plan_layer(const Rules& rules, LayerPlan layer, std::size_t index, 
   PlannedLayer out;
   out.statistics = count(rules, layer, start);
   count_times(layer, moves, seconds, out.statistics);
-  set_fan(rules.cooling, layer, index, out.statistics.print_time_s);
+  set_fan(rules.cooling, layer, out.statistics.print_time_s);
   out.plan = std::move(layer);
   return out;
 }
@@ -142,7 +180,7 @@ Planned plan(const Rules& rules, PrintPlan print) {
   Planned out;
   const auto starts = starts_of(print);
   for (std::size_t i = 0; i < print.layers.size(); ++i) {
-    auto planned = plan_layer(rules, std::move(print.layers[i]), i, starts[i]);
+    auto planned = plan_layer(rules, std::move(print.layers[i]), starts[i]);
     print.layers[i] = std::move(planned.plan);
     out.statistics.append(planned.statistics);
   }

@@ -28,13 +28,12 @@ struct PlannedLayer {
 /// Gives every step of a layer its speed and acceleration, slows the layer down to cool_min_layer_time, sets the fan.
 /// Beads are cut where their width changes, so that each segment may be printed at one width; mm³/s stay below
 /// material_max_volumetric_speed at every junction.
-/// @param index of the layer, from 0
 /// @param start where the nozzle is when the layer begins (model/plan.h, end_of); nothing: unknown
 /// Pre:  speeds of `layer` are not set.  Post: all speeds > 0.
 /// Cost: O(junctions); a few passes more where the layer is slowed down. Layers do not depend on each other: the
 /// estimate of
 ///       time lets each begin and end at rest, which costs a fraction of a second a layer.
-PlannedLayer plan_layer(const Rules& rules, LayerPlan layer, std::size_t index, std::optional<Point3> start);
+PlannedLayer plan_layer(const Rules& rules, LayerPlan layer, std::optional<Point3> start);
 
 /// Where the nozzle is when a layer is done that began at `start`; nothing as long as no layer has moved.
 std::optional<Point3> start_after(const LayerPlan& layer, std::optional<Point3> start);

@@ -204,7 +204,22 @@ void set_bead_speed(const Rules& rules, Extrude& bead, bool first_layer) {
   store(segments, bead);
 }
 
-void set_speeds(const Rules& rules, LayerPlan& layer, bool first_layer, std::optional<Point3> start) {
+namespace {
+/// A wipe from where the nozzle is, and how much is drawn back before it so that the extruder keeps up.
+void set_wipe(const Rules& rules, double speed_mm_s, std::optional<Point3> at, Retract& retract) {
+  double um = at ? distance(flat(*at), retract.wipe.front()) : 0;
+  um += length_of(retract.wipe);
+  retract.wipe_speed_mm_s = speed_mm_s;
+  const double amount_mm = to_mm(rules.retraction.retraction_amount);
+  const double while_wiping_mm = rules.retraction.retraction_retract_speed * um / 1000.0 / speed_mm_s;
+  retract.before_wipe = rules.retraction.firmware_retraction || amount_mm <= 0
+                            ? 1
+                            : std::max(rules.retraction.retract_before_wipe / 100.0, 1 - while_wiping_mm / amount_mm);
+}
+}  // namespace
+
+void set_speeds(const Rules& rules, LayerPlan& layer, std::optional<Point3> start) {
+  const bool first_layer = layer.time.first();
   const bool write_accelerations = rules.speeds.acceleration_enabled;
   const double travel_speed =
       first_layer ? rules.speeds.speed_travel_layer_0.value_or(rules.speeds.speed_travel) : rules.speeds.speed_travel;
@@ -216,38 +231,46 @@ void set_speeds(const Rules& rules, LayerPlan& layer, bool first_layer, std::opt
   std::vector<Step> steps;
   steps.reserve(layer.steps.size() + 8);
   auto at = start;
+  const overloaded set{
+      // @returns whether the step stays
+      [&](Extrude& bead) {
+        if (bead.path.size() < 2) return false;
+        const Point3 first = place_of(bead, 0, layer.z);
+        if (at != first) {
+          Travel travel{.path = {first}};
+          set_travel(travel);
+          steps.emplace_back(std::move(travel));
+        }
+        if (bead.below.empty()) resample(bead.path);
+        set_bead_speed(rules, bead, first_layer);
+        bead.acceleration_mm_s2 = write_accelerations ? feature_acceleration_mm_s2(rules, bead.role, first_layer) : 0;
+        at = place_of(bead, bead.path.size() - 1, layer.z);
+        return true;
+      },
+      [&](Travel& travel) {
+        if (travel.path.empty()) return false;
+        set_travel(travel);
+        at = travel.path.back();
+        return true;
+      },
+      [&](Retract& retract) {
+        if (retract.wipe.empty()) return true;
+        set_wipe(rules, travel_speed, at, retract);
+        at = Point3{retract.wipe.back().x, retract.wipe.back().y, at ? at->z : layer.z};
+        return true;
+      },
+      [](Prime&) { return true; },
+      [](SetFan&) { return true; },
+      [](ObjectStart&) { return true; },
+      [](ObjectEnd&) { return true; },
+      [](ToolChange&) { return true; },
+      [](SetTemperature&) { return true; },
+      [](Pause&) { return true; },
+  };
   StopNowAndThen stop(16);
   for (auto& step : layer.steps) {
     stop.step();
-    if (auto* bead = std::get_if<Extrude>(&step)) {
-      if (bead->path.size() < 2) continue;
-      const Point3 first = place_of(*bead, 0, layer.z);
-      if (at != first) {
-        Travel travel{.path = {first}};
-        set_travel(travel);
-        steps.emplace_back(std::move(travel));
-      }
-      if (bead->below.empty()) resample(bead->path);
-      set_bead_speed(rules, *bead, first_layer);
-      bead->acceleration_mm_s2 = write_accelerations ? feature_acceleration_mm_s2(rules, bead->role, first_layer) : 0;
-      at = place_of(*bead, bead->path.size() - 1, layer.z);
-    } else if (auto* travel = std::get_if<Travel>(&step)) {
-      if (travel->path.empty()) continue;
-      set_travel(*travel);
-      at = travel->path.back();
-    } else if (auto* retract = std::get_if<Retract>(&step); retract && !retract->wipe.empty()) {
-      double um = at ? distance(flat(*at), retract->wipe.front()) : 0;
-      um += length_of(retract->wipe);
-      retract->wipe_speed_mm_s = travel_speed;
-      const double amount_mm = to_mm(rules.retraction.retraction_amount);
-      const double while_wiping_mm = rules.retraction.retraction_retract_speed * um / 1000.0 / travel_speed;
-      retract->before_wipe =
-          rules.retraction.firmware_retraction || amount_mm <= 0
-              ? 1
-              : std::max(rules.retraction.retract_before_wipe / 100.0, 1 - while_wiping_mm / amount_mm);
-      at = Point3{retract->wipe.back().x, retract->wipe.back().y, at ? at->z : layer.z};
-    }
-    steps.push_back(std::move(step));
+    if (std::visit(set, step)) steps.push_back(std::move(step));
   }
   layer.steps = std::move(steps);
 }

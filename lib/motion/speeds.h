@@ -18,6 +18,6 @@ double travel_acceleration_mm_s2(const Rules& rules);
 void set_bead_speed(const Rules& rules, Extrude& bead, bool first_layer);
 
 /// Speeds, accelerations and resampling for every step; a Travel is put in where a bead begins away from the nozzle.
-void set_speeds(const Rules& rules, LayerPlan& layer, bool first_layer, std::optional<Point3> start);
+void set_speeds(const Rules& rules, LayerPlan& layer, std::optional<Point3> start);
 
 }  // namespace weft::motion

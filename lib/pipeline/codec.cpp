@@ -194,6 +194,7 @@ template <class A>
 void fields(A& a, Ref<A, Bead> v) {
   fields(a, v.path);
   fields(a, v.role), fields(a, v.closed), fields(a, v.inset), fields(a, v.part), fields(a, v.sequence);
+  fields(a, v.tool), fields(a, v.scope);
 }
 template <class A>
 void fields(A& a, Ref<A, slice::Gaps> v) {
@@ -222,8 +223,8 @@ void fields(A& a, Ref<A, float> v) {
 }
 template <class A>
 void fields(A& a, Ref<A, Extrude> v) {
-  fields(a, v.path), fields(a, v.role), fields(a, v.height), fields(a, v.speed_mm_s), fields(a, v.segment_speed_mm_s),
-      fields(a, v.acceleration_mm_s2), fields(a, v.below);
+  fields(a, v.path), fields(a, v.role), fields(a, v.tool), fields(a, v.scope), fields(a, v.height),
+      fields(a, v.speed_mm_s), fields(a, v.segment_speed_mm_s), fields(a, v.acceleration_mm_s2), fields(a, v.below);
 }
 template <class A>
 void fields(A& a, Ref<A, Travel> v) {
@@ -248,6 +249,18 @@ template <class A>
 void fields(A& a, Ref<A, ObjectEnd> v) {
   fields(a, v.object);
 }
+template <class A>
+void fields(A& a, Ref<A, ToolChange> v) {
+  fields(a, v.tool);
+}
+template <class A>
+void fields(A& a, Ref<A, SetTemperature> v) {
+  fields(a, v.heater), fields(a, v.tool), fields(a, v.celsius), fields(a, v.wait);
+}
+template <class A>
+void fields(A& a, Ref<A, Pause> v) {
+  fields(a, v.text);
+}
 /// Makes a step of the kind with that index.
 template <std::size_t kind = 0>
 void become(Step& step, std::uint64_t index) {
@@ -266,8 +279,12 @@ void fields(A& a, Ref<A, Step> v) {
   std::visit([&](auto& step) { fields(a, step); }, v);
 }
 template <class A>
+void fields(A& a, Ref<A, Moment> v) {
+  fields(a, v.index), fields(a, v.pass), fields(a, v.number), fields(a, v.comes_down);
+}
+template <class A>
 void fields(A& a, Ref<A, LayerPlan> v) {
-  fields(a, v.z), fields(a, v.height), fields(a, v.steps);
+  fields(a, v.z), fields(a, v.height), fields(a, v.time), fields(a, v.scope), fields(a, v.steps);
 }
 template <class A>
 void fields(A& a, Ref<A, Triangle> v) {

@@ -65,6 +65,8 @@ void note_statistics(const Statistics& s, Report& report) {
   report.filament_g = s.filament_g;
   for (std::size_t i = 0; i < s.features.size(); ++i)
     report.features[i] = {s.features[i].mm, s.features[i].mm3, s.features[i].s};
+  for (const auto& t : s.tools)
+    report.tools.push_back({t.filament_mm, t.filament_mm3, t.filament_g, static_cast<std::size_t>(t.changes)});
   report.walls = {static_cast<std::size_t>(s.walls.beads), s.walls.variable_width_mm, s.walls.flow_compensated_mm,
                   s.walls.min_flow_ratio, s.walls.min_width == max_coord ? 0.0 : to_mm(s.walls.min_width)};
   report.travel = {s.travel.mm, static_cast<std::size_t>(s.travel.moves),
@@ -120,6 +122,12 @@ void refuse_emptiness(const Job& job, const Box3& box, const std::vector<Printed
       "is it drawn in metres or inches? --scale 1000 or --scale 25.4; else look at layer_height and wall_line_count"};
 }
 
+std::size_t count_copies(const std::vector<PlacedObject>& objects) {
+  std::size_t copies = 0;
+  for (const auto& object : objects) copies += object.offsets.size();
+  return copies;
+}
+
 /// The program.
 std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Report& report, StageCache* cache) {
   const Stopwatch stopwatch(report.timings_ms.total);
@@ -145,10 +153,11 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
   refuse_emptiness(job, box, layers);
   give_back_memory();
   begin("travel", 0.65);
-  auto [plan, packed, digests, statistics] = plan_plate(job.settings, objects, std::move(layers), report);
+  auto [plan, packed, digests, statistics] =
+      plan_plate(job.settings, objects, by_layer(count_copies(objects)), std::move(layers), report);
   note_statistics(statistics, report);
   report.layers = plan.layers.size();
-  report.height_mm = plan.layers.empty() ? 0.0 : to_mm(plan.layers.back().z);
+  for (const auto& layer : plan.layers) report.height_mm = std::max(report.height_mm, to_mm(layer.z));
   report.warnings.insert(report.warnings.end(), plan.notices.begin(), plan.notices.end());
   begin("G-code", 0.85);
   audit::Check check(job.settings.machine, job.settings.material, job.settings.audit, job.audit);

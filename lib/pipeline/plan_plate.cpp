@@ -1,5 +1,6 @@
 #include "adhesion/adhesion.h"
 #include "gcode/digest.h"
+#include "model/sequence.h"
 #include "motion/motion.h"
 #include "pipeline/codec.h"
 #include "pipeline/stages.h"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <iterator>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -38,28 +40,58 @@ std::vector<ObjectLabel> labels_of(const std::vector<PlacedObject>& objects) {
   return out;
 }
 
-/// All copies of all objects at one height. Objects end at different heights; layers are those of the tallest. The last
-/// copy of an object takes what the layer holds.
-travel::LayerInput plate_layer(const std::vector<PlacedObject>& objects, std::vector<PrintedLayers>& layers,
-                               const travel::AreasRead& read, std::size_t index) {
+/// Where a copy's layers come from.
+struct Copy {
+  std::size_t of = 0;  ///< index into the objects
+  Point by;
+  bool last = false;  ///< of that object
+};
+std::vector<Copy> copies_of(const std::vector<PlacedObject>& objects) {
+  std::vector<Copy> out;
+  for (std::size_t o = 0; o < objects.size(); ++o)
+    for (const Point by : objects[o].offsets) out.push_back({o, by, &by == &objects[o].offsets.back()});
+  return out;
+}
+
+/// Objects whose layers begin alike are one stack: it is as high as the tallest of them.
+std::vector<Stack> stacks_of(const std::vector<Copy>& copies, const std::vector<PrintedLayers>& layers) {
+  std::vector<Stack> out;
+  for (ObjectId id = 0; id < copies.size(); ++id) {
+    std::vector<LayerHeight> own;
+    for (const auto& layer : layers[copies[id].of]) own.push_back({layer.z, layer.height});
+    const auto alike = [&](const Stack& stack) {
+      return std::equal(own.begin(),
+                        own.begin() + static_cast<std::ptrdiff_t>(std::min(own.size(), stack.layers.size())),
+                        stack.layers.begin());
+    };
+    auto stack = std::find_if(out.begin(), out.end(), alike);
+    if (stack == out.end()) stack = out.insert(out.end(), Stack{});
+    stack->objects.push_back({id, static_cast<std::uint32_t>(own.size())});
+    if (own.size() > stack->layers.size()) stack->layers = std::move(own);
+  }
+  return out;
+}
+
+/// All that is printed at one moment. Where no other moment needs it, the last copy takes what the object's layer
+/// holds.
+travel::LayerInput plate_layer(const TimelineLayer& moment, const std::vector<Copy>& copies, bool only_use,
+                               std::vector<PrintedLayers>& layers, const travel::AreasRead& read) {
   travel::LayerInput input;
-  input.index = index;
-  std::uint32_t label = 0;
-  for (std::size_t o = 0; o < objects.size(); ++o) {
-    const auto& offsets = objects[o].offsets;
-    for (std::size_t copy = 0; copy < offsets.size(); ++copy) {
-      const auto object = label++;
-      if (index >= layers[o].size()) continue;
-      auto& kept = layers[o][index];
-      auto layer = copy + 1 < offsets.size() ? kept : std::move(kept);
-      const Point by = offsets[copy];
-      input.z = layer.z;
-      input.height = layer.height;
-      input.objects.push_back({object, moved(std::move(layer.beads), by), weft::moved(std::move(layer.outline), by),
-                               read.skin ? weft::moved(std::move(layer.skin), by) : Regions{},
-                               read.top ? weft::moved(std::move(layer.top), by) : Regions{},
-                               read.sparse ? weft::moved(std::move(layer.sparse), by) : Regions{}});
-    }
+  input.time = moment.time;
+  input.z = moment.z;
+  input.height = moment.height;
+  for (const auto& part : moment.parts) {
+    const auto& copy = copies[part.object];
+    auto& kept = layers[copy.of][part.layer];
+    auto layer = copy.last && only_use ? std::move(kept) : kept;
+    input.objects.push_back({.object = part.object,
+                             .stack = part.stack,
+                             .height = layer.height,
+                             .beads = moved(std::move(layer.beads), copy.by),
+                             .outline = weft::moved(std::move(layer.outline), copy.by),
+                             .skin = read.skin ? weft::moved(std::move(layer.skin), copy.by) : Regions{},
+                             .top = read.top ? weft::moved(std::move(layer.top), copy.by) : Regions{},
+                             .sparse = read.sparse ? weft::moved(std::move(layer.sparse), copy.by) : Regions{}});
   }
   return input;
 }
@@ -71,20 +103,31 @@ travel::Room room_at(const MachineSettings& machine, Um z) {
   return room;
 }
 
-/// Skirt and brim around everything, put before the other beads of their layers.
-void add_adhesion(const Settings& settings, std::vector<travel::LayerInput>& layers, Notices& notices) {
-  const std::size_t count = std::min(layers.size(), adhesion::layers_needed(settings.adhesion));
-  std::vector<adhesion::PlateLayer> plate(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    plate[i].height = layers[i].height;
-    for (const auto& object : layers[i].objects)
-      plate[i].outlines.insert(plate[i].outlines.end(), object.outline.begin(), object.outline.end());
+/// Skirt and brim around everything that rises together, put before the other beads of their layers.
+void add_adhesion(const Settings& settings, std::span<travel::LayerInput> rise, Notices& notices) {
+  const std::size_t needed = adhesion::layers_needed(settings.adhesion);
+  std::vector<adhesion::PlateLayer> plate;
+  std::vector<travel::LayerInput*> bottoms;  // of each height the first that is printed
+  for (auto& layer : rise) {
+    if (layer.time.number >= needed) break;
+    if (layer.time.number == plate.size()) plate.push_back({{}, layer.height}), bottoms.push_back(&layer);
+    auto& outlines = plate.back().outlines;
+    for (const auto& object : layer.objects)
+      outlines.insert(outlines.end(), object.outline.begin(), object.outline.end());
   }
   const Ring surface = print_surface(settings.machine);
   auto built = adhesion::build(
       settings.adhesion, {.layers = plate, .nozzle = settings.machine.nozzle_diameter, .print_surface = &surface});
-  for (std::size_t i = 0; i < built.layers.size(); ++i) layers[i].adhesion = std::move(built.layers[i]);
+  for (std::size_t i = 0; i < built.layers.size(); ++i) bottoms[i]->adhesion = std::move(built.layers[i]);
   std::move(built.notices.begin(), built.notices.end(), std::back_inserter(notices));
+}
+void add_adhesion_to_rises(const Settings& settings, std::span<travel::LayerInput> layers, Notices& notices) {
+  for (std::size_t begin = 0; begin < layers.size();) {
+    std::size_t end = begin + 1;
+    while (end < layers.size() && !layers[end].time.comes_down) ++end;
+    add_adhesion(settings, layers.subspan(begin, end - begin), notices);
+    begin = end;
+  }
 }
 
 /// A layer that is done with, until all are.
@@ -121,10 +164,11 @@ std::vector<PackedLayer> plan_moves(const Settings& settings, std::vector<travel
         at = motion::start_after(layer.plan, at);
         return layer;
       },
-      [&](std::size_t i, Begun layer) {
-        const auto planned = motion::plan_layer(rules, std::move(layer.plan), i, layer.start);
+      [&](std::size_t, Begun layer) {
+        const auto planned = motion::plan_layer(rules, std::move(layer.plan), layer.start);
         const auto& plan = planned.plan;
-        return PackedLayer{{plan.z, plan.height}, encode(plan), gcode::digest_of(settings, plan), planned.statistics};
+        return PackedLayer{
+            {plan.z, plan.height, plan.time}, encode(plan), gcode::digest_of(settings, plan), planned.statistics};
       });
   for (auto& notice : travel::notices_of(departures)) notices.push_back(std::move(notice));
   return packed;
@@ -132,18 +176,20 @@ std::vector<PackedLayer> plan_moves(const Settings& settings, std::vector<travel
 
 }  // namespace
 
-PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects,
+PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects, const Sequence& sequence,
                         std::vector<PrintedLayers> layers, Report& report) {
   const Stopwatch stopwatch(report.timings_ms.travel);
-  std::size_t count = 0;
-  for (const auto& object : layers) count = std::max(count, object.size());
+  const auto copies = copies_of(objects);
+  const auto timeline = timeline_of(sequence, stacks_of(copies, layers));
+  const std::size_t count = timeline.size();
   const auto read = travel::areas_read(settings.travel);
-  auto inputs = tasks::parallel_map(count, [&](std::size_t i) { return plate_layer(objects, layers, read, i); });
+  auto inputs = tasks::parallel_map(
+      count, [&](std::size_t i) { return plate_layer(timeline[i], copies, sequence.size() == 1, layers, read); });
 
   PlannedPlate out;
   auto& plan = out.plan;
   plan.objects = labels_of(objects);
-  add_adhesion(settings, inputs, plan.notices);
+  add_adhesion_to_rises(settings, inputs, plan.notices);
   const double filament_mm = to_mm(settings.material.filament_diameter);
   for (auto& input : inputs) {
     input.room = room_at(settings.machine, input.z);
@@ -158,7 +204,7 @@ PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject
       count, [&](std::size_t i) { return travel::prepare_order(settings.travel, std::move(inputs[i])); },
       [&](std::size_t i, travel::Prepared layer) {
         prepared.push_back(std::move(layer));
-        linker.add(prepared[i], i > 0 ? &prepared[i - 1] : nullptr);
+        linker.add(prepared[i]);
       });
   const auto linked = linker.linked();
   auto ordered =

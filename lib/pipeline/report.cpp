@@ -43,6 +43,16 @@ Json features_of(const Report& r) {
   return out;
 }
 
+Json tools_of(const Report& r) {
+  Json out = Json::array();
+  for (const auto& t : r.tools)
+    out.push_back(
+        {{"filament",
+          {{"mm", rounded3(t.filament_mm)}, {"mm3", rounded3(t.filament_mm3)}, {"g", rounded3(t.filament_g)}}},
+         {"changes", t.changes}});
+  return out;
+}
+
 Json audit_of(const Report::Audit& a) {
   Json violations = Json::array();
   for (const auto& v : a.violations)
@@ -80,6 +90,7 @@ std::string to_json(const Report& r) {
   out["height_mm"] = rounded3(r.height_mm);
   out["print_time_s"] = rounded3(r.print_time_s);
   out["filament"] = {{"mm", rounded3(r.filament_mm)}, {"mm3", rounded3(r.filament_mm3)}, {"g", rounded3(r.filament_g)}};
+  if (!r.tools.empty()) out["tools"] = tools_of(r);
   out["features"] = features_of(r);
   out["walls"] = {{"beads", r.walls.beads},
                   {"variable_width_mm", rounded3(r.walls.variable_width_mm)},

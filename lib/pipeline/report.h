@@ -26,6 +26,10 @@ struct Report {
     std::size_t beads = 0;
     double variable_width_mm = 0, flow_compensated_mm = 0, min_flow_ratio = 1, min_width_mm = 0;
   };
+  struct Tool {
+    double filament_mm = 0, filament_mm3 = 0, filament_g = 0;
+    std::size_t changes = 0;  ///< to it
+  };
   struct Travel {
     double mm = 0;
     std::size_t moves = 0, retractions = 0, wall_crossings = 0;
@@ -55,6 +59,7 @@ struct Report {
   double height_mm = 0, print_time_s = 0;
   double filament_mm = 0, filament_mm3 = 0, filament_g = 0;
   std::array<Feature, role_names.size()> features{};
+  std::vector<Tool> tools;  ///< by number, T0 first; empty where the plan names none
   Walls walls;
   Travel travel;
   Audit audit;

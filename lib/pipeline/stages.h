@@ -47,7 +47,8 @@ struct PlannedPlate {
 
 /// The whole plate as steps: copies put in their places, adhesion around them, order, seams and travels, speeds and
 /// times.
-PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects,
+/// @param sequence of the copies, numbered object by object
+PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects, const Sequence& sequence,
                         std::vector<PrintedLayers> layers, Report& report);
 
 }  // namespace weft::pipeline

@@ -14,6 +14,12 @@ inline const Beads& beads_of(const LayerInput& input, const Block& block) {
   return block.object == Block::adhesion ? input.adhesion : input.objects[block.object].beads;
 }
 
+/// How high its beads are.
+inline Um height_of(const LayerInput& input, const Block& block) {
+  const Um own = block.object == Block::adhesion ? 0 : input.objects[block.object].height;
+  return own > 0 ? own : input.height;
+}
+
 /// The blocks of a layer, the adhesion first, parts of an object together.
 std::vector<Block> blocks_of(const LayerInput& input);
 

@@ -17,22 +17,9 @@ std::span<const Point> near(const std::vector<Point>& sorted, const Bead& bead) 
   return {first, last};
 }
 
-std::vector<Start> choose_seams(const TravelSettings& settings, const Prepared& layer, const Comb* outline_below,
-                                std::vector<Point>& below) {
-  std::vector<Start> starts;
-  for (std::size_t s = 0; s < layer.seams.size(); ++s) {
-    stop_if_asked();
-    const auto& seam = layer.seams[s];
-    const Bead& bead = beads_of(layer.input, layer.blocks[seam.block])[seam.bead];
-    const std::uint64_t seed = (std::uint64_t{layer.input.index} << 32) + s;
-    starts.push_back(choose_seam(settings, bead, seam.corners, {near(below, bead), outline_below}, seed));
-  }
-  if (!starts.empty()) {  // a layer without outer walls does not end the seam lines
-    below.clear();
-    for (const auto& s : starts) below.push_back(s.at);
-    std::sort(below.begin(), below.end());
-  }
-  return starts;
+/// The stack that a seam of the layer belongs to.
+std::uint32_t stack_of(const Prepared& layer, const SeamChoices& seam) {
+  return layer.input.objects[layer.blocks[seam.block].object].stack;
 }
 
 /// A part stands where the seam of its first outer wall is, else where its first bead begins.
@@ -56,9 +43,36 @@ Linker::Linker(const TravelSettings& settings)
     : settings_(settings), chain_(std::make_unique<BlockChain>(settings.path_order)) {}
 Linker::~Linker() = default;
 
-void Linker::add(const Prepared& layer, const Prepared* below) {
+/// Seams of a layer, each beside those of its stack below. A layer without outer walls does not end the seam lines.
+std::vector<Start> Linker::choose_seams(const Prepared& layer) {
+  std::vector<Start> starts;
+  std::vector<std::vector<Point>> chosen(below_.size());
+  for (std::size_t s = 0; s < layer.seams.size(); ++s) {
+    stop_if_asked();
+    const auto& seam = layer.seams[s];
+    const Bead& bead = beads_of(layer.input, layer.blocks[seam.block])[seam.bead];
+    const std::uint64_t seed = (std::uint64_t{layer.input.time.index} << 32) + s;
+    const auto stack = stack_of(layer, seam);
+    const auto& below = below_[stack];
+    starts.push_back(choose_seam(settings_, bead, seam.corners,
+                                 {near(below.seams, bead), below.layer ? &below.layer->outline : nullptr}, seed));
+    chosen[stack].push_back(starts.back().at);
+  }
+  for (std::size_t stack = 0; stack < chosen.size(); ++stack) {
+    if (chosen[stack].empty()) continue;
+    std::sort(chosen[stack].begin(), chosen[stack].end());
+    below_[stack].seams = std::move(chosen[stack]);
+  }
+  return starts;
+}
+
+void Linker::add(const Prepared& layer) {
+  if (layer.input.time.comes_down) below_.clear();
+  for (const auto& object : layer.input.objects)
+    if (object.stack >= below_.size()) below_.resize(object.stack + std::size_t{1});
   Linked& out = linked_.emplace_back();
-  out.seams = choose_seams(settings_, layer, below ? &below->outline : nullptr, seams_below_);
+  out.seams = choose_seams(layer);
+  for (const auto& object : layer.input.objects) below_[object.stack].layer = &layer;
   out.places = places_of(layer, out.seams);
   const bool adhesion = starts_with_adhesion(layer);
   BlockPlaces blocks;
@@ -86,7 +100,7 @@ std::vector<Linked> Linker::linked() {
 
 std::vector<Linked> link(const TravelSettings& settings, std::span<const Prepared> layers) {
   Linker linker(settings);
-  for (std::size_t i = 0; i < layers.size(); ++i) linker.add(layers[i], i > 0 ? &layers[i - 1] : nullptr);
+  for (const auto& layer : layers) linker.add(layer);
   return linker.linked();
 }
 

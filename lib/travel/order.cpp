@@ -79,7 +79,7 @@ class BlockOrder {
   bool in_sequence(const Bead& bead) const {
     if (bead.sequence == 0) return false;
     return bead.role == Role::top_skin || bead.role == Role::bridge ||
-           (layer_.input.index == 0 && bead.role != Role::gap_fill);
+           (layer_.input.time.first() && bead.role != Role::gap_fill);
   }
 
   std::optional<Point> fills(std::optional<Point> at, std::optional<Point> then) {

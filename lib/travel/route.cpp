@@ -43,12 +43,13 @@ class Writer {
         router_(settings, retraction, layer),
         window_(retraction),
         at_(from) {
-    plan_.z = layer.input.z, plan_.height = layer.input.height;
+    plan_.z = layer.input.z, plan_.height = layer.input.height, plan_.time = layer.input.time;
+    plan_.scope = layer.input.scope;
   }
 
   void print(const Turn& turn) {
     const Block& block = layer_.blocks[turn.block];
-    Held next = held_of(beads_of(layer_.input, block)[turn.bead], turn);
+    Held next = held_of(beads_of(layer_.input, block)[turn.bead], turn, height_of(layer_.input, block));
     drop_ = next.drop();
     if (held_.empty()) {
       label(block.object);
@@ -75,23 +76,23 @@ class Writer {
   }
 
  private:
-  Held held_of(const Bead& bead, const Turn& turn) const {
+  Held held_of(const Bead& bead, const Turn& turn, Um height) const {
     Held held;
-    const Um height = layer_.input.height;
     auto path = path_of(bead, turn);
     held.closed_outer = bead.closed && bead.role == Role::outer_wall;
     // On the bed a ramp would begin in it.
-    held.scarf = held.closed_outer && settings_.scarf_joint_seam_length > 0 && layer_.input.index > 0;
+    held.scarf = held.closed_outer && settings_.scarf_joint_seam_length > 0 && !layer_.input.time.first();
     if (held.scarf) {
       auto scarf = scarfed(settings_, path, height);
-      held.pieces.push_back({std::move(scarf.ramp), bead.role, height, 0, {}});
+      held.pieces.push_back({std::move(scarf.ramp), bead.role, bead.tool, bead.scope, height, 0, {}});
       held.pieces.back().below = std::move(scarf.below);
       held.onward = scarf.body;
-      if (scarf.body.size() > 1) held.pieces.push_back({std::move(scarf.body), bead.role, height, 0, {}});
-      held.pieces.push_back({std::move(scarf.cover), bead.role, height, 0, {}});
+      if (scarf.body.size() > 1)
+        held.pieces.push_back({std::move(scarf.body), bead.role, bead.tool, bead.scope, height, 0, {}});
+      held.pieces.push_back({std::move(scarf.cover), bead.role, bead.tool, bead.scope, height, 0, {}});
     } else {
       if (bead.closed) held.onward = path;
-      held.pieces.push_back({std::move(path), bead.role, height, 0, {}});
+      held.pieces.push_back({std::move(path), bead.role, bead.tool, bead.scope, height, 0, {}});
     }
     return held;
   }
@@ -169,7 +170,7 @@ class Writer {
     auto& path = held_.last();
     if (!settings_.coasting_enable || path.size() < 2 || held_.scarf) return {};
     const auto& end = path.back();
-    const double area_mm2 = to_mm(end.width) * to_mm(layer_.input.height) * static_cast<double>(end.flow);
+    const double area_mm2 = to_mm(end.width) * to_mm(held_.pieces.back().height) * static_cast<double>(end.flow);
     const double coast_um = area_mm2 > 0 ? 1000 * settings_.coasting_volume / area_mm2 : 0;
     return coast_um * 3 > length_um(path) ? Polyline{} : cut_end(path, coast_um);
   }

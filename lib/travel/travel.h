@@ -25,12 +25,14 @@ class BlockChain;
 
 /// One copy of one object on one layer, in plate coordinates.
 struct ObjectLayer {
-  std::uint32_t object = 0;  ///< index into PrintPlan::objects
-  Beads beads;               ///< walls first, of each part in the order they are to be printed; then fills
-  Regions outline;           ///< of the slice; index = Bead::part
-  Regions skin;              ///< all solid fill: what combing = noskin keeps off
-  Regions top;               ///< what will be seen from above: what combing = no_outer_surfaces keeps off
-  Regions sparse;            ///< sparse infill: what combing = infill keeps to
+  ObjectId object = 0;
+  std::uint32_t stack = 0;  ///< its seams line up with those of the same stack (model/sequence.h)
+  Um height = 0;            ///< of its layer; 0: as high as the others
+  Beads beads;              ///< walls first, of each part in the order they are to be printed; then fills
+  Regions outline;          ///< of the slice; index = Bead::part
+  Regions skin;             ///< all solid fill: what combing = noskin keeps off
+  Regions top;              ///< what will be seen from above: what combing = no_outer_surfaces keeps off
+  Regions sparse;           ///< sparse infill: what combing = infill keeps to
 };
 
 /// Which areas of an ObjectLayer are read with these settings; the others may be left empty.
@@ -48,7 +50,8 @@ struct Room {
 
 /// Everything that is printed at one height.
 struct LayerInput {
-  std::size_t index = 0;
+  Moment time;
+  ScopeId scope = 0;  ///< of the layer as a whole
   Um z = 0, height = 0;
   Beads adhesion;  ///< skirt and brim: printed first
   std::vector<ObjectLayer> objects;
@@ -143,15 +146,22 @@ class Linker {
   Linker(const Linker&) = delete;
   Linker& operator=(const Linker&) = delete;
 
-  /// The next layer, and the one that was added before it; neither is needed any more then.
-  void add(const Prepared& layer, const Prepared* below);
+  /// The next layer. It stays where it is until the next layer of each of its stacks has been added.
+  void add(const Prepared& layer);
   /// What all layers have agreed on. Post: there are none.
   std::vector<Linked> linked();
 
  private:
+  std::vector<Start> choose_seams(const Prepared& layer);
+
   const TravelSettings& settings_;
   std::unique_ptr<BlockChain> chain_;
-  std::vector<Point> seams_below_;
+  /// The last layer of a stack on the way up.
+  struct Below {
+    const Prepared* layer = nullptr;
+    std::vector<Point> seams;  ///< sorted; of the last layer that had some
+  };
+  std::vector<Below> below_;  ///< by stack
   std::vector<Linked> linked_;
 };
 

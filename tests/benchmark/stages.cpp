@@ -64,10 +64,16 @@ struct Bench {
     areas = find_areas();
     for (std::size_t i = 0; i < layers.size(); ++i) {
       travel::LayerInput input{
-          .index = i, .z = layers[i].z, .height = layers[i].height, .adhesion = {}, .objects = {}, .room = {}};
+          .time = {.index = static_cast<std::uint32_t>(i), .number = static_cast<std::uint32_t>(i)},
+          .z = layers[i].z,
+          .height = layers[i].height,
+          .adhesion = {},
+          .objects = {},
+          .room = {}};
       auto beads = walls[i].beads;
       for (auto& bead : fill_layer(i)) beads.push_back(std::move(bead));
-      input.objects.push_back({0, std::move(beads), layers[i].regions, {}, {}, {}});
+      input.objects.push_back(
+          {.beads = std::move(beads), .outline = layers[i].regions, .skin = {}, .top = {}, .sparse = {}});
       inputs.push_back(std::move(input));
     }
     routed.layers = travel();

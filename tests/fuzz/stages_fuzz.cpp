@@ -96,7 +96,8 @@ std::string gcode_of(const Settings& s, const std::vector<SlicedLayer>& layers) 
     one.outline = layers[i].regions;
     one.beads = std::move(walls[i].beads);
     one.beads.insert(one.beads.end(), fills.beads.begin(), fills.beads.end());
-    inputs[i].index = i, inputs[i].z = layers[i].z, inputs[i].height = layers[i].height;
+    inputs[i].time.index = inputs[i].time.number = static_cast<std::uint32_t>(i);
+    inputs[i].z = layers[i].z, inputs[i].height = layers[i].height;
     inputs[i].objects.push_back(std::move(one));
   }
   PrintPlan plan;
@@ -106,7 +107,7 @@ std::string gcode_of(const Settings& s, const std::vector<SlicedLayer>& layers) 
   const auto starts = motion::starts_of(plan);
   Statistics statistics;
   for (std::size_t i = 0; i < plan.layers.size(); ++i) {
-    auto planned = motion::plan_layer(rules, std::move(plan.layers[i]), i, starts[i]);
+    auto planned = motion::plan_layer(rules, std::move(plan.layers[i]), starts[i]);
     plan.layers[i] = std::move(planned.plan);
     statistics.append(planned.statistics);
   }

@@ -37,6 +37,7 @@ PrintPlan sample_plan() {
   PrintPlan plan;
   for (Um z : {200, 400}) {
     LayerPlan layer{.z = z, .height = 200};
+    layer.time.index = layer.time.number = z == 200 ? 0 : 1;
     layer.steps.emplace_back(SetFan{z == 200 ? 0.0 : 0.5});
     layer.steps.emplace_back(travel({{0, 0, z}}));
     layer.steps.emplace_back(ObjectStart{0});
@@ -478,6 +479,7 @@ TEST_CASE("gcode: between objects that are printed one after the other there is 
   Sample sample;
   const auto layers = sample.plan.layers;
   sample.plan.layers.insert(sample.plan.layers.end(), layers.begin(), layers.end());
+  for (std::uint32_t i = 0; i < 4; ++i) sample.plan.layers[i].time = {i, i / 2, i % 2, i == 2};
   sample.statistics.layer_s = {90, 60, 90, 60};
   sample.settings.gcode.between_objects_gcode = "; next object, {layer_num}";
   sample.settings.gcode.before_layer_gcode = "; before";

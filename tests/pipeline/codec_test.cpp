@@ -38,6 +38,8 @@ Beads beads(Dice& dice) {
     b.inset = static_cast<std::uint16_t>(dice(0, 65535));
     b.part = static_cast<std::uint32_t>(dice(0, 1 << 30));
     b.sequence = static_cast<std::uint32_t>(dice(0, 1 << 30));
+    b.tool = static_cast<ToolId>(dice(0, 255));
+    b.scope = static_cast<ScopeId>(dice(0, 65535));
   }
   return out;
 }
@@ -91,12 +93,24 @@ TEST_CASE("codec: results of stages come back as they were") {
 }
 
 TEST_CASE("codec: a planned layer comes back as it was") {
-  Extrude bead{
-      {{{-5, 7}, 450, 0.3F}, {{9, max_coord}, 1, 1.F}}, Role::bridge, 200, 1.0 / 3, {12.5F, -0.F}, 1500.1, {0, -20}};
+  Extrude bead{{{{-5, 7}, 450, 0.3F}, {{9, max_coord}, 1, 1.F}},
+               Role::bridge,
+               3,
+               65535,
+               200,
+               1.0 / 3,
+               {12.5F, -0.F},
+               1500.1,
+               {0, -20}};
   Travel travel{{{1, -2, 3}, {max_coord, 0, -7}}, 120.7, true, 0.1, 1e300};
   Retract retract{{{3, 4}, {-3, 9}}, 35.5, 0.7};
   const LayerPlan layer{
-      1200, -3, {ObjectStart{7}, bead, travel, retract, Prime{}, SetFan{0.35}, Extrude{}, ObjectEnd{4294967295}}};
+      1200,
+      -3,
+      {4000000000, 3, 70000, true},
+      4711,
+      {ObjectStart{7}, bead, travel, retract, Prime{}, SetFan{0.35}, Extrude{}, ObjectEnd{4294967295}, ToolChange{31},
+       SetTemperature{SetTemperature::Heater::chamber, 7, -1, true}, Pause{"nuts, six of M3"}}};
   const auto out = there_and_back(layer);
   CHECK(out.z == layer.z);
   CHECK(out.height == layer.height);
@@ -121,6 +135,13 @@ TEST_CASE("codec: a planned layer comes back as it was") {
   CHECK(std::get<Retract>(out.steps[3]) == retract);
   CHECK(std::get<SetFan>(out.steps[5]).share == 0.35);
   CHECK(std::get<ObjectEnd>(out.steps[7]).object == 4294967295);
+  CHECK(b.tool == 3);
+  CHECK(b.scope == 65535);
+  CHECK(out.scope == 4711);
+  CHECK(out.time == layer.time);
+  CHECK(std::get<ToolChange>(out.steps[8]) == std::get<ToolChange>(layer.steps[8]));
+  CHECK(std::get<SetTemperature>(out.steps[9]) == std::get<SetTemperature>(layer.steps[9]));
+  CHECK(std::get<Pause>(out.steps[10]) == std::get<Pause>(layer.steps[10]));
 }
 
 TEST_CASE("codec: a model comes back as it was") {

@@ -79,7 +79,7 @@ inline ObjectLayer object(const Regions& outline, Um spacing = 2000, std::uint32
 inline LayerInput layer(Regions outline, std::size_t index = 0, Um spacing = 2000, std::uint32_t sequence = 0) {
   tests::look_at(outline);
   LayerInput input;
-  input.index = index;
+  input.time.index = input.time.number = static_cast<std::uint32_t>(index);
   input.height = 200;
   input.z = static_cast<Um>(200 * (index + 1));
   input.objects.push_back(object(outline, spacing, sequence));
