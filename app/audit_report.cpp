@@ -1,5 +1,6 @@
 #include "audit_report.h"
 
+#include "core/escape.h"
 #include "core/version.h"
 
 #include <algorithm>
@@ -84,33 +85,6 @@ Json entry_of(const AuditEntry& entry) {
   return out;
 }
 
-/// XML has no way to write most control characters: they become question marks. So does what is no UTF-8.
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\n':
-        out += "&#10;";
-        break;
-      default:
-        out += (static_cast<unsigned char>(c) < ' ' && c != '\t') || static_cast<unsigned char>(c) > '~' ? '?' : c;
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
 std::string audit_json(const std::vector<AuditEntry>& entries) {
@@ -126,20 +100,20 @@ std::string audit_junit(const std::vector<AuditEntry>& entries) {
   std::size_t failures = 0, errors = 0;
   std::string cases;
   for (const auto& e : entries) {
-    cases += fmt::format("  <testcase classname=\"{}\" name=\"{}\"", escaped(e.printer), escaped(e.file));
+    cases += fmt::format("  <testcase classname=\"{}\" name=\"{}\"", escape::xml(e.printer), escape::xml(e.file));
     if (e.clean()) {
       cases += fmt::format(">\n    <system-out>{}</system-out>\n  </testcase>\n",
-                           escaped(audit::summary(*e.outcome.report)));
+                           escape::xml(audit::summary(*e.outcome.report)));
     } else if (e.outcome.report) {
       ++failures;
       const auto& r = *e.outcome.report;
-      cases += fmt::format(">\n    <failure type=\"boundary\" message=\"{}\">", escaped(audit::summary(r)));
-      for (const auto& f : r.findings) cases += escaped(audit::describe(f)) + "\n";
+      cases += fmt::format(">\n    <failure type=\"boundary\" message=\"{}\">", escape::xml(audit::summary(r)));
+      for (const auto& f : r.findings) cases += escape::xml(audit::describe(f)) + "\n";
       cases += "</failure>\n  </testcase>\n";
     } else {
       ++errors;
       cases += fmt::format(">\n    <error type=\"file\" message=\"{}\"/>\n  </testcase>\n",
-                           escaped(e.outcome.error ? e.outcome.error->what() : ""));
+                           escape::xml(e.outcome.error ? e.outcome.error->what() : ""));
     }
   }
   return fmt::format(

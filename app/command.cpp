@@ -113,7 +113,7 @@ void take_preset(prusaslicer::PresetChoice& presets, const std::string& text) {
 [[noreturn]] void rethrow_as_usage(const po::error& problem) {
   if (const auto* unknown = dynamic_cast<const po::unknown_option*>(&problem)) {
     const auto name = unknown->get_option_name();
-    const auto near = nearest_setting(name.substr(std::min(name.find_first_not_of('-'), name.size())));
+    const auto near = nearest_key(name.substr(std::min(name.find_first_not_of('-'), name.size())));
     throw Error{Error::Kind::usage, "unknown option", name,
                 near.empty() ? "see --help" : fmt::format("did you mean --{}?", dashed(near))};
   }

@@ -6,6 +6,8 @@
 #include "settings/near.h"
 #include "verbs.h"
 
+#include <algorithm>
+#include <array>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -22,7 +24,7 @@ std::string shortened(const std::string& text) {
 std::string explained(const Profile& profile, const std::string& key) {
   const auto* entry = find_setting(key);
   if (!entry) {
-    const auto near = nearest_setting(key);
+    const auto near = nearest_key(key);
     throw Error{Error::Kind::settings, fmt::format("unknown setting '{}'", key), "--explain",
                 near.empty() ? "" : fmt::format("did you mean '{}'?", near)};
   }
@@ -130,6 +132,101 @@ std::string as_prusaslicer(const Profile& profile) {
   return exported.text;
 }
 
+void print(const Command& command, const std::string& text) {
+  write_output(command.output.value_or("-"), text);
+}
+
+/// The profiles as resolved, with what was noticed on standard error.
+Profile resolved_aloud(const Command& command, Console& console) {
+  auto profile = resolve(command);
+  for (const auto& notice : profile.notices) console.warning(notice);
+  return profile;
+}
+
+std::string format_of(const Command& command) {
+  auto format = command.options["format"].as<std::string>();
+  if (format != "weft" && format != "prusaslicer")
+    throw Error{Error::Kind::usage, fmt::format("'{}' is not one of weft, prusaslicer", format), "--format"};
+  return format;
+}
+
+void check(const Command& command) {
+  (void)format_of(command);
+  Console console(command.console);
+  const auto doubts = doubts_about(resolved_aloud(command, console));
+  for (const auto& doubt : doubts) console.warning(doubt);
+  console.info(fmt::format("{} settings are valid{}", catalogue().size(),
+                           doubts.empty() ? "" : fmt::format(", {} of them doubtful", doubts.size())));
+}
+
+void diff(const Command& command) {
+  print(command, differences(resolved_file(command, command.profiles[0]), resolved_file(command, command.profiles[1])));
+}
+
+void import_one(const Command& command) {
+  print(command, imported(command.profiles.front(), command.import));
+}
+
+void list(const Command& command) {
+  print(command, listed(command.profiles.front(), command.import.presets));
+}
+
+void show(const Command& command) {
+  const auto format = format_of(command);
+  Console console(command.console);
+  const auto profile = resolved_aloud(command, console);
+  std::string out;
+  if (command.options.count("explain"))
+    for (const auto& key : command.options["explain"].as<std::vector<std::string>>()) {
+      if (key != "all")
+        out += explained(profile, key);
+      else
+        for (const auto& e : catalogue())
+          if (profile.origins.count(std::string(e.key)) != 0) out += explained(profile, std::string(e.key)) + "\n";
+    }
+  print(command, !out.empty() ? out : format == "weft" ? resolved(profile) : as_prusaslicer(profile));
+}
+
+/// What can be done with profiles.
+struct Deed {
+  std::string_view name;
+  std::size_t files;  ///< how many it takes; 0: one or more
+  void (*run)(const Command&);
+};
+constexpr std::array deeds{Deed{"check", 0, check}, Deed{"diff", 2, diff}, Deed{"import", 1, import_one},
+                           Deed{"list", 1, list}, Deed{"show", 0, show}};
+
+/// The deed that the first word names. @throws Error{usage} for another word, or another number of files
+const Deed& deed_of(const Command& command) {
+  if (command.inputs.empty())
+    throw Error{Error::Kind::usage, "check, diff, import, list or show?", "weft profile",
+                "as in weft profile show printer.ini"};
+  const auto& what = command.inputs.front();
+  const auto found = std::find_if(deeds.begin(), deeds.end(), [&](const Deed& d) { return d.name == what; });
+  if (found == deeds.end())
+    throw Error{Error::Kind::usage, fmt::format("'{}' is not one of check, diff, import, list, show", what),
+                "weft profile"};
+  const auto where = "weft profile " + what;
+  if (command.profiles.empty()) throw Error{Error::Kind::usage, "no profile was given", where};
+  if (found->files != 0 && command.profiles.size() != found->files)
+    throw Error{Error::Kind::usage, found->files == 1 ? "takes one file" : "takes two files", where};
+  return *found;
+}
+
+std::string help(const po::options_description& options) {
+  std::ostringstream out;
+  out << "weft profile check FILE...   validate profiles, laid over each other in their order\n"
+         "weft profile import FILE     translate a configuration of PrusaSlicer, SuperSlicer or Slic3r (config.ini, "
+         "bundle, .gcode, .3mf), and say what becomes of each line\n"
+         "weft profile show FILE...    print every setting as resolved\n"
+         "weft profile diff A B        what is not the same in two profiles, and where it comes from\n"
+         "weft profile list BUNDLE     the presets of a PrusaSlicer bundle; with --preset printer=NAME those that "
+         "fit it\n\n"
+      << options << "\n"
+      << common_help();
+  return out.str();
+}
+
 }  // namespace
 
 int profile(const Words& words) {
@@ -140,69 +237,9 @@ int profile(const Words& words) {
       "format", po::value<std::string>()->value_name("weft|prusaslicer")->default_value("weft"),
       "show: in whose words");
   auto command = parse_command(words, options, Result::profile);
-  if (command.help || words.empty()) {
-    std::ostringstream out;
-    out << "weft profile check FILE...   validate profiles, laid over each other in their order\n"
-           "weft profile import FILE     translate a configuration of PrusaSlicer, SuperSlicer or Slic3r (config.ini, "
-           "bundle, .gcode, .3mf), and say what becomes of each line\n"
-           "weft profile show FILE...    print every setting as resolved\n"
-           "weft profile diff A B        what is not the same in two profiles, and where it comes from\n"
-           "weft profile list BUNDLE     the presets of a PrusaSlicer bundle; with --preset printer=NAME those that "
-           "fit it\n\n"
-        << options << "\n"
-        << common_help();
-    return write_output("-", out.str()), words.empty() ? 2 : 0;
-  }
-  if (command.inputs.empty())
-    throw Error{Error::Kind::usage, "check, diff, import, list or show?", "weft profile",
-                "as in weft profile show printer.ini"};
-  const std::string what = command.inputs.front();
+  if (command.help || words.empty()) return write_output("-", help(options)), words.empty() ? 2 : 0;
   for (std::size_t i = 1; i < command.inputs.size(); ++i) command.profiles.emplace_back(command.inputs[i]);
-  if (what != "check" && what != "import" && what != "list" && what != "diff" && what != "show")
-    throw Error{Error::Kind::usage, fmt::format("'{}' is not one of check, diff, import, list, show", what),
-                "weft profile"};
-  if (command.profiles.empty()) throw Error{Error::Kind::usage, "no profile was given", "weft profile " + what};
-
-  if (what == "import" || what == "list") {
-    if (command.profiles.size() != 1) throw Error{Error::Kind::usage, "takes one file", "weft profile " + what};
-    const auto& file = command.profiles.front();
-    return write_output(command.output.value_or("-"),
-                        what == "import" ? imported(file, command.import) : listed(file, command.import.presets)),
-           0;
-  }
-
-  if (what == "diff") {
-    if (command.profiles.size() != 2) throw Error{Error::Kind::usage, "takes two files", "weft profile diff"};
-    return write_output(command.output.value_or("-"), differences(resolved_file(command, command.profiles[0]),
-                                                                  resolved_file(command, command.profiles[1]))),
-           0;
-  }
-  const auto format = command.options["format"].as<std::string>();
-  if (format != "weft" && format != "prusaslicer")
-    throw Error{Error::Kind::usage, fmt::format("'{}' is not one of weft, prusaslicer", format), "--format"};
-
-  Console console(command.console);
-  const auto profile = resolve(command);
-  for (const auto& notice : profile.notices) console.warning(notice);
-  if (what == "check") {
-    const auto doubts = doubts_about(profile);
-    for (const auto& doubt : doubts) console.warning(doubt);
-    return console.info(fmt::format("{} settings are valid{}", catalogue().size(),
-                                    doubts.empty() ? "" : fmt::format(", {} of them doubtful", doubts.size()))),
-           0;
-  }
-  std::string out;
-  if (command.options.count("explain"))
-    for (const auto& key : command.options["explain"].as<std::vector<std::string>>()) {
-      if (key != "all")
-        out += explained(profile, key);
-      else
-        for (const auto& e : catalogue())
-          if (profile.origins.count(std::string(e.key)) != 0) out += explained(profile, std::string(e.key)) + "\n";
-    }
-  write_output(command.output.value_or("-"), !out.empty()       ? out
-                                             : format == "weft" ? resolved(profile)
-                                                                : as_prusaslicer(profile));
+  deed_of(command).run(command);
   return 0;
 }
 

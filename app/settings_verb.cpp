@@ -1,6 +1,7 @@
 #include "command.h"
 #include "core/join.h"
 #include "labels.h"
+#include "prusaslicer/keys.h"
 #include "settings/catalogue.h"
 #include "verbs.h"
 
@@ -24,14 +25,18 @@ std::string range_of(const CatalogueEntry& e) {
 std::string as_json(const std::vector<const CatalogueEntry*>& entries, const Labels& labels) {
   auto out = nlohmann::ordered_json::array();
   for (const auto* e : entries) {
-    nlohmann::ordered_json row{{"key", e->key},         {"label", labels.of(e->key)},
-                               {"section", e->section}, {"type", e->type},
-                               {"unit", e->unit},       {"default", e->default_text}};
+    nlohmann::ordered_json row{{"key", e->key},
+                               {"label", labels.of(e->key)},
+                               {"section", e->section},
+                               {"scope", name_of(e->scope)},
+                               {"type", e->type},
+                               {"unit", e->unit},
+                               {"default", e->default_text}};
     if (!e->least.empty()) row["min"] = e->least, row["max"] = e->most;
     if (!e->choices.empty()) row["choices"] = e->choices;
     row["auto"] = e->automatic;
     row["meaning"] = e->meaning;
-    if (!e->prusa.empty()) row["prusaslicer"] = e->prusa;
+    if (const auto theirs = prusaslicer::name_of(e->key); !theirs.empty()) row["prusaslicer"] = theirs;
     out.push_back(std::move(row));
   }
   return out.dump(2) + "\n";
@@ -84,7 +89,7 @@ int settings(const Words& words) {
     for (const auto& e : catalogue()) entries.push_back(&e);
   for (const auto& key : command.inputs) {
     const auto* e = find_setting(key);
-    const auto near = nearest_setting(key);
+    const auto near = nearest_key(key);
     if (!e)
       throw Error{Error::Kind::settings,
                   fmt::format("unknown setting '{}'", key),

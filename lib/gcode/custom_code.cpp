@@ -1,5 +1,6 @@
 #include "gcode/custom_code.h"
 
+#include "core/escape.h"
 #include "gcode/header.h"
 #include "gcode/placeholders.h"
 #include "settings/value.h"
@@ -110,7 +111,7 @@ void add_aliases_of_cura(const Job& job, Variables& out) {
 }
 
 void add_names(const Job& job, Variables& out) {
-  const auto base = escaped_name(job.input_name);
+  const auto base = escape::gcode_name(job.input_name);
   out["input_filename_base"] = macro::variable(base);
   out["input_filename"] = macro::variable(base + ".gcode");
   for (const auto* preset : {"print_preset", "filament_preset", "printer_preset", "physical_printer_preset"})

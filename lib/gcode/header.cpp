@@ -1,6 +1,7 @@
 #include "gcode/header.h"
 
 #include "core/base64.h"
+#include "core/escape.h"
 #include "core/version.h"
 #include "settings/catalogue.h"
 #include "settings/gcode_variables.h"
@@ -53,7 +54,7 @@ std::size_t tool_changes(const Job& job) {
   ToolId loaded = 0;
   for (std::size_t i = 0; i < job.plan.layers.size(); ++i)
     for (const auto& change : digest_of(job, i).changes)
-      changes += std::exchange(loaded, change.tool) != change.tool ? 1 : 0;
+      changes += std::exchange(loaded, change.tool) != change.tool ? 1U : 0U;
   return changes;
 }
 
@@ -86,10 +87,6 @@ std::string extents_comments(const Job& job, bool of_print) {
                      in_mm(box.least.y), in_mm(box.least.z), in_mm(box.most.x), in_mm(box.most.y), in_mm(box.most.z));
 }
 
-std::string one_line(std::string_view text) {
-  return value::print(std::string(text), Unit::none);
-}
-
 std::string cura_comments(const Job& job) {
   const auto& s = job.settings;
   const auto& t = job.statistics;
@@ -100,11 +97,11 @@ std::string cura_comments(const Job& job) {
                                 std::llround(t.print_time_s), t.filament_mm / 1000, in_mm(s.layers.layer_height));
   out += extents_comments(job, true);
   out += fmt::format(";TARGET_MACHINE.NAME:{}\n",
-                     s.machine.machine_name.empty() ? "Unknown" : one_line(s.machine.machine_name));
+                     s.machine.machine_name.empty() ? "Unknown" : escape::gcode_comment(s.machine.machine_name));
   // What print servers know from a line in Cura's start G-code.
   out += fmt::format(";Filament weight = [{:.2f}]\n;Filament type = {}\n;Filament name = {}\n;Nozzle diameter = {}\n",
-                     t.filament_g, one_line(s.material.material_type), one_line(s.material.material_type),
-                     in_mm(s.machine.nozzle_diameter));
+                     t.filament_g, escape::gcode_comment(s.material.material_type),
+                     escape::gcode_comment(s.material.material_type), in_mm(s.machine.nozzle_diameter));
   out += fmt::format(";Generated with Cura_SteamEngine 5.9 comments by weft {}\n", version);
   return out + thumbnails(job) + fmt::format(";LAYER_COUNT:{}\n", job.plan.layers.size());
 }
@@ -123,7 +120,7 @@ std::string orca_comments(const Job& job) {
 /// The first value of a name in gcode_variables, or what stands for it.
 std::string further(const Settings& s, std::string_view name, std::string otherwise) {
   for (const auto& v : parse_gcode_variables(s.gcode.gcode_variables))
-    if (v.name == name && !v.elements.empty()) return one_line(v.elements[0].text);
+    if (v.name == name && !v.elements.empty()) return escape::gcode_comment(v.elements[0].text);
   return otherwise;
 }
 
@@ -147,7 +144,7 @@ std::string referenced_tools(const Statistics& t) {
 std::string named_as_prusaslicer(const Job& job) {
   const auto& s = job.settings;
   const auto& m = s.material;
-  std::string out = fmt::format("; filament_type = {}\n", one_line(m.material_type));
+  std::string out = fmt::format("; filament_type = {}\n", escape::gcode_comment(m.material_type));
   out +=
       fmt::format("; first_layer_height = {}\n", in_mm(s.layers.initial_layer_height.value_or(s.layers.layer_height)));
   out += fmt::format("; first_layer_temperature = {}\n; temperature = {}\n",
@@ -158,11 +155,12 @@ std::string named_as_prusaslicer(const Job& job) {
                   m.material_bed_temperature_layer_0.value_or(m.material_bed_temperature), m.material_bed_temperature);
   out += fmt::format("; chamber_temperature = {}\n", m.build_volume_temperature);
   out += fmt::format("; filament_settings_id = {}\n; filament_colour = {}\n; extruder_colour = {}\n",
-                     further(s, "filament_settings_id", one_line(m.material_type)),
+                     further(s, "filament_settings_id", escape::gcode_comment(m.material_type)),
                      further(s, "filament_colour", "#808080"), further(s, "extruder_colour", "#808080"));
   out += fmt::format("; total toolchanges = {}\n; referenced_tools = {}\n; single_extruder_multi_material = 0\n",
                      tool_changes(job), referenced_tools(job.statistics));
-  if (!s.machine.machine_name.empty()) out += fmt::format("; printer_model = {}\n", one_line(s.machine.machine_name));
+  if (!s.machine.machine_name.empty())
+    out += fmt::format("; printer_model = {}\n", escape::gcode_comment(s.machine.machine_name));
   return out;
 }
 

@@ -1,5 +1,6 @@
 #include "gcode/placeholders.h"
 
+#include "core/escape.h"
 #include "prusaslicer/keys.h"
 #include "settings/catalogue.h"
 #include "settings/gcode_variables.h"
@@ -14,15 +15,6 @@ using macro::Scalar;
 using macro::Variable;
 using macro::Variables;
 
-bool is_control(char c) {
-  return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-}
-
-std::string one_line(std::string text) {
-  std::replace_if(text.begin(), text.end(), is_control, '_');
-  return text;
-}
-
 Variable number(double v) {
   return macro::variable_of(value::number(v));
 }
@@ -33,14 +25,14 @@ Variable variable(const CatalogueEntry& entry, const std::string& text) {
   if (entry.automatic && text == "auto")
     out.missing = "is auto";
   else if (entry.type == "text" || !entry.choices.empty())
-    out = macro::variable(one_line(text));
+    out = macro::variable(escape::one_line(text));
   else
-    out = macro::variable_of(one_line(text));
+    out = macro::variable_of(escape::one_line(text));
   return out;
 }
 
 /// The same value in PrusaSlicer's words.
-Variable in_their_words(const prusaslicer::SameRow& row, const Variable& ours, const std::string& text) {
+Variable in_their_words(const prusaslicer::Key& row, const Variable& ours, const std::string& text) {
   using prusaslicer::Form;
   switch (row.form) {
     case Form::times_100:
@@ -58,30 +50,32 @@ Variable in_their_words(const prusaslicer::SameRow& row, const Variable& ours, c
     }
     case Form::choice:
       for (const auto& choice : prusaslicer::choice_rows)
-        if (choice.key == row.theirs && choice.ours == text) return macro::variable(std::string(choice.theirs));
+        if (choice.key == row.name && choice.ours == text) return macro::variable(std::string(choice.theirs));
       return ours;
-    default:
-      return ours;
+    case Form::none:
+    case Form::length:
+    case Form::number:
+    case Form::share:
+    case Form::text:
+    case Form::width:
+    case Form::speed:
+    case Form::acceleration:
+    case Form::limit:
+    case Form::reckoned:
+      break;
   }
+  return ours;
 }
 
 }  // namespace
-
-std::string escaped_name(std::string_view name) {
-  std::string out(name);
-  for (char& c : out)
-    if (is_control(c) || std::string_view(";\"'\\{}[]*").find(c) != std::string_view::npos) c = '_';
-  return out;
-}
 
 Variables variables_of(const Settings& settings) {
   Variables out;
   for (const auto& entry : catalogue()) {
     const std::string text = entry.print(settings);
     auto ours = variable(entry, text);
-    for (const auto& row : prusaslicer::same_rows)
-      if (row.ours == entry.key) out.emplace(std::string(row.theirs), in_their_words(row, ours, text));
-    if (!entry.prusa.empty()) out.emplace(std::string(entry.prusa), ours);
+    for (const auto& row : prusaslicer::keys())
+      if (row.ours == entry.key) out.emplace(std::string(row.name), in_their_words(row, ours, text));
     out.insert_or_assign(std::string(entry.key), std::move(ours));
   }
   const auto set = [&](const char* key, const char* prusa, double v) { out[key] = out[prusa] = number(v); };

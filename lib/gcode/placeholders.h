@@ -12,8 +12,4 @@ namespace weft::gcode {
 /// are `auto` are resolved. Control characters in values become '_', so that no value can bring a line of its own.
 macro::Variables variables_of(const Settings& settings);
 
-/// A text from outside (a file or object name) made harmless: what could end a line, a comment or a quoted string is
-/// '_'.
-std::string escaped_name(std::string_view name);
-
 }  // namespace weft::gcode

@@ -1,6 +1,7 @@
 #include "infill/sparse.h"
 
 #include "core/stop.h"
+#include "core/table.h"
 #include "geometry/offset.h"
 #include "geometry/simplify.h"
 #include "geometry/spatial_index.h"
@@ -9,6 +10,7 @@
 #include "infill/scan.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -394,26 +396,40 @@ void fill_gyroid(const Region& region, const SparseStyle& style, Beads& beads) {
   web.emit(period / 2, std::max(1, rounded(style.band / gyroid_length_ratio(period, style.z))), beads);
 }
 
+/// Lines in as many directions, evenly turned: each direction has its share of the density.
+template <int directions>
+void fill_crossed(const Region& region, const SparseStyle& style, Beads& beads) {
+  const double apart = directions * (style.band / style.density);  // of lines in one direction
+  Web web(region, style);
+  for (int i = 0; i < directions; ++i)
+    web.add_lines(region, style.angle_rad + static_cast<double>(i) / directions * std::numbers::pi, apart);
+  web.emit(apart, style.band, beads);
+}
+
+void fill_lines(const Region& region, const SparseStyle& style, Beads& beads) {
+  SparseStyle turned = style;
+  if (style.turned_layer) turned.angle_rad += std::numbers::pi / 2;
+  fill_crossed<1>(region, turned, beads);
+}
+
+/// One row a pattern.
+struct PatternRow {
+  InfillPattern pattern;
+  void (*fill)(const Region& region, const SparseStyle& style, Beads& beads);
+};
+constexpr std::array pattern_rows{
+    PatternRow{InfillPattern::lines, fill_lines},           PatternRow{InfillPattern::grid, fill_crossed<2>},
+    PatternRow{InfillPattern::triangles, fill_crossed<3>},  PatternRow{InfillPattern::gyroid, fill_gyroid},
+    PatternRow{InfillPattern::concentric, fill_concentric},
+};
+static_assert(in_order(pattern_rows, &PatternRow::pattern), "row i of pattern_rows is pattern i");
+static_assert(pattern_rows.size() == choices_of(InfillPattern{}).size(), "a pattern has no row");
+
 }  // namespace
 
 void fill_sparse(const Region& region, const SparseStyle& style, Beads& beads) {
   if (style.band <= 0 || style.density <= 0 || region.outer.size() < 3) return;
-  if (style.pattern == InfillPattern::concentric) return fill_concentric(region, style, beads);
-  if (style.pattern == InfillPattern::gyroid) return fill_gyroid(region, style, beads);
-  const double apart = style.band / style.density;  // of lines in one direction only
-  Web web(region, style);
-  switch (style.pattern) {
-    case InfillPattern::grid:
-      for (const double turn : {0.0, 0.5}) web.add_lines(region, style.angle_rad + turn * std::numbers::pi, 2 * apart);
-      return web.emit(2 * apart, style.band, beads);
-    case InfillPattern::triangles:
-      for (const double turn : {0.0, 1.0 / 3, 2.0 / 3})
-        web.add_lines(region, style.angle_rad + turn * std::numbers::pi, 3 * apart);
-      return web.emit(3 * apart, style.band, beads);
-    default:
-      web.add_lines(region, style.angle_rad + (style.turned_layer ? std::numbers::pi / 2 : 0), apart);
-      return web.emit(apart, style.band, beads);
-  }
+  row_of(pattern_rows, style.pattern).fill(region, style, beads);
 }
 
 }  // namespace weft::infill

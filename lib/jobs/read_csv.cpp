@@ -1,5 +1,6 @@
 #include "core/join.h"
 #include "jobs/job_list.h"
+#include "profile/profile.h"
 #include "settings/catalogue.h"
 
 #include <algorithm>
@@ -77,7 +78,7 @@ void check_header(const Row& header, const std::string& path) {
   for (const auto& name : header.cells) {
     const auto& fields = field_names();
     if (std::find(fields.begin(), fields.end(), name) == fields.end() && !find_setting(name)) {
-      const auto near = nearest_setting(name);
+      const auto near = nearest_key(name);
       throw Error{Error::Kind::usage, fmt::format("column '{}' is neither a field of a job nor a setting", name), where,
                   near.empty() ? "fields: " + joined(fields) : fmt::format("did you mean '{}'?", near)};
     }

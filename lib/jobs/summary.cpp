@@ -1,5 +1,6 @@
 #include "jobs/summary.h"
 
+#include "core/escape.h"
 #include "pipeline/write_file.h"
 
 #include <algorithm>
@@ -9,38 +10,6 @@
 
 namespace weft::jobs {
 namespace {
-
-/// A cell as RFC 4180 has it.
-std::string cell(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
-  std::string out = "\"";
-  for (const char c : text) out.append(c == '"' ? 2 : 1, c);
-  out += '"';
-  return out;
-}
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? ' ' : c;
-    }
-  }
-  return out;
-}
 
 /// Keys that jobs set for themselves, in the order of their first appearance.
 std::vector<std::string> own_settings(const Collected& collected) {
@@ -106,17 +75,17 @@ std::string summary_csv(const Collected& collected) {
   const auto keys = own_settings(collected);
   std::string out =
       "id,output,status,exit_status,seconds,layers,height_mm,print_time_s,filament_mm,filament_g,audit,warnings,error";
-  for (const auto& key : keys) out.append(",").append(cell(key));
+  for (const auto& key : keys) out.append(",").append(escape::csv(key));
   out += "\n";
   for (const auto& entry : collected.entries) {
-    out += fmt::format("{},{},", cell(entry.line.id), cell(entry.line.output));
+    out += fmt::format("{},{},", escape::csv(entry.line.id), escape::csv(entry.line.output));
     if (const auto& r = entry.record)
       out += fmt::format("{},{},{:.3f},{},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{}", r->status, r->exit_status, r->seconds,
                          r->layers, r->height_mm, r->print_time_s, r->filament_mm, r->filament_g, r->verdict,
-                         r->warnings, cell(r->error));
+                         r->warnings, escape::csv(r->error));
     else
       out += "missing,,,,,,,,,,";
-    for (const auto& key : keys) out.append(",").append(cell(own_value(entry.line, key)));
+    for (const auto& key : keys) out.append(",").append(escape::csv(own_value(entry.line, key)));
     out += "\n";
   }
   return out;
@@ -129,15 +98,15 @@ std::string junit_xml(const Collected& collected, std::string_view suite) {
                                   collected.failed, collected.missing, seconds);
   std::string out =
       fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites {}>\n <testsuite name=\"{}\" {}>\n", counts,
-                  escaped(suite), counts);
+                  escape::xml(suite), counts);
   for (const auto& entry : collected.entries) {
-    out += fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", escaped(suite),
-                       escaped(entry.line.id), entry.record ? entry.record->seconds : 0.0);
+    out += fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", escape::xml(suite),
+                       escape::xml(entry.line.id), entry.record ? entry.record->seconds : 0.0);
     if (entry.ok())
       out += "/>\n";
     else if (entry.record)
       out += fmt::format(">\n   <failure type=\"exit status {}\" message=\"{}\"/>\n  </testcase>\n",
-                         entry.record->exit_status, escaped(entry.record->error));
+                         entry.record->exit_status, escape::xml(entry.record->error));
     else
       out += ">\n   <error type=\"missing\" message=\"the job was not run\"/>\n  </testcase>\n";
   }

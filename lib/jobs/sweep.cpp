@@ -1,5 +1,6 @@
 #include "jobs/sweep.h"
 
+#include "profile/profile.h"
 #include "settings/catalogue.h"
 
 #include <algorithm>
@@ -127,7 +128,7 @@ Axis parse_axis(const std::string& text) {
   const auto typed = std::string(value::trimmed(text.substr(0, equals)));
   const auto* entry = find_setting(typed);
   if (!entry) {
-    const auto near = nearest_setting(typed);
+    const auto near = nearest_key(typed);
     throw Error{Error::Kind::settings, fmt::format("unknown setting '{}'", typed), "--vary",
                 near.empty() ? "`weft settings` lists them all" : fmt::format("did you mean '{}'?", near)};
   }

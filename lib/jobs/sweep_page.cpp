@@ -1,4 +1,5 @@
 #include "core/base64.h"
+#include "core/escape.h"
 #include "jobs/sweep.h"
 
 #include <string_view>
@@ -120,11 +121,8 @@ std::string sweep_page(const std::string& title, const std::vector<std::string>&
                     {"layers", t.layers},
                     {"picture", base64(t.picture)}});
   const Json data{{"title", title}, {"axes", axes}, {"trials", std::move(rows)}};
-  std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace);
-  for (std::size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3)
-    text.replace(at, 2, "<\\/");  // ends no script
   std::string out(head);
-  out += text;
+  out += escape::script(data.dump(-1, ' ', false, Json::error_handler_t::replace));
   return out += script;
 }
 

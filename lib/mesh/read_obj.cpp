@@ -1,4 +1,5 @@
 #include "core/error.h"
+#include "core/escape.h"
 #include "core/stop.h"
 #include "mesh/face.h"
 #include "mesh/formats.h"
@@ -86,7 +87,7 @@ class Obj {
     const auto what = fmt::format("vertex {}: {}", piece_.points.size() + 1, axis);
     if (word.empty()) refuse(what + " is missing", words_.place(), "export the model again");
     if (number_in(word)) refuse(fmt::format("{} {}", what, fault_of(mm)), words_.place(), "check the unit and --scale");
-    refuse(fmt::format("{} is {}, not a number", what, quoted(word)), words_.place(),
+    refuse(fmt::format("{} is {}, not a number", what, escape::message(word)), words_.place(),
            word.find(',') != word.npos ? "numbers take a point, not a comma" : "export the model again");
   }
 
@@ -118,7 +119,7 @@ class Obj {
     std::int64_t value = 0;
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
     if (end != number.data() + number.size() || error != std::errc{} || value == 0)
-      refuse(fmt::format("face {}: {} is not the number of a vertex", faces_, quoted(word)), words_.place(),
+      refuse(fmt::format("face {}: {} is not the number of a vertex", faces_, escape::message(word)), words_.place(),
              "export the model again");
     const auto known = static_cast<std::int64_t>(piece_.points.size());
     if (value > std::int64_t{max_triangles} * 3 || (value < 0 && whole_ && value < -known) ||

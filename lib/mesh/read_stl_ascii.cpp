@@ -1,4 +1,5 @@
 #include "core/error.h"
+#include "core/escape.h"
 #include "core/stop.h"
 #include "mesh/formats.h"
 #include "mesh/text.h"
@@ -39,7 +40,7 @@ class AsciiStl {
         rest_of_line();  // extensions of some programs, and remarks between solids
       } else {
         if (words_.at_end()) break;  // cut off in the middle of the word
-        refuse(fmt::format("expected 'facet' or 'endsolid', found {}", quoted(word)));
+        refuse(fmt::format("expected 'facet' or 'endsolid', found {}", escape::message(word)));
       }
     }
     return inside;
@@ -82,7 +83,7 @@ class AsciiStl {
   void expect(std::string_view word, std::string_view keyword) {
     if (same_word(word, keyword)) return;
     if (words_.at_end()) refuse_end();
-    refuse(fmt::format("triangle {}: expected '{}', found {}", triangle_, keyword, quoted(word)));
+    refuse(fmt::format("triangle {}: expected '{}', found {}", triangle_, keyword, escape::message(word)));
   }
 
   double coordinate(char axis) {
@@ -90,7 +91,7 @@ class AsciiStl {
     if (words_.at_end()) refuse_end();
     const auto number = number_in(word);
     if (!number)
-      refuse(fmt::format("triangle {}: {} is {}, not a number", triangle_, axis, quoted(word)),
+      refuse(fmt::format("triangle {}: {} is {}, not a number", triangle_, axis, escape::message(word)),
              word.find(',') != word.npos ? "numbers take a point, not a comma" : "export the model again");
     const double mm = *number * source_.scale;
     if (!placeable(mm))

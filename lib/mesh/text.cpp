@@ -71,10 +71,4 @@ std::optional<double> number_in(std::string_view word) {
   return value;
 }
 
-std::string quoted(std::string_view word) {
-  std::string text = "'";
-  for (const char c : word.substr(0, 40)) text += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
-  return text + (word.size() > 40 ? "...'" : "'");
-}
-
 }  // namespace weft::mesh

@@ -43,7 +43,4 @@ bool same_word(std::string_view word, std::string_view lower_case);
 /// too large is infinite. Nothing when it is no number.
 std::optional<double> number_in(std::string_view word);
 
-/// A word of the file for a message: not longer than a line, no control characters.
-std::string quoted(std::string_view word);
-
 }  // namespace weft::mesh

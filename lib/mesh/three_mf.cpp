@@ -1,6 +1,7 @@
 #include "mesh/three_mf.h"
 
 #include "core/error.h"
+#include "core/escape.h"
 #include "mesh/text.h"
 #include "mesh/xml.h"
 
@@ -83,7 +84,7 @@ class ModelPart {
     const std::string_view unit = attributes.find("unit").value_or("millimeter");
     const auto known = std::find_if(units.begin(), units.end(), [&](const Unit& u) { return u.name == unit; });
     if (known == units.end())
-      refuse(fmt::format("unknown unit {}", quoted(unit)),
+      refuse(fmt::format("unknown unit {}", escape::message(unit)),
              "3MF knows micron, millimeter, centimeter, inch, foot, meter");
     if (!root_ && unit != document_.unit)
       refuse(fmt::format("unit {}, but the root model's is {}", unit, document_.unit), "export the model in one file");
@@ -93,7 +94,7 @@ class ModelPart {
     for (std::string_view prefix = required.next(); !prefix.empty(); prefix = required.next()) {
       const std::string& uri = prefixes_[std::string(prefix)];
       if (std::find(harmless_extensions.begin(), harmless_extensions.end(), uri) == harmless_extensions.end())
-        refuse(fmt::format("needs the 3MF extension {} ({})", quoted(prefix), uri), "export plain triangles");
+        refuse(fmt::format("needs the 3MF extension {} ({})", escape::message(prefix), uri), "export plain triangles");
     }
   }
 
@@ -147,11 +148,11 @@ class ModelPart {
       for (Eigen::Index column = 0; column < 3; ++column) {
         const auto value = number_in(words.next());
         if (!value || !std::isfinite(*value))
-          refuse(fmt::format("transform {} is not 12 numbers", quoted(*text)), "export the model again");
+          refuse(fmt::format("transform {} is not 12 numbers", escape::message(*text)), "export the model again");
         result.matrix()(column, row) = *value;
       }
     if (!words.next().empty() || result.linear().determinant() == 0)
-      refuse(fmt::format("transform {} is not one of space", quoted(*text)), "export the model again");
+      refuse(fmt::format("transform {} is not one of space", escape::message(*text)), "export the model again");
     return result;
   }
 
@@ -160,7 +161,7 @@ class ModelPart {
     const auto value = number_in(Words(text).next());
     if (!value || !std::isfinite(*value))
       refuse(fmt::format("object {}, vertex {}: {} is {}, not a number", object_id_, object_->vertices.size(), name,
-                         quoted(text)),
+                         escape::message(text)),
              "export the model again");
     return *value;
   }
@@ -170,7 +171,7 @@ class ModelPart {
     std::uint32_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (text.empty() || end != text.data() + text.size() || error != std::errc{})
-      refuse(fmt::format("{} is {}, not a whole number", name, quoted(text)), "export the model again");
+      refuse(fmt::format("{} is {}, not a whole number", name, escape::message(text)), "export the model again");
     return value;
   }
 

@@ -1,63 +1,13 @@
 #pragma once
 #include "core/polygon.h"
 #include "core/scope_id.h"
+#include "model/role.h"
 #include "model/tool.h"
 
-#include <array>
 #include <cstdint>
-#include <string_view>
 #include <vector>
 
 namespace weft {
-
-/// What a bead is for. The order is that of `role_names`.
-enum class Role : std::uint8_t {
-  outer_wall,
-  inner_wall,
-  overhang_wall,
-  infill,        ///< sparse
-  solid_infill,  ///< inside, or a bottom
-  top_skin,
-  bridge,
-  gap_fill,
-  skirt,
-  brim,
-  support,
-  support_interface,
-  wipe_tower,
-};
-
-/// Names of a role: in weft's settings and reports, and in `;TYPE:` comments as PrusaSlicer spells them.
-struct RoleName {
-  Role role;
-  std::string_view key;      ///< "outer_wall"
-  std::string_view comment;  ///< "External perimeter"
-};
-inline constexpr std::array role_names{
-    RoleName{Role::outer_wall, "outer_wall", "External perimeter"},
-    RoleName{Role::inner_wall, "inner_wall", "Perimeter"},
-    RoleName{Role::overhang_wall, "overhang_wall", "Overhang perimeter"},
-    RoleName{Role::infill, "infill", "Internal infill"},
-    RoleName{Role::solid_infill, "skin", "Solid infill"},
-    RoleName{Role::top_skin, "top_skin", "Top solid infill"},
-    RoleName{Role::bridge, "bridge", "Bridge infill"},
-    RoleName{Role::gap_fill, "gap_fill", "Gap fill"},
-    RoleName{Role::skirt, "skirt", "Skirt/Brim"},
-    RoleName{Role::brim, "brim", "Skirt/Brim"},
-    RoleName{Role::support, "support", "Support material"},
-    RoleName{Role::support_interface, "support_interface", "Support material interface"},
-    RoleName{Role::wipe_tower, "wipe_tower", "Wipe tower"},
-};
-static_assert(
-    [] {
-      for (std::size_t i = 0; i < role_names.size(); ++i)
-        if (role_names[i].role != static_cast<Role>(i)) return false;
-      return true;
-    }(),
-    "row i of role_names is role i");
-constexpr const RoleName& name_of(Role role) {
-  return role_names[static_cast<std::size_t>(role)];
-}
 
 /// One vertex of a bead's centreline.
 struct Junction {

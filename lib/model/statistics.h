@@ -12,7 +12,7 @@ struct Statistics {
   struct Feature {
     double mm = 0, mm3 = 0, s = 0;  ///< length and volume of the beads (before material_flow), time
   };
-  std::array<Feature, role_names.size()> features{};  ///< by Role
+  std::array<Feature, roles.size()> features{};  ///< by Role
 
   struct Walls {
     std::int64_t beads = 0;

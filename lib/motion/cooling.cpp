@@ -67,7 +67,7 @@ void set_fan(const CoolingSettings& cooling, LayerPlan& layer, double seconds) {
   double now = share;
   const overloaded before{
       [&](const Extrude& bead) {
-        const double wanted = bead.role == Role::bridge || bead.role == Role::overhang_wall ? over_air : share;
+        const double wanted = row_of(bead.role).over_air ? over_air : share;
         if (wanted != now) steps.emplace_back(SetFan{now = wanted});
       },
       LeavesAlone<Travel, Retract, Prime, SetFan, ObjectStart, ObjectEnd, ToolChange, SetTemperature, Pause>{}};

@@ -14,10 +14,6 @@
 namespace weft::motion {
 namespace {
 
-bool is_wall(Role role) {
-  return role == Role::outer_wall || role == Role::inner_wall || role == Role::overhang_wall;
-}
-
 /// @returns its volume, mm³
 double count_bead(const Extrude& bead, Statistics& s) {
   auto& feature = s.features[static_cast<std::size_t>(bead.role)];

@@ -18,10 +18,6 @@ double area_mm2(const Junction& j, double height_mm) {
   return to_mm(j.width) * static_cast<double>(j.flow) * height_mm;
 }
 
-bool is_wall(Role role) {
-  return role == Role::outer_wall || role == Role::inner_wall || role == Role::overhang_wall;
-}
-
 /// The cross-section that a wall of nominal width has, mm².
 double nominal_area_mm2(const Rules& rules, Role role, Um height) {
   const Um nozzle = rules.machine.nozzle_diameter;
@@ -94,72 +90,20 @@ void store(const std::vector<Segment>& segments, Extrude& bead) {
 
 double feature_speed_mm_s(const Rules& rules, Role role, bool first_layer) {
   const auto& s = rules.speeds;
-  double speed = 0;
-  switch (role) {
-    case Role::outer_wall:
-      speed = s.speed_wall_0;
-      break;
-    case Role::inner_wall:
-      speed = s.speed_wall_x;
-      break;
-    case Role::overhang_wall:
-      speed = s.speed_overhang.of(s.speed_wall_0);
-      break;
-    case Role::infill:
-    case Role::support:
-    case Role::wipe_tower:
-      speed = s.speed_infill;
-      break;
-    case Role::solid_infill:
-    case Role::support_interface:
-      speed = s.speed_topbottom;
-      break;
-    case Role::top_skin:
-      speed = s.speed_top_skin;
-      break;
-    case Role::bridge:
-      speed = s.speed_bridge;
-      break;
-    case Role::gap_fill:
-      speed = s.speed_gap_fill;
-      break;
-    case Role::skirt:
-    case Role::brim:
-      if (s.skirt_brim_speed) return *s.skirt_brim_speed;
-      speed = s.speed_wall_0;
-      break;
-  }
+  const auto& from = row_of(role).speed;
+  if (from.own && s.*from.own) return *(s.*from.own);
+  const double base = s.*from.speed, speed = from.share ? (s.*from.share).of(base) : base;
   return first_layer ? std::min(speed, s.speed_layer_0.of(speed)) : speed;
 }
 
 double feature_acceleration_mm_s2(const Rules& rules, Role role, bool first_layer) {
   const auto& s = rules.speeds;
-  const double print = s.acceleration_print;
-  double a = print;
-  switch (role) {
-    case Role::outer_wall:
-    case Role::overhang_wall:
-      a = s.acceleration_wall_0.value_or(print);
+  double a = s.acceleration_print;
+  for (const auto own : row_of(role).acceleration)
+    if (own && s.*own) {
+      a = *(s.*own);
       break;
-    case Role::inner_wall:
-    case Role::gap_fill:
-      a = s.acceleration_wall_x.value_or(print);
-      break;
-    case Role::infill:
-      a = s.acceleration_infill.value_or(print);
-      break;
-    case Role::solid_infill:
-      a = s.acceleration_topbottom.value_or(print);
-      break;
-    case Role::top_skin:
-      a = s.acceleration_top_skin.value_or(s.acceleration_topbottom.value_or(print));
-      break;
-    case Role::bridge:
-      a = s.acceleration_bridge.value_or(print);
-      break;
-    default:
-      break;
-  }
+    }
   if (first_layer && s.acceleration_layer_0) a = *s.acceleration_layer_0;
   return std::min({a, rules.machine.machine_max_acceleration_x, rules.machine.machine_max_acceleration_y});
 }

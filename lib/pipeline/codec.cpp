@@ -1,14 +1,42 @@
 #include "pipeline/codec.h"
 
+#include "model/model_fields.h"
+
 #include <bit>
 #include <stdexcept>
 #include <type_traits>
 
+namespace weft {
+
+template <>
+inline constexpr auto fields<slice::Gaps> = listed(&slice::Gaps::count, &slice::Gaps::widest_um, &slice::Gaps::at);
+template <>
+inline constexpr auto fields<slice::Cut> = listed(&slice::Cut::layer, &slice::Cut::closed, &slice::Cut::bridged);
+template <>
+inline constexpr auto fields<mesh::Repairs> = listed(&mesh::Repairs::degenerate, &mesh::Repairs::duplicates,
+                                                     &mesh::Repairs::sheets, &mesh::Repairs::flipped,
+                                                     &mesh::Repairs::inverted_shells, &mesh::Repairs::shells,
+                                                     &mesh::Repairs::open_edges, &mesh::Repairs::non_manifold_edges,
+                                                     &mesh::Repairs::one_sided_shells);
+template <>
+inline constexpr auto fields<mesh::Object> = listed(&mesh::Object::name, &mesh::Object::mesh, &mesh::Object::repairs);
+template <>
+inline constexpr auto fields<mesh::Loaded> = listed(&mesh::Loaded::path, &mesh::Loaded::format, &mesh::Loaded::sha256,
+                                                    &mesh::Loaded::unit, &mesh::Loaded::triangles_in_file,
+                                                    &mesh::Loaded::objects, &mesh::Loaded::notices);
+template <>
+inline constexpr auto fields<pipeline::FilledLayer> = listed(&pipeline::FilledLayer::top, &pipeline::FilledLayer::skin,
+                                                             &pipeline::FilledLayer::sparse,
+                                                             &pipeline::FilledLayer::beads,
+                                                             &pipeline::FilledLayer::notices);
+
+}  // namespace weft
+
 namespace weft::pipeline {
 namespace {
 
-/// Writes values behind each other. One list of fields a type (`fields` below) serves Writer, Reader and Meter, so that
-/// a field cannot be written and not read.
+/// Writes values behind each other. One list of fields a type serves Writer, Reader and Meter, so that a field cannot
+/// be written and not read.
 class Writer {
  public:
   void operator()(const std::uint64_t& v) {
@@ -121,29 +149,37 @@ inline constexpr bool is_list = false;
 template <class T>
 inline constexpr bool is_list<std::vector<T>> = !std::is_same_v<T, Point> && !std::is_same_v<T, Junction>;
 
+// walk(a, v): the value v through the writer, reader or meter a. A type with a list of its fields (core/fields.h) goes
+// field by field; the other overloads are for what is written in another way.
+
 template <class A, class T>
 requires std::is_integral_v<T> || std::is_enum_v<T>
-void fields(A& a, T& v) {
+void walk(A& a, T& v) {
   using Wide = std::conditional_t<std::is_signed_v<std::remove_const_t<T>>, std::int64_t, std::uint64_t>;
   auto wide = static_cast<Wide>(v);
   a(wide);
   if constexpr (reads<A>) v = static_cast<T>(wide);
 }
 template <class A>
-void fields(A& a, Ref<A, double> v) {
+void walk(A& a, Ref<A, double> v) {
   a(v);
 }
 template <class A>
-void fields(A& a, Ref<A, std::string> v) {
+void walk(A& a, Ref<A, std::string> v) {
   a(v);
 }
 template <class A, class V>
 requires is_list<std::remove_const_t<V>>
-void fields(A& a, V& v);
-
-template <class A>
-void fields(A& a, Ref<A, Point> v) {
-  fields(a, v.x), fields(a, v.y);
+void walk(A& a, V& v) {
+  auto count = std::uint64_t{v.size()};
+  a.size(count, sizeof(typename V::value_type));
+  if constexpr (reads<A>) v.resize(count);
+  for (auto& item : v) walk(a, item);
+}
+template <class A, class T>
+requires HasFields<T>
+void walk(A& a, T& v) {
+  for_each_field(v, [&](auto& field) { walk(a, field); });
 }
 
 /// A whole number as its difference from the one before.
@@ -154,23 +190,6 @@ void difference(A& a, T& v, std::int64_t& before) {
   before += step;
   if constexpr (reads<A>) v = static_cast<T>(before);
 }
-
-template <class A>
-void fields(A& a, Ref<A, Ring> ring) {
-  auto count = std::uint64_t{ring.size()};
-  a.size(count, sizeof(Point));
-  if constexpr (reads<A>) ring.resize(count);
-  std::int64_t x = 0, y = 0;
-  for (auto& p : ring) difference(a, p.x, x), difference(a, p.y, y);
-}
-template <class A>
-void fields(A& a, Ref<A, Region> v) {
-  fields(a, v.outer), fields(a, v.holes);
-}
-template <class A>
-void fields(A& a, Ref<A, Notice> v) {
-  fields(a, v.code), fields(a, v.message);
-}
 /// A number by the bits that differ from those of the usual one, which takes one byte.
 template <class A>
 void unlike(A& a, Ref<A, float> v, float usual) {
@@ -179,8 +198,22 @@ void unlike(A& a, Ref<A, float> v, float usual) {
   a(bits);
   if constexpr (reads<A>) v = std::bit_cast<float>(static_cast<std::uint32_t>(bits) ^ base);
 }
+
 template <class A>
-void fields(A& a, Ref<A, std::vector<Junction>> path) {
+void walk(A& a, Ref<A, float> v) {
+  unlike(a, v, 0.F);
+}
+template <class A>
+void walk(A& a, Ref<A, Ring> ring) {
+  auto count = std::uint64_t{ring.size()};
+  a.size(count, sizeof(Point));
+  if constexpr (reads<A>) ring.resize(count);
+  std::int64_t x = 0, y = 0;
+  for (auto& p : ring) difference(a, p.x, x), difference(a, p.y, y);
+}
+template <class A>
+void walk(A& a, Ref<A, std::vector<Junction>> path) {
+  static_assert(field_count<Junction>() == 3, "a field of junctions is not written");
   auto count = std::uint64_t{path.size()};
   a.size(count, sizeof(Junction));
   if constexpr (reads<A>) path.resize(count);
@@ -189,77 +222,6 @@ void fields(A& a, Ref<A, std::vector<Junction>> path) {
     difference(a, j.at.x, x), difference(a, j.at.y, y), difference(a, j.width, width);
     unlike(a, j.flow, 1.F);
   }
-}
-template <class A>
-void fields(A& a, Ref<A, Bead> v) {
-  fields(a, v.path);
-  fields(a, v.role), fields(a, v.closed), fields(a, v.inset), fields(a, v.part), fields(a, v.sequence);
-  fields(a, v.tool), fields(a, v.scope);
-}
-template <class A>
-void fields(A& a, Ref<A, slice::Gaps> v) {
-  fields(a, v.count), fields(a, v.widest_um), fields(a, v.at);
-}
-template <class A>
-void fields(A& a, Ref<A, slice::Cut> v) {
-  fields(a, v.layer.z), fields(a, v.layer.height), fields(a, v.layer.regions), fields(a, v.closed),
-      fields(a, v.bridged);
-}
-template <class A>
-void fields(A& a, Ref<A, WallLayer> v) {
-  fields(a, v.beads), fields(a, v.inside), fields(a, v.notices);
-}
-template <class A>
-void fields(A& a, Ref<A, FilledLayer> v) {
-  fields(a, v.top), fields(a, v.skin), fields(a, v.sparse), fields(a, v.beads), fields(a, v.notices);
-}
-template <class A>
-void fields(A& a, Ref<A, Point3> v) {
-  fields(a, v.x), fields(a, v.y), fields(a, v.z);
-}
-template <class A>
-void fields(A& a, Ref<A, float> v) {
-  unlike(a, v, 0.F);
-}
-template <class A>
-void fields(A& a, Ref<A, Extrude> v) {
-  fields(a, v.path), fields(a, v.role), fields(a, v.tool), fields(a, v.scope), fields(a, v.height),
-      fields(a, v.speed_mm_s), fields(a, v.segment_speed_mm_s), fields(a, v.acceleration_mm_s2), fields(a, v.below);
-}
-template <class A>
-void fields(A& a, Ref<A, Travel> v) {
-  fields(a, v.path), fields(a, v.speed_mm_s), fields(a, v.crosses_wall), fields(a, v.z_speed_mm_s),
-      fields(a, v.acceleration_mm_s2);
-}
-template <class A>
-void fields(A& a, Ref<A, Retract> v) {
-  fields(a, v.wipe), fields(a, v.wipe_speed_mm_s), fields(a, v.before_wipe);
-}
-template <class A>
-void fields(A&, Ref<A, Prime>) {}
-template <class A>
-void fields(A& a, Ref<A, SetFan> v) {
-  fields(a, v.share);
-}
-template <class A>
-void fields(A& a, Ref<A, ObjectStart> v) {
-  fields(a, v.object);
-}
-template <class A>
-void fields(A& a, Ref<A, ObjectEnd> v) {
-  fields(a, v.object);
-}
-template <class A>
-void fields(A& a, Ref<A, ToolChange> v) {
-  fields(a, v.tool);
-}
-template <class A>
-void fields(A& a, Ref<A, SetTemperature> v) {
-  fields(a, v.heater), fields(a, v.tool), fields(a, v.celsius), fields(a, v.wait);
-}
-template <class A>
-void fields(A& a, Ref<A, Pause> v) {
-  fields(a, v.text);
 }
 /// Makes a step of the kind with that index.
 template <std::size_t kind = 0>
@@ -272,26 +234,15 @@ void become(Step& step, std::uint64_t index) {
     become<kind + 1>(step, index);
 }
 template <class A>
-void fields(A& a, Ref<A, Step> v) {
+void walk(A& a, Ref<A, Step> v) {
   auto kind = std::uint64_t{v.index()};
   a(kind);
   if constexpr (reads<A>) become(v, kind);
-  std::visit([&](auto& step) { fields(a, step); }, v);
+  std::visit([&](auto& step) { walk(a, step); }, v);
 }
 template <class A>
-void fields(A& a, Ref<A, Moment> v) {
-  fields(a, v.index), fields(a, v.pass), fields(a, v.number), fields(a, v.comes_down);
-}
-template <class A>
-void fields(A& a, Ref<A, LayerPlan> v) {
-  fields(a, v.z), fields(a, v.height), fields(a, v.time), fields(a, v.scope), fields(a, v.steps);
-}
-template <class A>
-void fields(A& a, Ref<A, Triangle> v) {
-  for (auto& corner : v) fields(a, corner);
-}
-template <class A>
-void fields(A& a, Ref<A, Mesh> v) {
+void walk(A& a, Ref<A, Mesh> v) {
+  static_assert(field_count<Mesh>() == 2, "a field of meshes is not written");
   auto count = std::uint64_t{v.vertices.size()};
   a.size(count, sizeof(Point3));
   if constexpr (reads<A>) v.vertices.resize(count);
@@ -304,91 +255,34 @@ void fields(A& a, Ref<A, Mesh> v) {
   for (auto& t : v.triangles)
     for (auto& c : t) difference(a, c, corner);
 }
-template <class A>
-void fields(A& a, Ref<A, mesh::Object> v) {
-  fields(a, v.name), fields(a, v.mesh);
-  auto& r = v.repairs;
-  fields(a, r.degenerate), fields(a, r.duplicates), fields(a, r.sheets), fields(a, r.flipped),
-      fields(a, r.inverted_shells);
-  fields(a, r.shells), fields(a, r.open_edges), fields(a, r.non_manifold_edges), fields(a, r.one_sided_shells);
-}
-template <class A>
-void fields(A& a, Ref<A, mesh::Loaded> v) {
-  fields(a, v.path), fields(a, v.format), fields(a, v.sha256), fields(a, v.unit), fields(a, v.triangles_in_file),
-      fields(a, v.objects), fields(a, v.notices);
-}
-
-template <class A, class V>
-requires is_list<std::remove_const_t<V>>
-void fields(A& a, V& v) {
-  auto count = std::uint64_t{v.size()};
-  a.size(count, sizeof(typename V::value_type));
-  if constexpr (reads<A>) v.resize(count);
-  for (auto& item : v) fields(a, item);
-}
-
-template <class T>
-std::string encoded(const T& v) {
-  Writer writer;
-  fields(writer, v);
-  return writer.bytes();
-}
-template <class T>
-void decoded(std::string_view bytes, T& out) {
-  Reader reader(bytes);
-  fields(reader, out);
-  reader.finish();
-}
-template <class T>
-std::size_t measured(const T& v) {
-  Meter meter;
-  fields(meter, v);
-  return meter.bytes;
-}
 
 }  // namespace
 
-std::string encode(const mesh::Loaded& v) {
-  return encoded(v);
+template <class T>
+std::string encode(const T& v) {
+  Writer writer;
+  walk(writer, v);
+  return writer.bytes();
 }
-std::string encode(const std::vector<slice::Cut>& v) {
-  return encoded(v);
+template <class T>
+void decode(std::string_view bytes, T& out) {
+  Reader reader(bytes);
+  walk(reader, out);
+  reader.finish();
 }
-std::string encode(const std::vector<WallLayer>& v) {
-  return encoded(v);
+template <class T>
+std::size_t memory_of(const T& v) {
+  Meter meter;
+  walk(meter, v);
+  return meter.bytes;
 }
-std::string encode(const std::vector<FilledLayer>& v) {
-  return encoded(v);
-}
-std::string encode(const LayerPlan& v) {
-  return encoded(v);
-}
-void decode(std::string_view bytes, mesh::Loaded& out) {
-  decoded(bytes, out);
-}
-void decode(std::string_view bytes, std::vector<slice::Cut>& out) {
-  decoded(bytes, out);
-}
-void decode(std::string_view bytes, std::vector<WallLayer>& out) {
-  decoded(bytes, out);
-}
-void decode(std::string_view bytes, std::vector<FilledLayer>& out) {
-  decoded(bytes, out);
-}
-void decode(std::string_view bytes, LayerPlan& out) {
-  decoded(bytes, out);
-}
-std::size_t memory_of(const mesh::Loaded& v) {
-  return measured(v);
-}
-std::size_t memory_of(const std::vector<slice::Cut>& v) {
-  return measured(v);
-}
-std::size_t memory_of(const std::vector<WallLayer>& v) {
-  return measured(v);
-}
-std::size_t memory_of(const std::vector<FilledLayer>& v) {
-  return measured(v);
-}
+
+/// What is ever kept as bytes.
+template <class... T>
+struct Kept {
+  static constexpr auto functions = std::tuple{std::tuple{&encode<T>, &decode<T>, &memory_of<T>}...};
+};
+template struct Kept<mesh::Loaded, std::vector<slice::Cut>, std::vector<WallLayer>, std::vector<FilledLayer>,
+                     LayerPlan>;
 
 }  // namespace weft::pipeline

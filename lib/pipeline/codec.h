@@ -25,23 +25,17 @@ struct FilledLayer {
   Notices notices;
 };
 
-std::string encode(const mesh::Loaded& model);
-std::string encode(const std::vector<slice::Cut>& cuts);
-std::string encode(const std::vector<WallLayer>& walls);
-std::string encode(const std::vector<FilledLayer>& fills);
-std::string encode(const LayerPlan& layer);
+// Of the types that codec.cpp lists at its end, each made of the fields that it lists (core/fields.h).
+
+template <class T>
+std::string encode(const T& v);
 
 /// The value that was encoded. @throws std::runtime_error for bytes that are none
-void decode(std::string_view bytes, mesh::Loaded& out);
-void decode(std::string_view bytes, std::vector<slice::Cut>& out);
-void decode(std::string_view bytes, std::vector<WallLayer>& out);
-void decode(std::string_view bytes, std::vector<FilledLayer>& out);
-void decode(std::string_view bytes, LayerPlan& out);
+template <class T>
+void decode(std::string_view bytes, T& out);
 
 /// Memory that a result holds, bytes, about.
-std::size_t memory_of(const mesh::Loaded& model);
-std::size_t memory_of(const std::vector<slice::Cut>& cuts);
-std::size_t memory_of(const std::vector<WallLayer>& walls);
-std::size_t memory_of(const std::vector<FilledLayer>& fills);
+template <class T>
+std::size_t memory_of(const T& v);
 
 }  // namespace weft::pipeline

@@ -1,7 +1,7 @@
 #include "pipeline/provenance.h"
 
 #include "core/error.h"
-#include "gcode/placeholders.h"
+#include "core/escape.h"
 #include "profile/profile.h"
 #include "settings/value.h"
 
@@ -79,7 +79,7 @@ std::string provenance_lines(const std::vector<Report::Model>& models, const Pla
   std::string out;
   for (const auto& model : models)
     out += fmt::format("{}{} {}\n", model_key, model.sha256,
-                       gcode::escaped_name(std::filesystem::path(model.file).filename().string()));
+                       escape::gcode_name(std::filesystem::path(model.file).filename().string()));
   if (const auto text = text_of(placement); !text.empty()) out += fmt::format("{}{}\n", placement_key, text);
   return out;
 }

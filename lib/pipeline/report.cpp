@@ -36,9 +36,9 @@ Json models_of(const Report& r) {
 
 Json features_of(const Report& r) {
   Json out = Json::object();
-  for (const auto& name : role_names) {
-    const auto& f = r.features[static_cast<std::size_t>(name.role)];
-    out[std::string(name.key)] = {{"mm", rounded3(f.mm)}, {"mm3", rounded3(f.mm3)}, {"s", rounded3(f.s)}};
+  for (const auto& row : roles) {
+    const auto& f = r.features[static_cast<std::size_t>(row.role)];
+    out[std::string(row.key)] = {{"mm", rounded3(f.mm)}, {"mm3", rounded3(f.mm3)}, {"s", rounded3(f.s)}};
   }
   return out;
 }

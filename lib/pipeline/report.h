@@ -58,7 +58,7 @@ struct Report {
   std::size_t layers = 0;
   double height_mm = 0, print_time_s = 0;
   double filament_mm = 0, filament_mm3 = 0, filament_g = 0;
-  std::array<Feature, role_names.size()> features{};
+  std::array<Feature, roles.size()> features{};
   std::vector<Tool> tools;  ///< by number, T0 first; empty where the plan names none
   Walls walls;
   Travel travel;

@@ -1,5 +1,7 @@
 #include "preview/colours.h"
 
+#include "model/role.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,19 +11,7 @@
 namespace weft::preview {
 namespace {
 
-struct FeatureColour {
-  std::string_view feature;
-  Rgb colour;
-};
-constexpr std::array feature_colours{
-    FeatureColour{"outer_wall", {238, 121, 52}},   FeatureColour{"inner_wall", {246, 199, 68}},
-    FeatureColour{"overhang_wall", {48, 88, 214}}, FeatureColour{"infill", {178, 62, 52}},
-    FeatureColour{"skin", {146, 98, 214}},         FeatureColour{"top_skin", {226, 76, 96}},
-    FeatureColour{"bridge", {88, 156, 236}},       FeatureColour{"gap_fill", {190, 196, 204}},
-    FeatureColour{"skirt", {44, 160, 112}},        FeatureColour{"brim", {24, 130, 90}},
-    FeatureColour{"support", {98, 196, 116}},      FeatureColour{"support_interface", {40, 130, 66}},
-    FeatureColour{"wipe_tower", {170, 190, 150}},  FeatureColour{"custom", {90, 190, 200}},
-};
+constexpr Rgb custom{90, 190, 200};
 constexpr Rgb unknown{150, 150, 150};
 
 constexpr std::array<Rgb, 6> viridis{
@@ -34,9 +24,9 @@ std::uint8_t mixed(std::uint8_t a, std::uint8_t b, double t) {
 }  // namespace
 
 Rgb colour_of(std::string_view feature) {
-  for (const auto& row : feature_colours)
-    if (row.feature == feature) return row.colour;
-  return unknown;
+  for (const auto& row : roles)
+    if (row.key == feature) return row.colour;
+  return feature == "custom" ? custom : unknown;
 }
 
 Rgb ramp(double share) {

@@ -1,4 +1,5 @@
 #include "core/base64.h"
+#include "core/escape.h"
 #include "preview/colours.h"
 #include "preview/page.h"
 
@@ -82,19 +83,6 @@ void pack(Packed& out, const PathLayer& layer, const std::vector<std::uint32_t>&
   }
 }
 
-std::string quoted(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\' || c == '<' || byte < 0x20)
-      fmt::format_to(std::back_inserter(out), "\\u{:04x}", byte);
-    else
-      out += c;
-  }
-  out += '"';
-  return out;
-}
-
 std::string ring_json(const Ring& ring) {
   std::string out = "[";
   for (const Point p : ring)
@@ -141,7 +129,7 @@ std::string html(const Toolpaths& paths, const View& view, const std::optional<O
   for (const auto& name : paths.features) {
     std::string shown = name.empty() ? "other" : name;
     std::replace(shown.begin(), shown.end(), '_', ' ');
-    features += fmt::format("{}[{},\"{}\"]", features.empty() ? "" : ",", quoted(shown), css(colour_of(name)));
+    features += fmt::format("{}[{},\"{}\"]", features.empty() ? "" : ",", escape::json(shown), css(colour_of(name)));
   }
   for (int i = 0; i <= 32; ++i) ramps += fmt::format("{}\"{}\"", i ? "," : "", css(ramp(i / 32.0)));
   const std::size_t last = paths.layers.size() - 1;
@@ -150,7 +138,7 @@ std::string html(const Toolpaths& paths, const View& view, const std::optional<O
       std::back_inserter(out),
       "const page={{title:{},features:[{}],ramp:[{}],overlay:{},colour:\"{}\",travels:{},layer:{},layers:{},grain:{},\n"
       "colours:{{reduced:\"{}\",travel:\"{}\",outside:\"{}\",noGo:\"{}\",bed:\"{}\",reach:\"{}\"}},\ndata:\"",
-      quoted(view.title), features, ramps, overlay_json(overlay), name_of(view.colour), view.travels,
+      escape::json(view.title), features, ramps, overlay_json(overlay), name_of(view.colour), view.travels,
       std::min(view.layer.value_or(last), last), paths.layers.size(), grain / 1000.0, css(compensated_colour),
       css(travel_colour), css(offending_colour), css(no_go_colour), css(bed_colour), css(reach_colour));
   out += packed.text();

@@ -1,4 +1,6 @@
 #pragma once
+#include "core/rgb.h"
+
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -8,12 +10,6 @@ namespace weft::preview {
 struct PixelSize {
   int width = 0, height = 0;
   friend bool operator==(PixelSize, PixelSize) = default;
-};
-
-/// A colour without alpha, as pictures and style sheets have it.
-struct Rgb {
-  std::uint8_t r = 0, g = 0, b = 0;
-  friend bool operator==(Rgb, Rgb) = default;
 };
 
 /// A picture: rows from the top, four bytes a pixel, red green blue alpha, not premultiplied.

@@ -1,3 +1,4 @@
+#include "core/escape.h"
 #include "preview/scene.h"
 
 #include <iterator>
@@ -32,19 +33,6 @@ void path(std::string& out, const Polyline& points, bool closed = false) {
   out += '"';
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<')
-      out += "&lt;";
-    else if (c == '&')
-      out += "&amp;";
-    else if (static_cast<unsigned char>(c) >= 0x20)
-      out += c;
-  }
-  return out;
-}
-
 /// Beads: first all edges in a darker tone, then the bodies a little narrower, so that each line stays visible.
 void write_beads(std::string& out, const std::vector<Line>& beads, bool edges) {
   constexpr Um edge = 30;  // of each side, µm
@@ -76,14 +64,14 @@ void write_outline(std::string& out, const Ring& ring, Rgb colour, double opacit
 void write_legend(std::string& out, const Scene& scene, int left) {
   int y = 34;
   for (const auto& text : scene.title) {
-    fmt::format_to(Out(out), "<text x=\"{}\" y=\"{}\">{}</text>\n", left, y, escaped(text));
+    fmt::format_to(Out(out), "<text x=\"{}\" y=\"{}\">{}</text>\n", left, y, escape::xml(text));
     y += 22;
   }
   for (const auto& row : scene.legend) {
     fmt::format_to(Out(out),
                    "<rect x=\"{}\" y=\"{}\" width=\"22\" height=\"14\" fill=\"{}\" stroke=\"#555\"/><text x=\"{}\" "
                    "y=\"{}\">{}</text>\n",
-                   left, y, css(row.colour), left + 32, y + 13, escaped(row.text));
+                   left, y, css(row.colour), left + 32, y + 13, escape::xml(row.text));
     y += 24;
   }
 }

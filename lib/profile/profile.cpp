@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "prusaslicer/embedded.h"
 #include "prusaslicer/import.h"
+#include "prusaslicer/keys.h"
 #include "settings/catalogue.h"
 #include "settings/gcode_variables.h"
 #include "settings/ini.h"
@@ -176,10 +177,14 @@ prusaslicer::Translation import_prusaslicer(Profile& profile, std::string_view t
   return translated;
 }
 
+std::string_view nearest_key(std::string_view wrong) {
+  return nearest_setting(wrong, prusaslicer::name_of);
+}
+
 void apply_value(Profile& profile, const std::string& key, const std::string& text, const std::string& where) {
   const auto* entry = find_setting(key);
   if (!entry) {
-    const auto near = nearest_setting(key);
+    const auto near = nearest_key(key);
     throw Error{Error::Kind::settings, fmt::format("unknown setting '{}'", key), where,
                 near.empty() ? "`weft settings` lists them all" : fmt::format("did you mean '{}'?", near)};
   }

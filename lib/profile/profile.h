@@ -54,6 +54,9 @@ prusaslicer::Translation import_prusaslicer(Profile& profile, std::string_view t
 /// The bytes of a profile. @throws Error{file}
 std::string read_profile(const std::filesystem::path& path);
 
+/// The known key nearest to a wrong one, by its own name or by PrusaSlicer's; empty when nothing is near.
+std::string_view nearest_key(std::string_view wrong);
+
 /// Lays one value over `profile`.
 /// @param where what to name in messages: the option, or path:line
 /// @throws Error{settings}

@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 #include "macro/macro.h"
-#include "prusaslicer/defaults.h"
+#include "prusaslicer/keys.h"
 #include "prusaslicer/text.h"
 #include "settings/near.h"
 #include "settings/value.h"
@@ -33,7 +33,7 @@ struct Own {
   int inherits_line = 0;
   enum class State { untouched, on_the_way, done } state = State::untouched;
 };
-using Key = std::pair<PresetKind, std::string>;
+using PresetKey = std::pair<PresetKind, std::string>;
 constexpr int deepest = 100;  // generations: each costs a call on the stack
 
 void take_line(Own& own, const IniEntry& e, const std::string& path) {
@@ -47,7 +47,7 @@ void take_line(Own& own, const IniEntry& e, const std::string& path) {
 }
 
 /// Lays the parents' values below the preset's own, in their order: a later one wins.
-void inherit(std::map<Key, Own>& all, Own& own, Bundle& bundle, int depth) {
+void inherit(std::map<PresetKey, Own>& all, Own& own, Bundle& bundle, int depth) {
   if (own.state == Own::State::done) return;
   if (own.state == Own::State::on_the_way)
     throw Error{Error::Kind::settings,
@@ -95,7 +95,8 @@ macro::Variables variables_of(const Preset& preset) {
   const auto add = [&](const std::string& key, std::string_view text) {
     out[key] = macro::variable_of(in_macro_words(key, text));
   };
-  for (const auto& row : default_rows) add(std::string(row.key), row.value);
+  for (const auto& row : keys())
+    if (row.initial) add(std::string(row.name), *row.initial);
   for (const auto& [key, history] : preset.values) add(key, history.back().value);
   for (const auto* key : {"printer_notes", "printer_model", "printer_variant"})
     if (out.find(key) == out.end()) add(key, "");
@@ -187,8 +188,8 @@ bool is_bundle(const std::vector<IniEntry>& entries) {
 Bundle read_bundle(const std::vector<IniEntry>& entries, const std::string& path) {
   Bundle bundle;
   bundle.path = path;
-  std::map<Key, Own> all;
-  std::vector<Key> order;
+  std::map<PresetKey, Own> all;
+  std::vector<PresetKey> order;
   for (const auto& e : entries) {
     if (e.section == "vendor" && e.key == "name") bundle.vendor = e.value;
     if (e.section == "presets") {
@@ -199,7 +200,8 @@ Bundle read_bundle(const std::vector<IniEntry>& entries, const std::string& path
     }
     const auto kind = kind_of(e.section);
     if (!kind) continue;
-    const Key key{*kind, std::string(value::trimmed(std::string_view(e.section).substr(name_of(*kind).size() + 1)))};
+    const PresetKey key{*kind,
+                        std::string(value::trimmed(std::string_view(e.section).substr(name_of(*kind).size() + 1)))};
     auto [own, is_new] = all.try_emplace(key);
     if (is_new) {
       order.push_back(key);

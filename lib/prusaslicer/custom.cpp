@@ -1,5 +1,6 @@
 #include "prusaslicer/custom.h"
 
+#include "prusaslicer/keys.h"
 #include "prusaslicer/text.h"
 #include "settings/catalogue.h"
 #include "settings/value.h"
@@ -140,7 +141,7 @@ std::vector<CustomReach> reach_of(const Lines& lines) {
 
 std::string variables_of(const Lines& lines) {
   std::set<std::string_view> own;
-  for (const auto& entry : catalogue()) own.insert({entry.key, entry.prusa});
+  for (const auto& entry : catalogue()) own.insert({entry.key, name_of(entry.key)});
   std::set<std::string> named;
   for (const auto key : custom_keys) {
     const auto text = text_of(lines, key);

@@ -1,6 +1,7 @@
 #include "prusaslicer/embedded.h"
 
 #include "core/error.h"
+#include "core/utf8.h"
 #include "settings/value.h"
 
 #include <algorithm>

@@ -34,7 +34,8 @@ std::string renamed_placeholders(const std::string& gcode) {
   int depth = 0;
   const auto flush = [&] {
     const auto* entry = depth > 0 && !name.empty() ? find_setting(name) : nullptr;
-    out += entry && entry->key == name && !entry->prusa.empty() ? std::string(entry->prusa) : name;
+    const auto theirs = entry && entry->key == name ? name_of(name) : std::string_view();
+    out += theirs.empty() ? name : std::string(theirs);
     name.clear();
   };
   for (const char c : gcode) {
@@ -57,7 +58,7 @@ class Exporter {
   explicit Exporter(const Settings& settings) : s_(settings) {}
 
   Exported run() {
-    for (const auto& row : same_rows) same(row);
+    for (const auto& row : ported_keys()) same(row);
     machine();
     widths();
     speeds();
@@ -86,27 +87,41 @@ class Exporter {
     return v;
   }
 
-  void same(const SameRow& row) {
+  template <class F>
+  static void for_each(Form form, F f) {
+    for (const auto& row : reckoned_keys())
+      if (row.form == form) f(row);
+  }
+
+  void same(const Key& row) {
     const auto text = print(row.ours);
     switch (row.form) {
       case Form::length:
       case Form::number: {
         if (text == "auto") return;  // each has its own meaning, below
-        return say(row.theirs, number(number_of(text)), row.ours);
+        return say(row.name, number(number_of(text)), row.ours);
       }
       case Form::times_100:
-        return say(row.theirs, number(number_of(text) / 100), row.ours);
+        return say(row.name, number(number_of(text) / 100), row.ours);
       case Form::zero_is_auto:
-        return say(row.theirs, text == "auto" ? "0" : number(number_of(text)), row.ours);
+        return say(row.name, text == "auto" ? "0" : number(number_of(text)), row.ours);
       case Form::share:
-        return say(row.theirs, text, row.ours);
+        return say(row.name, text, row.ours);
       case Form::flag:
-        return say(row.theirs, text == "true" ? "1" : "0", row.ours);
+        return say(row.name, text == "true" ? "1" : "0", row.ours);
       case Form::text:
-        return say(row.theirs, text, row.ours);
+        return say(row.name, text, row.ours);
       case Form::choice:
         for (const auto& c : choice_rows)  // the first row of a value is the one without loss
-          if (c.key == row.theirs && c.ours == text) return say(row.theirs, std::string(c.theirs), row.ours);
+          if (c.key == row.name && c.ours == text) return say(row.name, std::string(c.theirs), row.ours);
+        return;
+      case Form::none:
+      case Form::width:
+      case Form::speed:
+      case Form::acceleration:
+      case Form::limit:
+      case Form::reckoned:
+        return;
     }
   }
 
@@ -118,12 +133,7 @@ class Exporter {
     say("bed_shape", points, "bed_shape");
     for (const auto* key : {"machine_width", "machine_depth", "machine_center_is_zero", "bed_polygon"})
       said_.insert(key);
-    for (const auto* axis : {"x", "y", "z", "e"}) {
-      say(fmt::format("machine_max_feedrate_{}", axis), print(fmt::format("machine_max_speed_{}", axis)),
-          fmt::format("machine_max_speed_{}", axis));
-      say(fmt::format("machine_max_acceleration_{}", axis), print(fmt::format("machine_max_acceleration_{}", axis)),
-          fmt::format("machine_max_acceleration_{}", axis));
-    }
+    for_each(Form::limit, [&](const Key& row) { say(row.name, print(row.ours), row.ours); });
     say("machine_max_jerk_y", lines_["machine_max_jerk_x"]);
     const auto& t = s_.material;
     say("filament_type", listed_text(print("material_type")));
@@ -170,7 +180,7 @@ class Exporter {
 
   void speeds() {
     const auto& v = s_.speeds;
-    for (const auto& row : speed_rows) say(row.theirs, print(row.ours), row.ours);
+    for_each(Form::speed, [&](const Key& row) { say(row.name, print(row.ours), row.ours); });
     say("small_perimeter_speed", v.speed_small_perimeter ? number(v.speed_small_perimeter->of(v.speed_wall_0)) : "0",
         "speed_small_perimeter");
     say("first_layer_speed", print("speed_layer_0"), "speed_layer_0");
@@ -181,10 +191,10 @@ class Exporter {
         "skirt_brim_speed");
     const auto slope = print("max_extrusion_rate_slope");
     say("max_volumetric_extrusion_rate_slope_positive", slope == "auto" ? "0" : slope, "max_extrusion_rate_slope");
-    for (const auto& row : acceleration_rows) {
+    for_each(Form::acceleration, [&](const Key& row) {
       const auto text = print(row.ours);
-      say(row.theirs, !v.acceleration_enabled || text == "auto" ? "0" : text, row.ours);
-    }
+      say(row.name, !v.acceleration_enabled || text == "auto" ? "0" : text, row.ours);
+    });
     said_.insert("acceleration_enabled");
   }
 

@@ -2,7 +2,6 @@
 
 #include "core/error.h"
 #include "prusaslicer/custom.h"
-#include "prusaslicer/defaults.h"
 #include "prusaslicer/keys.h"
 #include "prusaslicer/lines.h"
 #include "prusaslicer/text.h"
@@ -42,7 +41,7 @@ class Translator {
     extrusion();
     cooling();
     texts();
-    for (const auto& row : same_rows) copy(row);
+    for (const auto& row : ported_keys()) copy(row);
     custom();
     for (const auto& e : lines_.commented()) approximate(e, "what stands behind the number is taken for a comment");
     sort_out_the_rest();
@@ -62,10 +61,16 @@ class Translator {
     out_.unsupported.push_back({e.key, e.value, e.line, std::move(why)});
   }
 
-  void copy(const SameRow& row) {
-    const auto* e = lines_.look(row.theirs);
-    if (!e || done_.count(row.theirs) != 0) return;
-    e = lines_.find(row.theirs);
+  template <class F>
+  static void for_each(Form form, F f) {
+    for (const auto& row : reckoned_keys())
+      if (row.form == form) f(row);
+  }
+
+  void copy(const Key& row) {
+    const auto* e = lines_.look(row.name);
+    if (!e || done_.count(row.name) != 0) return;
+    e = lines_.find(row.name);
     if (e->value == "nil") return;
     switch (row.form) {
       case Form::length:
@@ -86,18 +91,25 @@ class Translator {
         return set(row.ours, first_text(*e), *e);
       case Form::choice:
         return choose(row, *e);
+      case Form::none:
+      case Form::width:
+      case Form::speed:
+      case Form::acceleration:
+      case Form::limit:
+      case Form::reckoned:
+        return;
     }
   }
-  void choose(const SameRow& row, const IniEntry& e) {
+  void choose(const Key& row, const IniEntry& e) {
     for (const auto& c : choice_rows) {
-      if (c.key != row.theirs || c.theirs != e.value) continue;
+      if (c.key != row.name || c.theirs != e.value) continue;
       set(row.ours, std::string(c.ours), e);
       if (!c.loss.empty()) approximate(e, std::string(c.loss));
       return;
     }
     std::string known;
     for (const auto& c : choice_rows)
-      if (c.key == row.theirs) known += fmt::format("{}{}", known.empty() ? "" : ", ", c.theirs);
+      if (c.key == row.name) known += fmt::format("{}{}", known.empty() ? "" : ", ", c.theirs);
     lines_.refuse(e, fmt::format("one of {}", known));
   }
 
@@ -123,10 +135,9 @@ class Translator {
         set("machine_depth", value::print(size.y, Unit::mm), *e);
       }
     }
-    for (const auto* axis : {"x", "y", "z", "e"})
-      for (const auto& [theirs, ours] : {std::pair{"machine_max_feedrate_", "machine_max_speed_"},
-                                         {"machine_max_acceleration_", "machine_max_acceleration_"}})
-        if (const auto* e = lines_.find(std::string(theirs) + axis)) limit(std::string(ours) + axis, *e);
+    for_each(Form::limit, [&](const Key& row) {
+      if (const auto* e = lines_.find(row.name)) limit(std::string(row.ours), *e);
+    });
     if (const auto* e = lines_.look("nozzle_diameter"); e && e->line > 0)
       if (const auto n = elements_of(e->key, e->value).size(); n > 1)
         approximate(*e, fmt::format("weft prints with the first of {} extruders", n));
@@ -159,11 +170,11 @@ class Translator {
       if (width == 0 && general) width = lines_.figure(*general).of(height_);
       return width == 0 ? automatic * nozzle_ : width;
     };
-    for (const auto& row : width_rows) {
-      const auto* own = lines_.find(row.theirs);
-      if (!own && !general) continue;
+    for_each(Form::width, [&](const Key& row) {
+      const auto* own = lines_.find(row.name);
+      if (!own && !general) return;
       set(row.ours, number(width_of(own, row.automatic), 3), own && (own->line > 0 || !general) ? *own : *general);
-    }
+    });
     solid_width_ = width_of(lines_.look("solid_infill_extrusion_width"), 1.125);
     if (const auto* e = lines_.find("first_layer_extrusion_width")) {
       const double first = lines_.figure(*e).of(first_height);
@@ -191,18 +202,18 @@ class Translator {
   void speeds() {
     const double fastest = lines_.number("max_print_speed", 80);
     std::map<std::string_view, double> known;
-    for (const auto& row : speed_rows) {
-      const auto* e = lines_.find(row.theirs);
-      if (!e) continue;
-      const auto base = known.find(row.base);
+    for_each(Form::speed, [&](const Key& row) {
+      const auto* e = lines_.find(row.name);
+      if (!e) return;
+      const auto base = known.find(row.of);
       double speed = lines_.figure(*e).of(base == known.end() ? fastest : base->second);
       if (speed == 0) {
         speed = fastest;
         approximate(*e, fmt::format("automatic speed becomes max_print_speed, {} mm/s", number(fastest)));
       }
-      known[row.theirs] = speed;
+      known[row.name] = speed;
       set(row.ours, number(speed), *e);
-    }
+    });
     const auto speed_of = [&](std::string_view key, double otherwise) {
       return known.count(key) != 0 ? known[key] : otherwise;
     };
@@ -243,8 +254,8 @@ class Translator {
   void accelerations() {
     const auto* general = lines_.find("default_acceleration");
     const double otherwise = general ? lines_.figure(*general).v : 0;
-    for (const auto& row : acceleration_rows)
-      if (const auto* e = lines_.find(row.theirs)) {
+    for_each(Form::acceleration, [&](const Key& row) {
+      if (const auto* e = lines_.find(row.name)) {
         const double a = lines_.figure(*e).v;
         if (e != general)
           set(row.ours, a > 0 ? number(a) : "auto", *e);
@@ -252,6 +263,7 @@ class Translator {
           set(row.ours, number(a), *e);
         if (general && otherwise == 0 && a > 0) approximate(*e, "has no effect while default_acceleration is 0");
       }
+    });
     if (general) set("acceleration_enabled", otherwise > 0 ? "true" : "false", *general);
   }
 
@@ -411,12 +423,12 @@ class Translator {
   void sort_out_the_rest() {
     for (const auto* e : lines_.unread()) {
       if (e->line == 0) continue;
-      const auto row =
-          std::find_if(other_rows.begin(), other_rows.end(), [&](const OtherRow& r) { return r.key == e->key; });
-      const Remark remark{e->key, e->value, e->line, row == other_rows.end() ? "" : std::string(row->why)};
-      if (row == other_rows.end())
+      const auto* row = find_key(e->key);
+      if (row && row->form != Form::none) row = nullptr;  // read where the key it goes with is there
+      const Remark remark{e->key, e->value, e->line, row ? std::string(row->fate) : ""};
+      if (!row)
         out_.unknown.push_back(remark);
-      else if (row->neutral == "*")
+      else if (!row->neutral)
         out_.not_needed.push_back(remark);
       else if (neutral(*row, *e))
         out_.not_needed.push_back({e->key, e->value, e->line, "changes nothing at that value"});
@@ -429,7 +441,7 @@ class Translator {
   }
 
   /// Does each element of the value say one of the neutral things? `0` and `0.0` and `0%` do.
-  static bool neutral(const OtherRow& row, const IniEntry& e) {
+  static bool neutral(const Key& row, const IniEntry& e) {
     const auto canonical = [](std::string_view t) {
       if (!t.empty() && t.back() == '%') t.remove_suffix(1);
       double v = 0;
@@ -441,7 +453,7 @@ class Translator {
       return number(v);
     };
     const auto is_one = [&](const std::string& element) {
-      for (std::string_view rest = row.neutral;;) {
+      for (std::string_view rest = *row.neutral;;) {
         const auto bar = rest.find('|');
         if (canonical(element) == canonical(rest.substr(0, bar))) return true;
         if (bar == std::string_view::npos) return false;
@@ -453,7 +465,7 @@ class Translator {
   }
 
   Lines lines_;
-  std::set<std::string_view> done_;  ///< rows of same_rows whose setting was reckoned otherwise
+  std::set<std::string_view> done_;  ///< keys whose setting was reckoned otherwise
   double nozzle_ = 0.4, height_ = 0.2, solid_width_ = 0.45;
   Translation out_;
 };
@@ -463,7 +475,8 @@ class Translator {
 Translation translate(std::vector<IniEntry> entries, const std::string& path, bool complete) {
   if (complete) {
     std::vector<IniEntry> all;
-    for (const auto& row : default_rows) all.push_back({{}, std::string(row.key), std::string(row.value), 0});
+    for (const auto& row : keys())
+      if (row.initial) all.push_back({{}, std::string(row.name), std::string(*row.initial), 0});
     all.insert(all.end(), std::make_move_iterator(entries.begin()), std::make_move_iterator(entries.end()));
     entries = std::move(all);
   }

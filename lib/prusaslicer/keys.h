@@ -1,102 +1,66 @@
 #pragma once
 #include <array>
+#include <optional>
+#include <span>
 #include <string_view>
 
-/// The table of PrusaSlicer's keys: every one has a row here, in one of the lists, and thereby a fate.
+/// The table of PrusaSlicer's keys: every one has one row, which tells its name, its form and its fate.
+/// Source: the configuration that PrusaSlicer 2.5 saves when it is given none; keys that came later, as 2.9 documents
+/// them.
 namespace weft::prusaslicer {
 
 /// How a value becomes weft's.
 enum class Form {
+  none,    ///< it becomes nothing: weft has no counterpart
   length,  ///< mm, to the micron
   number,
   times_100,     ///< a factor there, percent here
   zero_is_auto,  ///< 0 there, auto here
   share,         ///< a number or a percentage, with the same base
   flag,
-  text,    ///< the first of a list
-  choice,  ///< see choice_rows
+  text,          ///< the first of a list
+  choice,        ///< see choice_rows
+  width,         ///< a share is of the layer height, 0 is `automatic` × nozzle unless extrusion_width says otherwise
+  speed,         ///< a share is of the key `of`, which stands above it; 0 is max_print_speed
+  acceleration,  ///< 0 leaves it to the firmware
+  limit,         ///< of an axis
+  reckoned,      ///< with other keys, by arithmetic of its own (import.cpp)
 };
 
-/// A key whose meaning is that of one of weft's.
-struct SameRow {
-  std::string_view theirs, ours;
-  Form form;
+/// How the ini writes a value.
+enum class Written { plain, flag, text, texts };
+
+struct Key {
+  std::string_view name;
+  Form form = Form::none;
+  std::string_view ours{};                    ///< the setting that is called by this name; empty: none is
+  std::string_view of{};                      ///< of a speed: what a share is of
+  double automatic = 0;                       ///< of a width: in nozzle diameters
+  std::optional<std::string_view> neutral{};  ///< of a missing key: the values that change nothing, between `|`
+  std::string_view fate{};                    ///< what becomes of it, or why it has no effect here
+  Written written = Written::plain;
+  std::optional<std::string_view> initial{};  ///< PrusaSlicer's own value where no preset says one; nothing: not known
+  bool of_filament = false;                   ///< a filament may override it as `filament_<name>`; `nil` does not
+  bool telling = false;                       ///< only that family has it: a profile is told by two of them
 };
-inline constexpr std::array same_rows{
-    SameRow{"printer_model", "machine_name", Form::text},
-    SameRow{"max_print_height", "machine_height", Form::length},
-    SameRow{"nozzle_diameter", "nozzle_diameter", Form::length},
-    SameRow{"gcode_flavor", "firmware", Form::choice},
-    SameRow{"machine_max_junction_deviation", "machine_junction_deviation", Form::zero_is_auto},
-    SameRow{"machine_max_jerk_x", "machine_max_jerk", Form::number},
-    SameRow{"filament_type", "material_type", Form::text},
-    SameRow{"filament_diameter", "filament_diameter", Form::length},
-    SameRow{"filament_density", "material_density", Form::number},
-    SameRow{"extrusion_multiplier", "material_flow", Form::times_100},
-    SameRow{"temperature", "material_print_temperature", Form::number},
-    SameRow{"first_layer_temperature", "material_print_temperature_layer_0", Form::number},
-    SameRow{"bed_temperature", "material_bed_temperature", Form::number},
-    SameRow{"first_layer_bed_temperature", "material_bed_temperature_layer_0", Form::number},
-    SameRow{"layer_height", "layer_height", Form::length},
-    SameRow{"gcode_resolution", "resolution", Form::length},
-    SameRow{"perimeters", "wall_line_count", Form::number},
-    SameRow{"min_bead_width", "min_wall_line_width", Form::share},
-    SameRow{"wall_distribution_count", "wall_distribution_count", Form::number},
-    SameRow{"wall_transition_length", "wall_transition_length", Form::share},
-    SameRow{"external_perimeters_first", "wall_order", Form::choice},
-    SameRow{"xy_size_compensation", "xy_offset", Form::length},
-    SameRow{"top_solid_layers", "top_layers", Form::number},
-    SameRow{"bottom_solid_layers", "bottom_layers", Form::number},
-    SameRow{"top_solid_min_thickness", "top_thickness", Form::length},
-    SameRow{"bottom_solid_min_thickness", "bottom_thickness", Form::length},
-    SameRow{"solid_infill_below_area", "infill_solid_below_area", Form::number},
-    SameRow{"bridge_flow_ratio", "bridge_flow", Form::times_100},
-    SameRow{"fill_pattern", "infill_pattern", Form::choice},
-    SameRow{"fill_angle", "infill_angle", Form::number},
-    SameRow{"infill_overlap", "infill_overlap", Form::share},
-    SameRow{"skirts", "skirt_line_count", Form::number},
-    SameRow{"skirt_distance", "skirt_gap", Form::length},
-    SameRow{"skirt_height", "skirt_height", Form::number},
-    SameRow{"min_skirt_length", "skirt_brim_minimal_length", Form::length},
-    SameRow{"brim_width", "brim_width", Form::length},
-    SameRow{"brim_separation", "brim_gap", Form::length},
-    SameRow{"brim_type", "brim_location", Form::choice},
-    SameRow{"seam_position", "z_seam_type", Form::choice},
-    SameRow{"staggered_inner_seams", "staggered_inner_seams", Form::flag},
-    SameRow{"retract_length", "retraction_amount", Form::length},
-    SameRow{"retract_speed", "retraction_retract_speed", Form::number},
-    SameRow{"deretract_speed", "retraction_prime_speed", Form::zero_is_auto},
-    SameRow{"retract_restart_extra", "retraction_extra_prime_amount", Form::length},
-    SameRow{"use_firmware_retraction", "firmware_retraction", Form::flag},
-    SameRow{"retract_before_travel", "retraction_min_travel", Form::length},
-    SameRow{"only_retract_when_crossing_perimeters", "retract_only_when_crossing", Form::flag},
-    SameRow{"retract_layer_change", "retract_at_layer_change", Form::flag},
-    SameRow{"wipe", "wipe", Form::flag},
-    SameRow{"retract_before_wipe", "retract_before_wipe", Form::share},
-    SameRow{"retract_lift", "retraction_hop", Form::length},
-    SameRow{"retract_lift_above", "retraction_hop_above", Form::length},
-    SameRow{"retract_lift_below", "retraction_hop_below", Form::zero_is_auto},
-    SameRow{"small_perimeter_speed", "speed_small_perimeter", Form::share},
-    SameRow{"first_layer_speed", "speed_layer_0", Form::share},
-    SameRow{"fan_always_on", "cool_fan_always_on", Form::flag},
-    SameRow{"min_fan_speed", "cool_fan_speed_min", Form::number},
-    SameRow{"max_fan_speed", "cool_fan_speed_max", Form::number},
-    SameRow{"disable_fan_first_layers", "cool_fan_off_layers", Form::number},
-    SameRow{"full_fan_speed_layer", "cool_fan_full_layer", Form::number},
-    SameRow{"bridge_fan_speed", "bridge_fan_speed", Form::number},
-    SameRow{"fan_below_layer_time", "cool_min_layer_time_fan_speed_max", Form::number},
-    SameRow{"slowdown_below_layer_time", "cool_min_layer_time", Form::number},
-    SameRow{"min_print_speed", "cool_min_speed", Form::number},
-    SameRow{"use_relative_e_distances", "relative_extrusion", Form::flag},
-    SameRow{"before_layer_gcode", "before_layer_gcode", Form::text},
-    SameRow{"layer_gcode", "layer_gcode", Form::text},
-    SameRow{"toolchange_gcode", "tool_change_gcode", Form::text},
-    SameRow{"between_objects_gcode", "between_objects_gcode", Form::text},
-    SameRow{"chamber_temperature", "build_volume_temperature", Form::number},
-    SameRow{"machine_limits_usage", "gcode_machine_limits", Form::choice},
-    SameRow{"gcode_label_objects", "gcode_label_objects", Form::choice},
-    SameRow{"remaining_times", "gcode_progress", Form::flag},
-};
+
+/// A setting of weft's means the same, in another form at the most.
+std::span<const Key> ported_keys();
+/// What becomes of it depends on other keys as well.
+std::span<const Key> reckoned_keys();
+/// It changes nothing here whatever it says.
+std::span<const Key> idle_keys();
+/// It would change the print and is not supported: told, unless it says what is `neutral`.
+std::span<const Key> missing_keys();
+
+/// All of them, in that order.
+std::span<const Key> keys();
+
+/// The row of a key; null when PrusaSlicer has none of that name. Cost: O(log n).
+const Key* find_key(std::string_view name);
+
+/// PrusaSlicer's name of a setting of weft's; empty when it has none.
+std::string_view name_of(std::string_view ours);
 
 /// One value of a choice, and what is lost where weft has no such thing.
 struct ChoiceRow {
@@ -153,328 +117,6 @@ inline constexpr std::array choice_rows{
     ChoiceRow{"gcode_label_objects", "octoprint", "comments", ""},
     ChoiceRow{"gcode_label_objects", "1", "comments", ""},
     ChoiceRow{"gcode_label_objects", "firmware", "firmware", ""},
-};
-
-/// A width: a share is of the layer height, 0 is `automatic` × nozzle unless extrusion_width says otherwise.
-struct WidthRow {
-  std::string_view theirs, ours;
-  double automatic;
-};
-inline constexpr std::array width_rows{
-    WidthRow{"external_perimeter_extrusion_width", "wall_line_width_0", 1.125},
-    WidthRow{"perimeter_extrusion_width", "wall_line_width_x", 1.125},
-    WidthRow{"infill_extrusion_width", "infill_line_width", 1.125},
-    WidthRow{"solid_infill_extrusion_width", "skin_line_width", 1.125},
-    WidthRow{"top_infill_extrusion_width", "top_skin_line_width", 1.0},
-};
-
-/// A speed: a share is of `base`, which stands above it.
-struct SpeedRow {
-  std::string_view theirs, ours, base;
-};
-inline constexpr std::array speed_rows{
-    SpeedRow{"perimeter_speed", "speed_wall_x", ""},
-    SpeedRow{"external_perimeter_speed", "speed_wall_0", "perimeter_speed"},
-    SpeedRow{"infill_speed", "speed_infill", ""},
-    SpeedRow{"solid_infill_speed", "speed_topbottom", "infill_speed"},
-    SpeedRow{"top_solid_infill_speed", "speed_top_skin", "solid_infill_speed"},
-    SpeedRow{"bridge_speed", "speed_bridge", ""},
-    SpeedRow{"gap_fill_speed", "speed_gap_fill", ""},
-    SpeedRow{"travel_speed", "speed_travel", ""},
-};
-
-/// An acceleration: 0 leaves it to the firmware.
-struct AccelerationRow {
-  std::string_view theirs, ours;
-};
-inline constexpr std::array acceleration_rows{
-    AccelerationRow{"default_acceleration", "acceleration_print"},
-    AccelerationRow{"external_perimeter_acceleration", "acceleration_wall_0"},
-    AccelerationRow{"perimeter_acceleration", "acceleration_wall_x"},
-    AccelerationRow{"infill_acceleration", "acceleration_infill"},
-    AccelerationRow{"solid_infill_acceleration", "acceleration_topbottom"},
-    AccelerationRow{"top_solid_infill_acceleration", "acceleration_top_skin"},
-    AccelerationRow{"bridge_acceleration", "acceleration_bridge"},
-    AccelerationRow{"first_layer_acceleration", "acceleration_layer_0"},
-    AccelerationRow{"travel_acceleration", "acceleration_travel"},
-};
-
-/// A key without a counterpart: `*` changes nothing whatever it says; else it changes nothing while it says `neutral`.
-struct OtherRow {
-  std::string_view key, neutral, why;
-};
-// to_array: deducing the size of a std::array folds over its elements, and clang ends at 256.
-inline constexpr auto other_rows = std::to_array<OtherRow>({
-    OtherRow{"printer_variant", "*", "for people and for the window"},
-    OtherRow{"printer_settings_id", "*", "for people and for the window"},
-    OtherRow{"printer_notes", "*", "for people and for the window"},
-    OtherRow{"filament_settings_id", "*", "for people and for the window"},
-    OtherRow{"filament_vendor", "*", "for people and for the window"},
-    OtherRow{"print_settings_id", "*", "for people and for the window"},
-    OtherRow{"notes", "*", "for people and for the window"},
-    OtherRow{"inherits", "*", "for people and for the window"},
-    OtherRow{"compatible_printers_condition", "*", "for people and for the window"},
-    OtherRow{"extruder_colour", "*", "for people and for the window"},
-    OtherRow{"filament_colour", "*", "for people and for the window"},
-    OtherRow{"filament_soluble", "*", "for people and for the window"},
-    OtherRow{"filament_abrasive", "*", "for people and for the window"},
-    OtherRow{"nozzle_high_flow", "*", "for people and for the window"},
-    OtherRow{"min_layer_height", "*", "only for layers of varying height, which a config.ini cannot hold"},
-    OtherRow{"max_layer_height", "*", "only for layers of varying height, which a config.ini cannot hold"},
-    OtherRow{"extruder_clearance_radius", "*", "only for printing one object after the other"},
-    OtherRow{"extruder_clearance_height", "*", "only for printing one object after the other"},
-    OtherRow{"silent_mode", "*", "the estimate of time uses the limits of the axes"},
-    OtherRow{"machine_max_acceleration_extruding", "*", "the estimate of time uses the limits of the axes"},
-    OtherRow{"machine_max_acceleration_retracting", "*", "the estimate of time uses the limits of the axes"},
-    OtherRow{"machine_max_acceleration_travel", "*", "the estimate of time uses the limits of the axes"},
-    OtherRow{"machine_min_extruding_rate", "*", "the estimate of time uses the limits of the axes"},
-    OtherRow{"machine_min_travel_rate", "*", "the estimate of time uses the limits of the axes"},
-    OtherRow{"thumbnails_format", "*", "pictures are PNG, and -o names the file"},
-    OtherRow{"output_filename_format", "*", "pictures are PNG, and -o names the file"},
-    OtherRow{"travel_slope", "*", "only with travel_ramping_lift"},
-    OtherRow{"travel_max_lift", "*", "only with travel_ramping_lift"},
-    OtherRow{"color_change_gcode", "*", "only for changes of tool or colour within a print"},
-    OtherRow{"pause_print_gcode", "*", "only for changes of tool or colour within a print"},
-    OtherRow{"template_custom_gcode", "*", "only for changes of tool or colour within a print"},
-    OtherRow{"retract_length_toolchange", "*", "only for changes of tool or colour within a print"},
-    OtherRow{"retract_restart_extra_toolchange", "*", "only for changes of tool or colour within a print"},
-    OtherRow{"filament_cost", "*", "prices are not reckoned"},
-    OtherRow{"filament_spool_weight", "*", "prices are not reckoned"},
-    OtherRow{"perimeter_generator", "*", "weft has one generator of walls, which fills what these are about"},
-    OtherRow{"wall_transition_filter_deviation", "*",
-             "weft has one generator of walls, which fills what these are about"},
-    OtherRow{"wall_transition_angle", "*", "weft has one generator of walls, which fills what these are about"},
-    OtherRow{"min_feature_size", "*", "weft has one generator of walls, which fills what these are about"},
-    OtherRow{"thin_walls", "*", "weft has one generator of walls, which fills what these are about"},
-    OtherRow{"gap_fill_enabled", "1", "weft has one generator of walls, which fills gaps"},
-    OtherRow{"extra_perimeters", "*", "weft has one generator of walls, which fills what these are about"},
-    OtherRow{"fuzzy_skin_thickness", "*", "only with the feature switched on"},
-    OtherRow{"fuzzy_skin_point_dist", "*", "only with the feature switched on"},
-    OtherRow{"scarf_seam_only_on_smooth", "*", "only with the feature switched on"},
-    OtherRow{"ironing_type", "*", "only with the feature switched on"},
-    OtherRow{"ironing_flowrate", "*", "only with the feature switched on"},
-    OtherRow{"ironing_spacing", "*", "only with the feature switched on"},
-    OtherRow{"ironing_speed", "*", "only with the feature switched on"},
-    OtherRow{"ensure_vertical_shell_thickness", "*", "shells are always closed beside slopes"},
-    OtherRow{"slice_closing_radius", "*", "outlines are closed and simplified by weft's own rules"},
-    OtherRow{"resolution", "*", "outlines are closed and simplified by weft's own rules"},
-    OtherRow{"slicing_mode", "regular", "not supported yet"},
-    OtherRow{"interface_shells", "*", "outlines are closed and simplified by weft's own rules"},
-    OtherRow{"top_fill_pattern", "monotonic|rectilinear|monotoniclines|alignedrectilinear|zigzag",
-             "solid surfaces are monotonic lines"},
-    OtherRow{"bottom_fill_pattern", "monotonic|rectilinear|monotoniclines|alignedrectilinear|zigzag",
-             "solid surfaces are monotonic lines"},
-    OtherRow{"support_material_extrusion_width", "*", "only with support_material"},
-    OtherRow{"support_material_interface_speed", "*", "only with support_material"},
-    OtherRow{"support_material_auto", "*", "only with support_material"},
-    OtherRow{"support_material_threshold", "*", "only with support_material"},
-    OtherRow{"support_material_style", "*", "only with support_material"},
-    OtherRow{"support_material_pattern", "*", "only with support_material"},
-    OtherRow{"support_material_spacing", "*", "only with support_material"},
-    OtherRow{"support_material_angle", "*", "only with support_material"},
-    OtherRow{"support_material_xy_spacing", "*", "only with support_material"},
-    OtherRow{"support_material_contact_distance", "*", "only with support_material"},
-    OtherRow{"support_material_bottom_contact_distance", "*", "only with support_material"},
-    OtherRow{"support_material_interface_layers", "*", "only with support_material"},
-    OtherRow{"support_material_bottom_interface_layers", "*", "only with support_material"},
-    OtherRow{"support_material_interface_spacing", "*", "only with support_material"},
-    OtherRow{"support_material_interface_pattern", "*", "only with support_material"},
-    OtherRow{"support_material_interface_contact_loops", "*", "only with support_material"},
-    OtherRow{"support_material_buildplate_only", "*", "only with support_material"},
-    OtherRow{"support_material_with_sheath", "*", "only with support_material"},
-    OtherRow{"support_material_synchronize_layers", "*", "only with support_material"},
-    OtherRow{"support_material_closing_radius", "*", "only with support_material"},
-    OtherRow{"dont_support_bridges", "*", "only with support_material"},
-    OtherRow{"support_tree_angle", "*", "only with support_material"},
-    OtherRow{"support_tree_angle_slow", "*", "only with support_material"},
-    OtherRow{"support_tree_branch_diameter", "*", "only with support_material"},
-    OtherRow{"support_tree_branch_diameter_angle", "*", "only with support_material"},
-    OtherRow{"support_tree_branch_distance", "*", "only with support_material"},
-    OtherRow{"support_tree_tip_diameter", "*", "only with support_material"},
-    OtherRow{"support_tree_top_rate", "*", "only with support_material"},
-    OtherRow{"raft_contact_distance", "*", "only with raft_layers"},
-    OtherRow{"raft_expansion", "*", "only with raft_layers"},
-    OtherRow{"raft_first_layer_density", "*", "only with raft_layers"},
-    OtherRow{"raft_first_layer_expansion", "*", "only with raft_layers"},
-    OtherRow{"first_layer_speed_over_raft", "*", "only with raft_layers"},
-    OtherRow{"first_layer_acceleration_over_raft", "*", "only with raft_layers"},
-    OtherRow{"extruder", "1|0", "weft prints with one extruder"},
-    OtherRow{"perimeter_extruder", "1|0", "weft prints with one extruder"},
-    OtherRow{"infill_extruder", "1|0", "weft prints with one extruder"},
-    OtherRow{"solid_infill_extruder", "1|0", "weft prints with one extruder"},
-    OtherRow{"support_material_extruder", "1|0", "weft prints with one extruder"},
-    OtherRow{"support_material_interface_extruder", "1|0", "weft prints with one extruder"},
-    OtherRow{"wipe_tower", "*", "a print with one extruder has no wipe tower"},
-    OtherRow{"wipe_tower_width", "*", "weft prints with one extruder"},
-    OtherRow{"wipe_tower_brim_width", "*", "weft prints with one extruder"},
-    OtherRow{"wipe_tower_bridging", "*", "weft prints with one extruder"},
-    OtherRow{"wipe_tower_cone_angle", "*", "weft prints with one extruder"},
-    OtherRow{"wipe_tower_extra_spacing", "*", "weft prints with one extruder"},
-    OtherRow{"wipe_tower_no_sparse_layers", "*", "weft prints with one extruder"},
-    OtherRow{"wipe_into_infill", "*", "weft prints with one extruder"},
-    OtherRow{"wipe_into_objects", "*", "weft prints with one extruder"},
-    OtherRow{"wiping_volumes_matrix", "*", "weft prints with one extruder"},
-    OtherRow{"wiping_volumes_use_custom_matrix", "*", "weft prints with one extruder"},
-    OtherRow{"ooze_prevention", "0", "not supported yet"},
-    OtherRow{"standby_temperature_delta", "*", "only with ooze_prevention"},
-    OtherRow{"single_extruder_multi_material", "*", "weft prints with one extruder"},
-    OtherRow{"idle_temperature", "*", "weft prints with one extruder"},
-    OtherRow{"extruder_offset", "*", "weft prints with one extruder"},
-    OtherRow{"duplicate_distance", "*", "--spacing says it"},
-    OtherRow{"gcode_comments", "*", "comments are those that print servers read"},
-    OtherRow{"automatic_extrusion_widths", "0", "not supported yet"},
-    OtherRow{"over_bridge_speed", "0", "not supported yet"},
-    OtherRow{"first_layer_infill_speed", "0", "not supported yet"},
-    OtherRow{"travel_short_distance_acceleration", "0", "not supported yet"},
-    OtherRow{"filament_infill_max_speed", "0", "not supported yet"},
-    OtherRow{"overhang_speed_0", "*", "only with dynamic overhangs"},
-    OtherRow{"overhang_speed_1", "*", "only with dynamic overhangs"},
-    OtherRow{"overhang_speed_2", "*", "only with dynamic overhangs"},
-    OtherRow{"overhang_speed_3", "*", "only with dynamic overhangs"},
-    OtherRow{"overhang_fan_speed_0", "*", "only with dynamic overhangs"},
-    OtherRow{"prefer_clockwise_movements", "*", "weft has its own rule"},
-    OtherRow{"cooling_slowdown_logic", "*", "weft has its own rule"},
-    OtherRow{"cooling_perimeter_transition_distance", "*", "weft has its own rule"},
-    OtherRow{"max_volumetric_extrusion_rate_slope_negative", "*", "weft has its own rule"},
-    OtherRow{"autoemit_temperature_commands", "*", "weft has its own rule"},
-    OtherRow{"machine_max_jerk_y", "*", "one jerk holds for X and Y"},
-    OtherRow{"machine_max_jerk_z", "*", "one jerk holds for X and Y"},
-    OtherRow{"machine_max_jerk_e", "*", "one jerk holds for X and Y"},
-    OtherRow{"host_type", "*", "weft sends nothing anywhere"},
-    OtherRow{"print_host", "*", "weft sends nothing anywhere"},
-    OtherRow{"printhost_apikey", "*", "weft sends nothing anywhere"},
-    OtherRow{"printhost_cafile", "*", "weft sends nothing anywhere"},
-    OtherRow{"printhost_port", "*", "weft sends nothing anywhere"},
-    OtherRow{"printhost_authorization_type", "*", "weft sends nothing anywhere"},
-    OtherRow{"printhost_password", "*", "weft sends nothing anywhere"},
-    OtherRow{"printhost_user", "*", "weft sends nothing anywhere"},
-    OtherRow{"printhost_ssl_ignore_revoke", "*", "weft sends nothing anywhere"},
-    OtherRow{"slice_volume", "*", "weft sends nothing anywhere"},
-    OtherRow{"physical_printer_settings_id", "*", "weft sends nothing anywhere"},
-    OtherRow{"compatible_printers", "*", "for people and for the window"},
-    OtherRow{"compatible_prints", "*", "for people and for the window"},
-    OtherRow{"compatible_prints_condition", "*", "for people and for the window"},
-    OtherRow{"default_filament_profile", "*", "for people and for the window"},
-    OtherRow{"default_print_profile", "*", "for people and for the window"},
-    OtherRow{"clip_multipart_objects", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"duplicate_x", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"duplicate_y", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"gcode_arcs", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"multiply_x", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"multiply_y", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"support_material_tool", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"acceleration", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"adjust_overhang_flow", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"scale", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"rotate", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"duplicate", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"duplicate_grid", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"start_perimeters_at_concave_points", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"start_perimeters_at_non_overhang", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"randomize_start", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"seal_position", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"vibration_limit", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"print_center", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"g0", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"threads", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"pressure_advance", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"wipe_tower_per_color_wipe", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"serial_port", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"serial_speed", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"fuzzy_skin_perimeter_mode", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"fuzzy_skin_shape", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"wall_add_middle_threshold", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"wall_split_middle_threshold", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"infill_only_where_needed", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"gcode_binary", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"wiping_volumes_extruders", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"wipe_tower_x", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"wipe_tower_y", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"wipe_tower_rotation_angle", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"support_points_minimal_distance", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"bed_custom_model", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"bed_custom_texture", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"single_extruder_multi_material_priming", "*", "weft prints with one extruder"},
-    OtherRow{"filament_loading_speed", "*", "weft prints with one extruder"},
-    OtherRow{"filament_loading_speed_start", "*", "weft prints with one extruder"},
-    OtherRow{"filament_unloading_speed", "*", "weft prints with one extruder"},
-    OtherRow{"filament_unloading_speed_start", "*", "weft prints with one extruder"},
-    OtherRow{"filament_toolchange_delay", "*", "weft prints with one extruder"},
-    OtherRow{"filament_cooling_moves", "*", "weft prints with one extruder"},
-    OtherRow{"filament_cooling_initial_speed", "*", "weft prints with one extruder"},
-    OtherRow{"filament_cooling_final_speed", "*", "weft prints with one extruder"},
-    OtherRow{"filament_load_time", "*", "weft prints with one extruder"},
-    OtherRow{"filament_unload_time", "*", "weft prints with one extruder"},
-    OtherRow{"filament_ramming_parameters", "*", "weft prints with one extruder"},
-    OtherRow{"filament_minimal_purge_on_wipe_tower", "*", "weft prints with one extruder"},
-    OtherRow{"cooling_tube_length", "*", "weft prints with one extruder"},
-    OtherRow{"cooling_tube_retraction", "*", "weft prints with one extruder"},
-    OtherRow{"parking_pos_retraction", "*", "weft prints with one extruder"},
-    OtherRow{"extra_loading_move", "*", "weft prints with one extruder"},
-    OtherRow{"high_current_on_filament_swap", "*", "weft prints with one extruder"},
-    OtherRow{"mmu_segmented_region_max_width", "*", "weft prints with one extruder"},
-    OtherRow{"filament_notes", "*", "for people and for the window"},
-    OtherRow{"renamed_from", "*", "for people and for the window"},
-    OtherRow{"alias", "*", "for people and for the window"},
-    OtherRow{"printer_vendor", "*", "for people and for the window"},
-    OtherRow{"default_sla_print_profile", "*", "for people and for the window"},
-    OtherRow{"default_sla_material_profile", "*", "for people and for the window"},
-    OtherRow{"family", "*", "for people and for the window"},
-    OtherRow{"variable_layer_height", "*", "only for layers of varying height, which a config.ini cannot hold"},
-    OtherRow{"colorprint_heights", "*", "PrusaSlicer itself ignores it"},
-    OtherRow{"printer_technology", "FFF", "not supported yet"},
-    OtherRow{"z_offset", "0", "not supported yet"},
-    OtherRow{"use_volumetric_e", "0", "not supported yet"},
-    OtherRow{"extrusion_axis", "E", "not supported yet"},
-    OtherRow{"binary_gcode", "0", "not supported yet"},
-    OtherRow{"arc_fitting", "disabled", "not supported yet"},
-    OtherRow{"travel_ramping_lift", "0", "not supported yet"},
-    OtherRow{"travel_lift_before_obstacle", "0", "not supported yet"},
-    OtherRow{"gcode_substitutions", "", "not supported yet"},
-    OtherRow{"post_process", "", "not supported yet"},
-    OtherRow{"chamber_minimal_temperature", "0", "not supported yet"},
-    OtherRow{"filament_shrinkage_compensation_xy", "0%", "not supported yet"},
-    OtherRow{"filament_shrinkage_compensation_z", "0%", "not supported yet"},
-    OtherRow{"enable_dynamic_fan_speeds", "0", "not supported yet"},
-    OtherRow{"extra_perimeters_on_overhangs", "0", "not supported yet"},
-    OtherRow{"avoid_crossing_curled_overhangs", "0", "not supported yet"},
-    OtherRow{"top_one_perimeter_type", "none", "not supported yet"},
-    OtherRow{"only_one_perimeter_first_layer", "0", "not supported yet"},
-    OtherRow{"fuzzy_skin", "none", "not supported yet"},
-    OtherRow{"spiral_vase", "0", "not supported yet"},
-    OtherRow{"infill_every_layers", "1", "not supported yet"},
-    OtherRow{"automatic_infill_combination", "0", "not supported yet"},
-    OtherRow{"infill_first", "0", "not supported yet"},
-    OtherRow{"solid_infill_every_layers", "0", "not supported yet"},
-    OtherRow{"ironing", "0", "not supported yet"},
-    OtherRow{"enable_dynamic_overhang_speeds", "0", "not supported yet"},
-    OtherRow{"draft_shield", "disabled", "not supported yet"},
-    OtherRow{"raft_layers", "0", "not supported yet"},
-    OtherRow{"support_material", "0", "not supported yet"},
-    OtherRow{"support_material_enforce_layers", "0", "not supported yet"},
-    OtherRow{"complete_objects", "0", "not supported yet"},
-});
-
-/// Keys that a filament may override as `filament_<key>`; `nil` overrides nothing.
-inline constexpr std::array<std::string_view, 18> filament_overrides{
-    "retract_length",
-    "retract_speed",
-    "deretract_speed",
-    "retract_restart_extra",
-    "retract_before_travel",
-    "retract_layer_change",
-    "retract_lift",
-    "retract_lift_above",
-    "retract_lift_below",
-    "retract_before_wipe",
-    "wipe",
-    "retract_length_toolchange",
-    "retract_restart_extra_toolchange",
-    "travel_ramping_lift",
-    "travel_max_lift",
-    "travel_slope",
-    "travel_lift_before_obstacle",
-    "seam_gap_distance",
 };
 
 }  // namespace weft::prusaslicer

@@ -90,14 +90,15 @@ Lines::Lines(std::vector<IniEntry> entries, const std::string& path) : path_(pat
     modernise(e);
     by_key_[e.key] = e;
   }
-  for (const auto& key : filament_overrides) {
-    const auto at = by_key_.find("filament_" + std::string(key));
+  for (const auto& row : keys()) {
+    if (!row.of_filament) continue;
+    const auto at = by_key_.find("filament_" + std::string(row.name));
     if (at == by_key_.end()) continue;
     seen_.insert(at->first);
-    if (elements_of(key, at->second.value).front() != "nil") {
+    if (elements_of(row.name, at->second.value).front() != "nil") {
       auto line = at->second;
-      line.key = key;
-      by_key_[std::string(key)] = line;
+      line.key = row.name;
+      by_key_[std::string(row.name)] = line;
     }
   }
 }

@@ -1,115 +1,30 @@
 #include "prusaslicer/text.h"
 
 #include "core/join.h"
+#include "prusaslicer/keys.h"
 #include "settings/gcode_variables.h"
 #include "settings/value.h"
 
 #include <algorithm>
-#include <array>
 
 namespace weft::prusaslicer {
 namespace {
 
-constexpr std::array<std::string_view, 19> single_texts{"printer_model",
-                                                        "printer_variant",
-                                                        "printer_vendor",
-                                                        "printer_notes",
-                                                        "printer_settings_id",
-                                                        "print_settings_id",
-                                                        "notes",
-                                                        "inherits",
-                                                        "start_gcode",
-                                                        "end_gcode",
-                                                        "before_layer_gcode",
-                                                        "layer_gcode",
-                                                        "between_objects_gcode",
-                                                        "toolchange_gcode",
-                                                        "color_change_gcode",
-                                                        "pause_print_gcode",
-                                                        "template_custom_gcode",
-                                                        "output_filename_format",
-                                                        "filament_vendor"};
-constexpr std::array<std::string_view, 8> text_lists{
-    "filament_type",   "filament_settings_id", "filament_notes",     "filament_colour",
-    "extruder_colour", "start_filament_gcode", "end_filament_gcode", "post_process"};
-
-constexpr std::array<std::string_view, 59> flags{
-    "autoemit_temperature_commands",
-    "automatic_extrusion_widths",
-    "automatic_infill_combination",
-    "avoid_crossing_curled_overhangs",
-    "avoid_crossing_perimeters",
-    "binary_gcode",
-    "clip_multipart_objects",
-    "complete_objects",
-    "cooling",
-    "dont_support_bridges",
-    "enable_dynamic_fan_speeds",
-    "enable_dynamic_overhang_speeds",
-    "external_perimeters_first",
-    "extra_perimeters",
-    "extra_perimeters_on_overhangs",
-    "fan_always_on",
-    "filament_abrasive",
-    "filament_soluble",
-    "gap_fill_enabled",
-    "gcode_comments",
-    "high_current_on_filament_swap",
-    "infill_first",
-    "infill_only_where_needed",
-    "interface_shells",
-    "ironing",
-    "nozzle_high_flow",
-    "only_one_perimeter_first_layer",
-    "only_retract_when_crossing_perimeters",
-    "ooze_prevention",
-    "overhangs",
-    "prefer_clockwise_movements",
-    "remaining_times",
-    "retract_layer_change",
-    "scarf_seam_only_on_smooth",
-    "silent_mode",
-    "single_extruder_multi_material",
-    "single_extruder_multi_material_priming",
-    "spiral_vase",
-    "staggered_inner_seams",
-    "support_material",
-    "support_material_auto",
-    "support_material_buildplate_only",
-    "support_material_interface_contact_loops",
-    "support_material_synchronize_layers",
-    "support_material_with_sheath",
-    "thick_bridges",
-    "thin_walls",
-    "travel_lift_before_obstacle",
-    "travel_ramping_lift",
-    "use_firmware_retraction",
-    "use_relative_e_distances",
-    "use_volumetric_e",
-    "variable_layer_height",
-    "wipe",
-    "wipe_into_infill",
-    "wipe_into_objects",
-    "wipe_tower",
-    "wipe_tower_no_sparse_layers",
-    "wiping_volumes_use_custom_matrix",
-};
-
-template <class List>
-bool among(const List& list, std::string_view key) {
-  return std::find(list.begin(), list.end(), key) != list.end();
+Written written(std::string_view key) {
+  const auto* row = find_key(key);
+  return row ? row->written : Written::plain;
 }
 
 }  // namespace
 
 bool is_text_list(std::string_view key) {
-  return among(text_lists, key);
+  return written(key) == Written::texts;
 }
 bool is_flag(std::string_view key) {
-  return among(flags, key);
+  return written(key) == Written::flag;
 }
 bool is_text(std::string_view key) {
-  return is_text_list(key) || among(single_texts, key);
+  return is_text_list(key) || written(key) == Written::text;
 }
 
 std::vector<std::string> texts_of(std::string_view list) {

@@ -115,10 +115,10 @@ CatalogueEntry entry_of(const S& section, const Row& row) {
   CatalogueEntry e;
   e.section = section.name;
   e.key = row.key;
+  e.scope = row.scope;
   e.type = type_name<T>(row.unit);
   e.unit = symbol_of(row.unit);
   e.meaning = row.meaning;
-  e.prusa = row.prusa;
   e.automatic = OptionalOf<T>::value;
   e.choices = choice_names<typename OptionalOf<T>::type>();
   if constexpr (ranged) {
@@ -173,12 +173,12 @@ const CatalogueEntry* find_setting(std::string_view key) {
   return at != by_key.end() && at->first == wanted ? at->second : nullptr;
 }
 
-std::string_view nearest_setting(std::string_view wrong) {
+std::string_view nearest_setting(std::string_view wrong, std::string_view (*also_called)(std::string_view)) {
   const std::string wanted = underscored(wrong);
   std::string_view best;
   std::size_t least = wanted.size() / 2 + 1;  // more than half of it wrong is no likeness
   for (const auto& e : catalogue())
-    for (const auto name : {e.key, e.prusa})
+    for (const auto name : {e.key, also_called(e.key)})
       if (!name.empty())
         if (const auto d = edit_distance(wanted, name); d < least) least = d, best = e.key;
   return best;

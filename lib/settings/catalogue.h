@@ -10,7 +10,8 @@ namespace weft {
 
 /// One setting as text: what `weft settings` prints, and the way in and out for every file and option.
 struct CatalogueEntry {
-  std::string_view section, key, type, unit, meaning, prusa;
+  std::string_view section, key, type, unit, meaning;
+  Scope scope = Scope::plate;             ///< where its value may differ
   std::string default_text, least, most;  ///< least and most are empty where there is no range
   std::vector<std::string_view> choices;  ///< of an enumeration
   bool automatic = false;                 ///< `auto` is a value
@@ -26,7 +27,8 @@ const std::vector<CatalogueEntry>& catalogue();
 const CatalogueEntry* find_setting(std::string_view key);
 
 /// The known key nearest to a wrong one by edit distance, or empty when nothing is near.
-std::string_view nearest_setting(std::string_view wrong);
+/// @param also_called another name of a key, which counts like the key itself; empty when it has none
+std::string_view nearest_setting(std::string_view wrong, std::string_view (*also_called)(std::string_view key));
 
 /// `key = value` of every setting of a section (all of them when empty), a line each: the block in the G-code and what
 /// cache keys are made of.

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/core_fields.h"
 #include "settings/settings.h"
 
 #include <bit>
@@ -6,6 +7,18 @@
 
 /// Settings as bytes without loss: what keys of cached results are made of. Text is for readers and rounds to six
 /// decimals; two settings that print alike may slice differently.
+namespace weft {
+
+template <>
+inline constexpr auto fields<LengthOrShare> = listed(&LengthOrShare::length, &LengthOrShare::percent,
+                                                     &LengthOrShare::is_share);
+template <>
+inline constexpr auto fields<SpeedOrShare> = listed(&SpeedOrShare::value, &SpeedOrShare::is_share);
+template <>
+inline constexpr auto fields<PictureSize> = listed(&PictureSize::width, &PictureSize::height);
+
+}  // namespace weft
+
 namespace weft::exact {
 
 inline void add(std::string& to, std::uint64_t v) {
@@ -23,22 +36,17 @@ inline void add(std::string& to, double v) {
 inline void add(std::string& to, const std::string& v) {
   add(to, std::uint64_t{v.size()}), to += v;
 }
-inline void add(std::string& to, const LengthOrShare& v) {
-  add(to, v.is_share), add(to, v.length), add(to, v.percent);
-}
-inline void add(std::string& to, const SpeedOrShare& v) {
-  add(to, v.is_share), add(to, v.value);
-}
-inline void add(std::string& to, const PictureSize& v) {
-  add(to, Um{v.width}), add(to, Um{v.height});
-}
-inline void add(std::string& to, Point v) {
-  add(to, v.x), add(to, v.y);
-}
 template <class E>
 requires std::is_enum_v<E>
 void add(std::string& to, E v) {
   add(to, static_cast<std::uint64_t>(v));
+}
+template <class T>
+void add(std::string& to, const std::optional<T>& v);
+template <class T>
+requires HasFields<T>
+void add(std::string& to, const T& v) {
+  for_each_field(v, [&](const auto& field) { add(to, field); });
 }
 template <class T>
 void add(std::string& to, const std::vector<T>& v) {

@@ -18,7 +18,4 @@ struct IniEntry {
 /// @throws Error{settings} naming path:line: no '=', an empty key, a NUL byte, text that is not UTF-8, a line over 1 MB
 std::vector<IniEntry> parse_ini(std::string_view text, const std::string& path);
 
-/// Is the text valid UTF-8?
-bool is_utf8(std::string_view text);
-
 }  // namespace weft

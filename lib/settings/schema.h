@@ -1,4 +1,6 @@
 #pragma once
+#include "core/fields.h"
+#include "settings/scope.h"
 #include "settings/value.h"
 
 #include <concepts>
@@ -18,11 +20,11 @@ struct Setting {
   using group_type = Group;
   using field_type = T;
   std::string_view key;
+  Scope scope;  ///< where its value may differ
   T Group::*field;
   Unit unit;
   Bound least, most;  ///< inclusive; both zero: no range (text, choices, flags)
   std::string_view meaning;
-  std::string_view prusa;  ///< PrusaSlicer's name, or empty
 };
 
 namespace detail {
@@ -49,32 +51,16 @@ struct NoBound {};
 
 /// A number with a unit and an inclusive range.
 template <class Group, class T>
-constexpr auto setting(std::string_view key, T Group::*field, Unit unit, std::type_identity_t<detail::Bound<T>> least,
-                       std::type_identity_t<detail::Bound<T>> most, std::string_view meaning,
-                       std::string_view prusa = {}) {
-  return Setting<Group, T, detail::Bound<T>>{key, field, unit, least, most, meaning, prusa};
+constexpr auto setting(std::string_view key, Scope scope, T Group::*field, Unit unit,
+                       std::type_identity_t<detail::Bound<T>> least, std::type_identity_t<detail::Bound<T>> most,
+                       std::string_view meaning) {
+  return Setting<Group, T, detail::Bound<T>>{key, scope, field, unit, least, most, meaning};
 }
 
 /// A flag, a choice, a text or points.
 template <class Group, class T>
-constexpr auto setting(std::string_view key, T Group::*field, std::string_view meaning, std::string_view prusa = {}) {
-  return Setting<Group, T, detail::NoBound>{key, field, Unit::none, {}, {}, meaning, prusa};
-}
-
-namespace detail {
-struct Anything {
-  template <class T>
-  operator T() const;
-};
-}  // namespace detail
-
-/// Number of fields of an aggregate: how many initialisers its braces take.
-template <class Group, class... Initialisers>
-consteval std::size_t field_count() {
-  if constexpr (requires { Group{Initialisers{}..., detail::Anything{}}; })
-    return field_count<Group, Initialisers..., detail::Anything>();
-  else
-    return sizeof...(Initialisers);
+constexpr auto setting(std::string_view key, Scope scope, T Group::*field, std::string_view meaning) {
+  return Setting<Group, T, detail::NoBound>{key, scope, field, Unit::none, {}, {}, meaning};
 }
 
 /// Every field has a row: `static_assert(complete<WallSettings>(wall_schema))`.

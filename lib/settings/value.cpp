@@ -1,5 +1,6 @@
 #include "settings/value.h"
 
+#include "core/escape.h"
 #include "core/join.h"
 
 #include <charconv>
@@ -241,26 +242,7 @@ std::string print(bool v, Unit) {
 }
 
 std::string print(const std::string& v, Unit) {
-  std::string out;
-  for (const char c : v) {
-    switch (c) {
-      case '\n':
-        out += "\\n";
-        break;
-      case '\r':
-        out += "\\r";
-        break;
-      case '\t':
-        out += "\\t";
-        break;
-      case '\\':
-        out += "\\\\";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
+  return escape::gcode_comment(v);
 }
 
 std::string print(const LengthOrShare& v, Unit) {

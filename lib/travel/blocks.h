@@ -5,10 +5,6 @@
 
 namespace weft::travel {
 
-constexpr bool is_wall(Role role) {
-  return role == Role::outer_wall || role == Role::inner_wall || role == Role::overhang_wall;
-}
-
 /// The beads a block's indices point into.
 inline const Beads& beads_of(const LayerInput& input, const Block& block) {
   return block.object == Block::adhesion ? input.adhesion : input.objects[block.object].beads;

@@ -12,8 +12,7 @@ namespace {
 constexpr std::size_t corners_kept = 12;
 
 bool begins_a_seam_line(const Bead& bead) {
-  return bead.closed && bead.inset == 0 && bead.path.size() > 2 &&
-         (bead.role == Role::outer_wall || bead.role == Role::overhang_wall);
+  return bead.closed && bead.inset == 0 && bead.path.size() > 2 && row_of(bead.role).outside;
 }
 
 Ring ring_of(const Bead& bead) {

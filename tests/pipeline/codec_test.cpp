@@ -33,7 +33,7 @@ Beads beads(Dice& dice) {
       j = {{dice(-max_coord, max_coord), dice(-max_coord, max_coord)},
            dice(0, 5000),
            dice(0, 1) ? 1.F : static_cast<float>(dice(1, 1000)) / 997.F};
-    b.role = static_cast<Role>(dice(0, static_cast<int>(role_names.size()) - 1));
+    b.role = static_cast<Role>(dice(0, static_cast<int>(roles.size()) - 1));
     b.closed = dice(0, 1) == 1;
     b.inset = static_cast<std::uint16_t>(dice(0, 65535));
     b.part = static_cast<std::uint32_t>(dice(0, 1 << 30));

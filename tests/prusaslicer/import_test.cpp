@@ -26,20 +26,50 @@ std::string value_of(const ps::Translation& t, const std::string& key) {
 
 TEST_CASE("prusaslicer: every key has one row, and every setting that a row names exists") {
   std::set<std::string_view> seen;
-  for (const auto& row : ps::same_rows) {
-    INFO(row.theirs);
-    CHECK(seen.insert(row.theirs).second);
-    CHECK(find_setting(row.ours) != nullptr);
+  for (const auto& row : ps::keys()) {
+    INFO(row.name);
+    CHECK(seen.insert(row.name).second);
+    CHECK(ps::find_key(row.name) == &row);
+    if (!row.ours.empty()) CHECK(find_setting(row.ours) != nullptr);
+    CHECK((row.form == ps::Form::speed || row.of.empty()));
+    if (!row.of.empty()) CHECK(seen.count(row.of) == 1);  // reckoned before it
+    CHECK((row.automatic > 0) == (row.form == ps::Form::width));
   }
-  for (const auto& row : ps::width_rows) CHECK((seen.insert(row.theirs).second && find_setting(row.ours)));
-  for (const auto& row : ps::speed_rows) CHECK((seen.insert(row.theirs).second && find_setting(row.ours)));
-  for (const auto& row : ps::acceleration_rows) CHECK((seen.insert(row.theirs).second && find_setting(row.ours)));
-  for (const auto& row : ps::other_rows) {
-    INFO(row.key);
-    CHECK(seen.insert(row.key).second);
-    CHECK_FALSE(row.why.empty());
+  CHECK(seen.size() > 380);
+  CHECK(ps::find_key("wall_line_count") == nullptr);
+}
+
+TEST_CASE("prusaslicer: a key's fate is what its part of the table says") {
+  for (const auto& row : ps::ported_keys()) {
+    INFO(row.name);
+    CHECK_FALSE(row.ours.empty());
+    CHECK((row.form > ps::Form::none && row.form < ps::Form::width));
   }
-  CHECK(seen.size() > 280);
+  for (const auto& row : ps::reckoned_keys()) {
+    INFO(row.name);
+    CHECK(row.form >= ps::Form::width);
+    CHECK_FALSE((row.ours.empty() && row.fate.empty()));
+  }
+  for (const auto& row : ps::idle_keys()) {
+    INFO(row.name);
+    CHECK(row.form == ps::Form::none);
+    CHECK_FALSE((row.fate.empty() || row.neutral));
+  }
+  for (const auto& row : ps::missing_keys()) {
+    INFO(row.name);
+    CHECK(row.form == ps::Form::none);
+    CHECK_FALSE(row.fate.empty());
+    CHECK(row.neutral);
+  }
+}
+
+TEST_CASE("prusaslicer: a setting is called by the first key that means it") {
+  CHECK(ps::name_of("wall_line_count") == "perimeters");
+  CHECK(ps::name_of("speed_wall_0") == "external_perimeter_speed");
+  CHECK(ps::name_of("machine_max_speed_z") == "machine_max_feedrate_z");
+  CHECK(ps::name_of("nozzle_offsets") == "extruder_offset");
+  CHECK(ps::name_of("flow_compensation").empty());
+  CHECK(ps::name_of("").empty());
 }
 
 TEST_CASE("prusaslicer: its files are told by what stands in them") {

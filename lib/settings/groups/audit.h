@@ -11,9 +11,9 @@ struct AuditSettings {
 };
 
 inline constexpr std::tuple audit_schema{
-    setting("audit_tolerance", &AuditSettings::audit_tolerance, Unit::mm, 0_mm, 1_mm,
+    setting("audit_tolerance", Scope::plate, &AuditSettings::audit_tolerance, Unit::mm, 0_mm, 1_mm,
             "How far outside still counts as inside."),
-    setting("audit_max_findings", &AuditSettings::audit_max_findings, Unit::none, 1, 1000000,
+    setting("audit_max_findings", Scope::plate, &AuditSettings::audit_max_findings, Unit::none, 1, 1000000,
             "How many findings a report lists; all are counted."),
 };
 static_assert(complete<AuditSettings>(audit_schema));

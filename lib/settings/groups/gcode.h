@@ -40,44 +40,41 @@ struct GcodeSettings {
 };
 
 inline constexpr std::tuple gcode_schema{
-    setting("relative_extrusion", &GcodeSettings::relative_extrusion,
-            "E is relative (M83); off: absolute (M82), from zero in each layer.", "use_relative_e_distances"),
-    setting("machine_start_gcode", &GcodeSettings::machine_start_gcode,
+    setting("relative_extrusion", Scope::plate, &GcodeSettings::relative_extrusion,
+            "E is relative (M83); off: absolute (M82), from zero in each layer."),
+    setting("machine_start_gcode", Scope::plate, &GcodeSettings::machine_start_gcode,
             "G-code before the print, with placeholders such as {material_print_temperature_layer_0}. Temperatures "
             "that it neither sets nor "
-            "mentions are set around it.",
-            "start_gcode"),
-    setting("machine_end_gcode", &GcodeSettings::machine_end_gcode, "G-code after the print.", "end_gcode"),
-    setting("before_layer_gcode", &GcodeSettings::before_layer_gcode,
-            "G-code before the move to each layer: {layer_num}, {layer_z}.", "before_layer_gcode"),
-    setting("layer_gcode", &GcodeSettings::layer_gcode, "G-code after the move to each layer: {layer_num}, {layer_z}.",
-            "layer_gcode"),
-    setting("tool_change_gcode", &GcodeSettings::tool_change_gcode,
+            "mentions are set around it."),
+    setting("machine_end_gcode", Scope::plate, &GcodeSettings::machine_end_gcode, "G-code after the print."),
+    setting("before_layer_gcode", Scope::plate, &GcodeSettings::before_layer_gcode,
+            "G-code before the move to each layer: {layer_num}, {layer_z}."),
+    setting("layer_gcode", Scope::plate, &GcodeSettings::layer_gcode,
+            "G-code after the move to each layer: {layer_num}, {layer_z}."),
+    setting("tool_change_gcode", Scope::plate, &GcodeSettings::tool_change_gcode,
             "G-code at changes of the tool: {previous_extruder}, {next_extruder}. Checked; without effect while there "
-            "is one extruder.",
-            "toolchange_gcode"),
-    setting("between_objects_gcode", &GcodeSettings::between_objects_gcode,
-            "G-code between objects that are printed one after the other, before the first layer of the next.",
-            "between_objects_gcode"),
-    setting("gcode_variables", &GcodeSettings::gcode_variables,
+            "is one extruder."),
+    setting("between_objects_gcode", Scope::plate, &GcodeSettings::between_objects_gcode,
+            "G-code between objects that are printed one after the other, before the first layer of the next."),
+    setting("gcode_variables", Scope::plate, &GcodeSettings::gcode_variables,
             "Further names that custom G-code may use: lines `name = value`, lists between commas, texts in quotes. On "
             "import from PrusaSlicer, those "
             "of its keys that the custom G-code names."),
-    setting("gcode_label_objects", &GcodeSettings::gcode_label_objects,
-            "Objects are named in the file: firmware (EXCLUDE_OBJECT for Klipper, M486 for others), comments, or none.",
-            "gcode_label_objects"),
-    setting("gcode_comment_dialect", &GcodeSettings::gcode_comment_dialect,
+    setting(
+        "gcode_label_objects", Scope::plate, &GcodeSettings::gcode_label_objects,
+        "Objects are named in the file: firmware (EXCLUDE_OBJECT for Klipper, M486 for others), comments, or none."),
+    setting("gcode_comment_dialect", Scope::plate, &GcodeSettings::gcode_comment_dialect,
             "Whose comments the file speaks in: prusaslicer, cura or orca. Print servers and viewers tell by them what "
             "they read."),
-    setting("gcode_progress", &GcodeSettings::gcode_progress,
+    setting("gcode_progress", Scope::plate, &GcodeSettings::gcode_progress,
             "Progress and remaining time are written as M73, for Marlin, Klipper and RepRapFirmware."),
-    setting("gcode_machine_limits", &GcodeSettings::gcode_machine_limits,
+    setting("gcode_machine_limits", Scope::plate, &GcodeSettings::gcode_machine_limits,
             "The machine's limits of speed, acceleration and jerk are written at the top, in the firmware's commands; "
             "Klipper has none."),
-    setting("gcode_flow_comments", &GcodeSettings::gcode_flow_comments,
+    setting("gcode_flow_comments", Scope::plate, &GcodeSettings::gcode_flow_comments,
             "Moves of beads with flow compensation carry their ratio as a comment."),
-    setting("thumbnails", &GcodeSettings::thumbnails,
-            "Sizes of the pictures of the plate in the head of the file, PNG; empty: none.", "thumbnails"),
+    setting("thumbnails", Scope::plate, &GcodeSettings::thumbnails,
+            "Sizes of the pictures of the plate in the head of the file, PNG; empty: none."),
 };
 static_assert(complete<GcodeSettings>(gcode_schema));
 

@@ -27,20 +27,18 @@ struct InfillSettings {
 };
 
 inline constexpr std::tuple infill_schema{
-    setting("infill_sparse_density", &InfillSettings::infill_sparse_density, Unit::percent, 0, 100,
-            "Share of the inside that is plastic; 100 % is solid.", "fill_density"),
-    setting("infill_pattern", &InfillSettings::infill_pattern, "Layout of sparse infill.", "fill_pattern"),
-    setting("infill_line_width", &InfillSettings::infill_line_width, Unit::mm, 0.05_mm, 10_mm,
-            "Line width of sparse infill; auto keeps the cross-section of the nozzle.", "infill_extrusion_width"),
-    setting("infill_angle", &InfillSettings::infill_angle, Unit::degrees, -360, 360,
-            "Direction of sparse lines, against X; the pattern lines is turned by 90° on every second layer.",
-            "fill_angle"),
-    setting("infill_overlap", &InfillSettings::infill_overlap, Unit::mm, 0_mm, 5_mm,
+    setting("infill_sparse_density", Scope::region, &InfillSettings::infill_sparse_density, Unit::percent, 0, 100,
+            "Share of the inside that is plastic; 100 % is solid."),
+    setting("infill_pattern", Scope::region, &InfillSettings::infill_pattern, "Layout of sparse infill."),
+    setting("infill_line_width", Scope::region, &InfillSettings::infill_line_width, Unit::mm, 0.05_mm, 10_mm,
+            "Line width of sparse infill; auto keeps the cross-section of the nozzle."),
+    setting("infill_angle", Scope::region, &InfillSettings::infill_angle, Unit::degrees, -360, 360,
+            "Direction of sparse lines, against X; the pattern lines is turned by 90° on every second layer."),
+    setting("infill_overlap", Scope::region, &InfillSettings::infill_overlap, Unit::mm, 0_mm, 5_mm,
             "How far the ends of skin and infill lines reach into the innermost wall, to bond with it; a share is of "
-            "that wall's line width.",
-            "infill_overlap"),
+            "that wall's line width."),
     setting(
-        "infill_connect_lines", &InfillSettings::infill_connect_lines,
+        "infill_connect_lines", Scope::region, &InfillSettings::infill_connect_lines,
         "Neighbouring lines, solid ones too, are joined along the wall instead of travelling from one to the next."),
 };
 static_assert(complete<InfillSettings>(infill_schema));

@@ -13,15 +13,13 @@ struct LayerSettings {
 };
 
 inline constexpr std::tuple layer_schema{
-    setting("layer_height", &LayerSettings::layer_height, Unit::mm, 0.02_mm, 2_mm, "Height of a layer.",
-            "layer_height"),
-    setting("initial_layer_height", &LayerSettings::initial_layer_height, Unit::mm, 0.02_mm, 2_mm,
-            "Height of the first layer; auto is layer_height.", "first_layer_height"),
-    setting("initial_layer_line_width", &LayerSettings::initial_layer_line_width, Unit::mm, 0.05_mm, 5_mm,
-            "Line width of everything in the first layer; auto is that of the other layers.",
-            "first_layer_extrusion_width"),
-    setting("resolution", &LayerSettings::resolution, Unit::mm, 0_mm, 1_mm,
-            "How far a simplified outline may stand off the model's.", "gcode_resolution"),
+    setting("layer_height", Scope::layer, &LayerSettings::layer_height, Unit::mm, 0.02_mm, 2_mm, "Height of a layer."),
+    setting("initial_layer_height", Scope::object, &LayerSettings::initial_layer_height, Unit::mm, 0.02_mm, 2_mm,
+            "Height of the first layer; auto is layer_height."),
+    setting("initial_layer_line_width", Scope::region, &LayerSettings::initial_layer_line_width, Unit::mm, 0.05_mm,
+            5_mm, "Line width of everything in the first layer; auto is that of the other layers."),
+    setting("resolution", Scope::object, &LayerSettings::resolution, Unit::mm, 0_mm, 1_mm,
+            "How far a simplified outline may stand off the model's."),
 };
 static_assert(complete<LayerSettings>(layer_schema));
 
