@@ -221,10 +221,10 @@ Point parse_point(const std::string& text, const std::string& option) {
 }
 
 void write_output(const std::string& destination, std::string_view text) {
-  if (destination != "-") return write_file(destination, text);
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
-    throw Error{Error::Kind::file, fmt::format("cannot be written ({})", std::strerror(errno)), "standard output",
-                errno == EPIPE ? "was the pipe closed?" : "free some space, or name a file"};
+  if (destination == "-")
+    write_standard_output(text);
+  else
+    write_file(destination, text);
 }
 
 }  // namespace weft::app

@@ -47,7 +47,8 @@ Profile resolve(const Command& command);
 /// Two numbers separated by a comma, mm. @throws Error{usage}
 Point parse_point(const std::string& text, const std::string& option);
 
-/// Writes text where the user wants it: a path (through a neighbour that is renamed when complete), or "-".
+/// Writes a report or a picture where the user wants it: a path (through a neighbour that is renamed when complete), or
+/// "-". G-code goes through pipeline/write_gcode.h.
 /// @throws Error{file}
 void write_output(const std::string& destination, std::string_view text);
 

@@ -136,16 +136,13 @@ std::string summary(const Report& r) {
       r.audit.checked_moves);
 }
 
-}  // namespace
+/// Where the preview goes; empty: none is asked for.
+std::string preview_of(const Command& command) {
+  return command.options.count("preview") ? command.options["preview"].as<std::string>() : std::string();
+}
 
-int slice(const Words& words) {
-  const auto options = slice_options();
-  const auto command = parse_command(words, options);
-  if (command.help) {
-    std::ostringstream out;
-    out << "weft slice MODEL... -p PROFILE [-s KEY=VALUE]... -o OUT.gcode\n\n" << options << "\n" << common_help();
-    return write_output("-", out.str()), 0;
-  }
+/// What is refused before the work, not after it. @throws Error{usage}
+void refuse_nonsense(const Command& command) {
   if (command.inputs.empty())
     throw Error{Error::Kind::usage, "no model was given", "weft slice",
                 "as in weft slice part.stl -p printer.ini -o part.gcode"};
@@ -156,8 +153,21 @@ int slice(const Words& words) {
     throw Error{Error::Kind::usage, "G-code and report cannot both go to standard output", "--report",
                 "name a file for one of them"};
 
-  const auto preview = command.options.count("preview") ? command.options["preview"].as<std::string>() : std::string();
-  if (!preview.empty()) (void)preview_kind(preview);  // refused before the work, not after it
+  if (const auto preview = preview_of(command); !preview.empty()) (void)preview_kind(preview);
+}
+
+}  // namespace
+
+int slice(const Words& words) {
+  const auto options = slice_options();
+  const auto command = parse_command(words, options);
+  if (command.help) {
+    std::ostringstream out;
+    out << "weft slice MODEL... -p PROFILE [-s KEY=VALUE]... -o OUT.gcode\n\n" << options << "\n" << common_help();
+    return write_output("-", out.str()), 0;
+  }
+  refuse_nonsense(command);
+  const auto preview = preview_of(command);
 
   Console console(command.console);
   const Limits limits(limit_of(command.options, "timeout"), limit_of(command.options, "max-memory"));
@@ -193,7 +203,7 @@ int slice(const Words& words) {
     if (gcode && !preview.empty())
       write_preview(preview, gcode->gcode(), profile.settings.material.filament_diameter,
                     std::filesystem::path(command.inputs.front()).filename().string());
-    if (gcode) write_output(*command.output, gcode->gcode());
+    if (gcode) write_gcode(*command.output, *gcode);
     finish();
     if (!gcode) throw Error{Error::Kind::audit, report.error, {}, {}};
     console.info(summary(report));

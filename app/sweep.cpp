@@ -2,6 +2,7 @@
 
 #include "batch_run.h"
 #include "core/file_bytes.h"
+#include "pipeline/write_file.h"
 #include "preview/preview.h"
 #include "tasks/crew.h"
 #include "verbs.h"

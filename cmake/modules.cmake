@@ -6,6 +6,12 @@
 set_property(GLOBAL PROPERTY WEFT_MODULES "")
 file(WRITE ${CMAKE_BINARY_DIR}/modules.txt "")
 
+# weft_row(NAME USES PUBLIC PRIVATE): what a test holds every #include of that folder against.
+function(weft_row name uses public private)
+  string(REPLACE ";" " " row "${name}:${uses}:${public}:::${private}")
+  file(APPEND ${CMAKE_BINARY_DIR}/modules.txt "${row}\n")
+endfunction()
+
 function(weft_module name)
   cmake_parse_arguments(arg "ONCE" "" "USES;PUBLIC;PRIVATE" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
@@ -26,5 +32,5 @@ function(weft_module name)
   target_link_libraries(weft_${name} ${scope} ${used} ${arg_PUBLIC})
   target_compile_features(weft_${name} ${scope} cxx_std_20)  # also of programs that embed it
   set_property(GLOBAL APPEND PROPERTY WEFT_MODULES ${name})
-  file(APPEND ${CMAKE_BINARY_DIR}/modules.txt "${name}:${arg_USES}\n")
+  weft_row(${name} "${arg_USES}" "${arg_PUBLIC}" "${arg_PRIVATE}")
 endfunction()

@@ -70,7 +70,7 @@ std::string html(std::string_view text) {
 
 std::string json(std::string_view text) {
   const auto by_number = [](char c) { return fmt::format("\\u{:04x}", static_cast<unsigned char>(c)); };
-  return "\"" + replaced(text, json_words, by_number) + "\"";
+  return fmt::format("\"{}\"", replaced(text, json_words, by_number));
 }
 
 std::string script(std::string_view json_text) {

@@ -3,6 +3,7 @@
 #include "core/build_id.h"
 #include "core/file_bytes.h"
 #include "core/hash.h"
+#include "pipeline/write_file.h"
 #include "settings/exact.h"
 
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "mesh/mesh.h"
 #include "pipeline/report.h"
 #include "pipeline/stage_cache.h"
-#include "pipeline/write_file.h"
+#include "pipeline/write_gcode.h"
 #include "settings/settings.h"
 
 #include <functional>
@@ -45,10 +45,5 @@ struct Watch {
 /// @return the G-code, or nothing when the audit rejected it; report.status and report.error say so
 /// @throws Error of any other kind
 std::optional<audit::Passed> run(const Job& job, const Watch& watch, Report& report, StageCache* cache = nullptr);
-
-/// Writes G-code that has passed the audit; nothing else has this type. @throws Error{file}
-inline void write_gcode(const std::filesystem::path& destination, const audit::Passed& gcode) {
-  write_file(destination, gcode.gcode());
-}
 
 }  // namespace weft

@@ -3,6 +3,7 @@
 #include "core/error.h"
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -73,6 +74,12 @@ void write_file(const std::filesystem::path& destination, std::string_view bytes
   if (file.close() != 0) fail(destination, errno);
   if (::rename(temporary.c_str(), destination.c_str()) != 0) fail(destination, errno);
   file.keep();
+}
+
+void write_standard_output(std::string_view bytes) {
+  if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0)
+    throw Error{Error::Kind::file, fmt::format("cannot be written ({})", std::strerror(errno)), "standard output",
+                errno == EPIPE ? "was the pipe closed?" : "free some space, or name a file"};
 }
 
 }  // namespace weft

@@ -87,12 +87,6 @@ class Exporter {
     return v;
   }
 
-  template <class F>
-  static void for_each(Form form, F f) {
-    for (const auto& row : reckoned_keys())
-      if (row.form == form) f(row);
-  }
-
   void same(const Key& row) {
     const auto text = print(row.ours);
     switch (row.form) {
@@ -133,7 +127,7 @@ class Exporter {
     say("bed_shape", points, "bed_shape");
     for (const auto* key : {"machine_width", "machine_depth", "machine_center_is_zero", "bed_polygon"})
       said_.insert(key);
-    for_each(Form::limit, [&](const Key& row) { say(row.name, print(row.ours), row.ours); });
+    for_each_reckoned(Form::limit, [&](const Key& row) { say(row.name, print(row.ours), row.ours); });
     say("machine_max_jerk_y", lines_["machine_max_jerk_x"]);
     const auto& t = s_.material;
     say("filament_type", listed_text(print("material_type")));
@@ -180,7 +174,7 @@ class Exporter {
 
   void speeds() {
     const auto& v = s_.speeds;
-    for_each(Form::speed, [&](const Key& row) { say(row.name, print(row.ours), row.ours); });
+    for_each_reckoned(Form::speed, [&](const Key& row) { say(row.name, print(row.ours), row.ours); });
     say("small_perimeter_speed", v.speed_small_perimeter ? number(v.speed_small_perimeter->of(v.speed_wall_0)) : "0",
         "speed_small_perimeter");
     say("first_layer_speed", print("speed_layer_0"), "speed_layer_0");
@@ -191,7 +185,7 @@ class Exporter {
         "skirt_brim_speed");
     const auto slope = print("max_extrusion_rate_slope");
     say("max_volumetric_extrusion_rate_slope_positive", slope == "auto" ? "0" : slope, "max_extrusion_rate_slope");
-    for_each(Form::acceleration, [&](const Key& row) {
+    for_each_reckoned(Form::acceleration, [&](const Key& row) {
       const auto text = print(row.ours);
       say(row.name, !v.acceleration_enabled || text == "auto" ? "0" : text, row.ours);
     });

@@ -61,12 +61,6 @@ class Translator {
     out_.unsupported.push_back({e.key, e.value, e.line, std::move(why)});
   }
 
-  template <class F>
-  static void for_each(Form form, F f) {
-    for (const auto& row : reckoned_keys())
-      if (row.form == form) f(row);
-  }
-
   void copy(const Key& row) {
     const auto* e = lines_.look(row.name);
     if (!e || done_.count(row.name) != 0) return;
@@ -135,7 +129,7 @@ class Translator {
         set("machine_depth", value::print(size.y, Unit::mm), *e);
       }
     }
-    for_each(Form::limit, [&](const Key& row) {
+    for_each_reckoned(Form::limit, [&](const Key& row) {
       if (const auto* e = lines_.find(row.name)) limit(std::string(row.ours), *e);
     });
     if (const auto* e = lines_.look("nozzle_diameter"); e && e->line > 0)
@@ -170,7 +164,7 @@ class Translator {
       if (width == 0 && general) width = lines_.figure(*general).of(height_);
       return width == 0 ? automatic * nozzle_ : width;
     };
-    for_each(Form::width, [&](const Key& row) {
+    for_each_reckoned(Form::width, [&](const Key& row) {
       const auto* own = lines_.find(row.name);
       if (!own && !general) return;
       set(row.ours, number(width_of(own, row.automatic), 3), own && (own->line > 0 || !general) ? *own : *general);
@@ -202,7 +196,7 @@ class Translator {
   void speeds() {
     const double fastest = lines_.number("max_print_speed", 80);
     std::map<std::string_view, double> known;
-    for_each(Form::speed, [&](const Key& row) {
+    for_each_reckoned(Form::speed, [&](const Key& row) {
       const auto* e = lines_.find(row.name);
       if (!e) return;
       const auto base = known.find(row.of);
@@ -254,7 +248,7 @@ class Translator {
   void accelerations() {
     const auto* general = lines_.find("default_acceleration");
     const double otherwise = general ? lines_.figure(*general).v : 0;
-    for_each(Form::acceleration, [&](const Key& row) {
+    for_each_reckoned(Form::acceleration, [&](const Key& row) {
       if (const auto* e = lines_.find(row.name)) {
         const double a = lines_.figure(*e).v;
         if (e != general)

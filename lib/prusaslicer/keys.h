@@ -56,6 +56,13 @@ std::span<const Key> missing_keys();
 /// All of them, in that order.
 std::span<const Key> keys();
 
+/// f(row) for each reckoned key of that form, in the order of the table.
+template <class F>
+void for_each_reckoned(Form form, F f) {
+  for (const auto& row : reckoned_keys())
+    if (row.form == form) f(row);
+}
+
 /// The row of a key; null when PrusaSlicer has none of that name. Cost: O(log n).
 const Key* find_key(std::string_view name);
 
