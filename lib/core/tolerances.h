@@ -14,8 +14,12 @@ inline constexpr double sliver_area_um2 = 400;
 /// How far a chord may stand off a round corner made by an offset. geometry/offset.
 inline constexpr Um arc = 5_um;
 
-/// How far a bead's path may be moved to be printed with fewer moves. motion/resample.
-inline constexpr Um path = 4_um;
+/// How far a bead's path may be moved to be printed with fewer moves: less than a printer's belts give.
+/// model/simplify.
+inline constexpr Um path = 10_um;
+
+/// … and how far its band may lie off: a twentieth of a bead, the spread of filament. model/simplify.
+inline constexpr Um band = 20_um;
 
 /// A segment along which a bead's band changes by more than this is cut, because firmware extrudes evenly along a
 /// segment. motion/resample.
@@ -25,11 +29,11 @@ inline constexpr Um band_step = 20_um;
 inline constexpr Um shortest_piece = 0.2_mm;
 
 /// … but where the band would change by more than this over it, three tenths of a bead: there, in corners, half as
-/// long is allowed. motion/resample, walls/trace.
+/// long is allowed. motion/resample.
 inline constexpr Um band_leap = 135_um;
 
-/// A piece of a bead no longer than this that goes straight on is part of the move before or after: it tells of a step
-/// in width, and firmware plans a limited number of moves a second. gcode/moves; walls/trace, walls/footprints.
-inline constexpr Um least_move = 12_um;
+/// No piece of a bead is shorter: a machine that is made to turn within less all but stops. model/simplify;
+/// gcode/moves.
+inline constexpr Um least_move = 50_um;
 
 }  // namespace weft::tolerances

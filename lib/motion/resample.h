@@ -7,10 +7,7 @@
 /// shape allows, and as many as their change of width needs.
 namespace weft::motion {
 
-/// Drops junctions that tell nothing: the path stays within tolerances::path, band times flow within half of
-/// tolerances::band_step of what they were, and the volume of what a segment replaces within 0.5 %, on a long one
-/// within 0.002 mm³ per mm of height. Ends stay. Source: Douglas & Peucker 1973, with the width as a third coordinate.
-/// Cost: O(n log n) where the path turns evenly.
+/// Drops junctions that tell nothing (model/simplify). Ends stay in place; flow gives way where it varies, else width.
 void thin_out(std::vector<Junction>& path);
 
 /// Cuts segments along which band times flow changes by more than tolerances::band_step, into pieces of at least

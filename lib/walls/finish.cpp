@@ -1,5 +1,7 @@
 #include "walls/finish.h"
 
+#include "model/simplify.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,74 +10,20 @@ namespace {
 
 using Vertex = Line::Vertex;
 
-constexpr double straight_um = 1.0;  // a vertex this close to its neighbours' chord is left out
-constexpr double even_um = 2.0;      // … where the width is this close to theirs
-constexpr double parallel_um = 0.3;  // … of closed walls this close: where each loses other vertices they leave gaps
+constexpr double reach_um = 50;      // within which a width becomes its mean: plastic flows as far as a nozzle is wide
 constexpr double even_inside = 0.5;  // of the width: an end inside that tapers more keeps its steps
 constexpr double any_taper = 1.0;    // … no end tapers more
-constexpr double width_step_um = 15.0;  // a segment is printed at one width: from twice this difference on it is cut
 
-/// The chords from one vertex that lie at most `off` µm from the vertices they stand for, and whose width is within
-/// even_um of theirs: a cone of directions, and a range of changes of width by length, that each of those vertices
-/// narrows.
-class Chords {
- public:
-  Chords(const Vertex& from, double off) : from_(from), off_(off) {}
-
-  /// A vertex as it is seen from theirs.
-  struct Seen {
-    double x, y, wider, length;
-  };
-  Seen seen(const Vertex& v) const {
-    const double x = v.at.x - from_.at.x, y = v.at.y - from_.at.y;
-    return {x, y, v.width - from_.width, std::sqrt(x * x + y * y)};
-  }
-  /// Whether one of them leads to a vertex.
-  bool reach(const Seen& v) const {
-    if (v.length < furthest_ || v.length < 1e-3) return false;
-    if (bounded_ && (cross(low_, {v.x, v.y}) < 0 || cross({v.x, v.y}, high_) < 0)) return false;
-    return v.wider >= least_ * v.length && v.wider <= most_ * v.length;
-  }
-  /// From now on they stand for this vertex, too.
-  void pass(const Seen& v) {
-    furthest_ = std::max(furthest_, v.length);
-    const double x = v.x, y = v.y, length = std::max(1e-3, v.length), per_length = 1 / length;
-    least_ = std::max(least_, (v.wider - even_um) * per_length);
-    most_ = std::min(most_, (v.wider + even_um) * per_length);
-    if (length <= off_) return;
-    const double sine = off_ * per_length, cosine = std::sqrt(1 - sine * sine);
-    const Place low{x * cosine + y * sine, y * cosine - x * sine}, high{x * cosine - y * sine, y * cosine + x * sine};
-    if (!bounded_ || cross(low_, low) > 0) low_ = low;
-    if (!bounded_ || cross(high, high_) > 0) high_ = high;
-    bounded_ = true;
-  }
-
- private:
-  const Vertex& from_;
-  double off_, furthest_ = 0, least_ = -1e18, most_ = 1e18;
-  Place low_{}, high_{};
-  bool bounded_ = false;
-};
-
-/// Leaves out what chords at most `off` µm from it stand for. The ends stay. Cost: linear.
-/// Source: Sklansky & Gonzalez, "Fast polygonal approximation of digitized curves" (1980): cones are intersected.
-void thin_out(std::vector<Vertex>& path, double off) {
-  if (path.size() < 3) return;
-  std::size_t from = 0, kept = 0;  // what is kept is put in front, never beyond `from`
-  while (from + 1 < path.size()) {
-    const Vertex start = path[from];
-    Chords chords(start, off);
-    std::size_t to = from + 1;
-    for (auto last = chords.seen(path[to]); to + 1 < path.size(); ++to) {
-      const auto next = chords.seen(path[to + 1]);
-      chords.pass(last);
-      if (!chords.reach(next)) break;
-      last = next;
-    }
-    path[++kept] = path[to];
-    from = to;
-  }
-  path.resize(kept + 1);
+/// Widths that plastic can follow, along a path with as few vertices as it needs.
+void simplify(std::vector<Vertex>& path, bool closed, double reach) {
+  VertexPath simple;
+  simple.reserve(path.size());
+  for (const Vertex& v : path) simple.push_back({v.at.x, v.at.y, v.width});
+  smooth_widths(simple, closed, reach);
+  simplify(simple, closed);
+  cut_ramps(simple, closed);
+  path.clear();
+  for (const PathVertex& v : simple) path.push_back({{v.x, v.y}, v.band});
 }
 
 /// The first segment of an open bead reaches as far as any later bend may swell back: half the width there.
@@ -104,26 +52,6 @@ void steady_start(std::vector<Vertex>& path, double most_uneven, double most_um)
   path[0].width = std::max(1.0, 2 * area_there / whole - second.width);
   path.erase(path.begin() + 1, path.begin() + static_cast<long>(last));
   path[1] = second;
-}
-
-void limit_steps(std::vector<Vertex>& path) {
-  const auto pieces_to = [&](std::size_t i) {
-    const Vertex &a = path[i - 1], &b = path[i];
-    const double steps = std::abs(b.width - a.width) / width_step_um;
-    return steps < 2 ? 1 : std::clamp(static_cast<int>(std::min(steps, distance(a.at, b.at) / 20)), 1, 1000);
-  };
-  std::size_t first = 1;
-  while (first < path.size() && pieces_to(first) == 1) ++first;
-  if (first >= path.size()) return;
-  std::vector<Vertex> out;
-  out.reserve(2 * path.size());
-  out.assign(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(first));
-  for (std::size_t i = first; i < path.size(); ++i) {
-    const int pieces = pieces_to(i);
-    for (int k = 1; k < pieces; ++k) out.push_back(lerp(path[i - 1], path[i], static_cast<double>(k) / pieces));
-    out.push_back(path[i]);
-  }
-  path = std::move(out);
 }
 
 /// What a bead may not be wide it is elsewhere, within limits.
@@ -192,9 +120,8 @@ void finish(Line line, const FinishOptions& o, std::vector<Line>& out, double& d
   const bool all_thick =
       std::all_of(line.path.begin(), line.path.end(), [&](const Vertex& v) { return v.width >= o.least_feature; });
   if (line.closed && all_thick) {
-    thin_out(line.path, parallel_um);
-    limit_steps(line.path);
     line.path.pop_back();
+    simplify(line.path, true, o.reach);
     out.push_back(std::move(line));
     return;
   }
@@ -204,6 +131,8 @@ void finish(Line line, const FinishOptions& o, std::vector<Line>& out, double& d
     const double length = length_of(stretch);
     if (length < o.least_length || stretch.size() < 2) continue;
     kept += length;
+    // A dab costs two travels: what is shorter than wide the walls around it take up.
+    if (line.inset > 0 && length * length < area_of(stretch)) continue;
     bool first_meets = line.first_meets && distance(stretch.front().at, line.path.front().at) < 1;
     bool last_meets = line.last_meets && distance(stretch.back().at, line.path.back().at) < 1;
     // A bead begins at its thin end: what swells behind the nozzle there is least.
@@ -212,8 +141,7 @@ void finish(Line line, const FinishOptions& o, std::vector<Line>& out, double& d
       std::reverse(stretch.begin(), stretch.end());
     }
     keep_within(stretch, o.most_width);
-    thin_out(stretch, straight_um);
-    limit_steps(stretch);
+    simplify(stretch, false, o.reach);
     const auto most_um = [&](bool meets) { return line.inset == 0 && !meets ? o.even_taper : 1e9; };
     steady_start(stretch, any_taper, most_um(first_meets));
     // Travel may begin there, too. A single bead that goes on into a thicker part keeps its steps: evened, they would

@@ -1,6 +1,5 @@
 #include "walls/footprints.h"
 
-#include "core/tolerances.h"
 #include "walls/keep_volume.h"
 #include "walls/move_aside.h"
 
@@ -18,7 +17,6 @@ constexpr double noticed_um = 9.3;  // walls may reach over the outline by 10, a
 // too much of the part's volume.
 constexpr std::array outside_um{8.0, 9.2};
 constexpr Um nominal_within = 2;  // a width so close to the nominal one is that: the lattice and the part's volume
-constexpr double step_um = 12;    // so short a piece is a step of width, and no move of its own
 constexpr double most_slant = 3;  // a piece that meets the outline more squarely would vanish
 constexpr int most_rounds = 3;    // a piece moves the next one's ends
 
@@ -89,7 +87,6 @@ Footprints::Footprints(Room& room, Point origin, Um nominal, Um narrowest, const
       const Um twice = bead.path[k].width + bead.path[(k + 1) % n].width;
       if (bead.closed && std::abs(twice - 2 * nominal) <= 2 * nominal_within) continue;
       const Piece p = piece_of(bead, k, origin);
-      if (distance(p.a, p.b) <= tolerances::least_move) continue;  // a step of width
       const double swollen = (1 + most_change) * p.half;
       if (swollen - room.beside(p.a, p.b, swollen) > noticed_um) suspect.pieces.push_back(k);
     }

@@ -13,8 +13,8 @@ namespace weft::walls {
 class Footprints {
  public:
   /// `nominal`: the width of outer walls, µm. Pieces of a loop that have it lie beside the outline they follow and are
-  /// not looked at; nor are steps of width, up to tolerances::least_move long. `narrowest`: a bead is not planned
-  /// narrower, µm, but laid with less flow. `origin` is that of `room`. Pre: `beads` are all of the part.
+  /// not looked at. `narrowest`: a bead is not planned narrower, µm, but laid with less flow. `origin` is that of
+  /// `room`. Pre: `beads` are all of the part.
   Footprints(Room& room, Point origin, Um nominal, Um narrowest, const Beads& beads);
 
   /// Makes beads give way; whether any had to. All stay if less than `least` mm² would be covered then: volume comes

@@ -1,7 +1,6 @@
 #include "walls/trace.h"
 
 #include "core/stop.h"
-#include "core/tolerances.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,23 +25,19 @@ double fit(double area, double mean_width, double length) {
 /// One bead over one half: its two ends.
 struct Piece {
   Vertex start, end;
-  bool narrows = false;  ///< on its way into a sharp corner
 };
 
 Piece pair_piece(const Skeleton& s, const Laying& laying, std::uint32_t h, std::size_t i) {
   const double *a = laying.start(h), *b = laying.end(h);
   Piece p{{s.on_start_rib(h, (a[i] + a[i + 1]) / 2), a[i + 1] - a[i]},
-          {s.on_end_rib(h, (b[i] + b[i + 1]) / 2), b[i + 1] - b[i]},
-          false};
+          {s.on_end_rib(h, (b[i] + b[i + 1]) / 2), b[i + 1] - b[i]}};
   const Span& span = laying.spans[h / 2];
-  p.narrows = span.narrows && std::abs(p.start.width - p.end.width) > 0.5;
-  if (span.core || span.mouth || p.narrows) {
+  if (span.core || span.mouth || span.narrows) {
     const double area = quad_area(s.on_start_rib(h, a[i]), s.on_end_rib(h, b[i]), s.on_end_rib(h, b[i + 1]),
                                   s.on_start_rib(h, a[i + 1]));
     const double length = distance(p.start.at, p.end.at), mean = (p.start.width + p.end.width) / 2;
     const double f = fit(area, mean, length);
-    // What is printed as one move needs no more than the right mean, and no second step.
-    if (p.narrows && f * std::abs(p.start.width - p.end.width) <= tolerances::band_leap) {
+    if (span.narrows && p.start.width != p.end.width) {  // its narrow end is where the corner begins
       double& wide = p.start.width < p.end.width ? p.end.width : p.start.width;
       wide -= 2 * (1 - f) * mean;
     } else {
@@ -51,6 +46,15 @@ Piece pair_piece(const Skeleton& s, const Laying& laying, std::uint32_t h, std::
     }
   }
   return p;
+}
+
+/// Adds a piece to a path; where its width is not that of the path's end, the vertex there is two: a step.
+void append(std::vector<Vertex>& path, const Vertex& start, const Vertex& end) {
+  constexpr double even_um = 0.5;
+  if (path.empty() || distance(path.back().at, start.at) >= same_um ||
+      std::abs(path.back().width - start.width) > even_um)
+    path.push_back(start);
+  path.push_back(end);
 }
 
 /// A stretch of a loop between turns.
@@ -99,12 +103,7 @@ Line joined(Loop& loop, int inset) {
   if (chains.size() > 1) {
     for (auto& chain : chains) set_back(chain);
   }
-  for (auto& chain : chains)
-    for (const Vertex& v : chain.path) {
-      if (!line.path.empty() && distance(line.path.back().at, v.at) < same_um) continue;
-      line.path.push_back(v);
-    }
-  while (line.path.size() > 1 && distance(line.path.front().at, line.path.back().at) < same_um) line.path.pop_back();
+  for (auto& chain : chains) line.path.insert(line.path.end(), chain.path.begin(), chain.path.end());
   return line;
 }
 
@@ -135,61 +134,6 @@ void cut_end(std::vector<Vertex>& path, double by) {
   }
 }
 
-namespace {
-
-constexpr double least_step_um = 4;  // widths that differ by no more are no step
-
-bool steps(const Vertex& a, const Vertex& b) {
-  return std::abs(a.width - b.width) > least_step_um;
-}
-
-/// Not at the end of a piece, but so near that no more of it is spread.
-Vertex near(const Vertex& from, const Vertex& other) {
-  constexpr double step_um = 10;
-  static_assert(step_um < tolerances::least_move, "no move of its own");
-  return lerp(from, other, std::min(0.25, step_um / std::max(1.0, distance(from.at, other.at))));
-}
-
-/// A step of width stays where it is, or it would be spread over the length of the pieces. `before` and `after` are the
-/// vertices around it.
-void put_step(const Vertex& before, Vertex& end, Vertex& middle, Vertex& start, const Vertex& after) {
-  middle = {end.at, (end.width + start.width) / 2};
-  end = near(end, before);
-  start = near(start, after);
-}
-
-}  // namespace
-
-void append(std::vector<Vertex>& path, Vertex start, const Vertex& end, StepIn in) {
-  if (path.empty() || distance(path.back().at, start.at) >= same_um) {
-    path.push_back(start);
-  } else if (!steps(path.back(), start) || path.size() < 2) {
-    path.back().width = (path.back().width + start.width) / 2;
-  } else if (in == StepIn::next) {
-    path.push_back(near(start, end));
-  } else if (in == StepIn::last) {
-    path.back() = near(path.back(), path[path.size() - 2]);
-    path.push_back(start);
-  } else {
-    Vertex middle;
-    put_step(path[path.size() - 2], path.back(), middle, start, end);
-    path.insert(path.end(), {middle, start});
-  }
-  path.push_back(end);
-}
-
-void close(std::vector<Vertex>& path) {
-  if (path.size() < 4 || distance(path.back().at, path.front().at) >= same_um) return;
-  if (!steps(path.back(), path.front())) {
-    path.front().width = (path.back().width + path.front().width) / 2;
-    path.pop_back();
-  } else {
-    Vertex middle;
-    put_step(path[path.size() - 2], path.back(), middle, path.front(), path[1]);
-    path.push_back(middle);
-  }
-}
-
 std::vector<Line> trace_pairs(const Skeleton& s, const Laying& laying) {
   std::vector<Line> out;
   const auto halves = static_cast<std::uint32_t>(s.halves.size());
@@ -206,16 +150,11 @@ std::vector<Line> trace_pairs(const Skeleton& s, const Laying& laying) {
       Loop loop;
       loop.chains.emplace_back();
       std::uint32_t h = begin;
-      bool turned_last = false, narrowed = false;
+      bool turned_last = false;
       do {
         seen[first[h] + k] = 1;
         const Piece piece = pair_piece(s, laying, h, k);
-        // The short piece of a bend takes the step, and the long one keeps its length.
-        append(loop.chains.back().path, piece.start, piece.end,
-               piece.narrows == narrowed ? StepIn::both
-               : piece.narrows           ? StepIn::next
-                                         : StepIn::last);
-        narrowed = piece.narrows;
+        append(loop.chains.back().path, piece.start, piece.end);
         std::uint32_t g = s.halves[h].next;
         while (laying.spans[g / 2].pairs <= i) g = s.halves[Skeleton::twin(g)].next;
         turned_last = false;
@@ -247,8 +186,6 @@ std::vector<Line> trace_pairs(const Skeleton& s, const Laying& laying) {
         chains.back().after = chains.front().after;
         chains.erase(chains.begin());
         if (chains.size() == 1) set_back(chains.front());
-      } else {
-        close(chains.front().path);
       }
       Line line = joined(loop, i);
       if (line.path.size() >= 2) out.push_back(std::move(line));

@@ -17,16 +17,6 @@ struct Line {
   bool first_meets = false, last_meets = false;  ///< the part goes on beyond the end: it meets a wall there
 };
 
-/// Where a step of width between two pieces lies: at the end of the last, the start of the next, or half in either.
-enum class StepIn { last, next, both };
-
-/// Adds a piece to a line in the making; its width need not be that of the line's end.
-void append(std::vector<Line::Vertex>& path, Line::Vertex start, const Line::Vertex& end, StepIn in = StepIn::both);
-
-/// Joins the end of a line to its beginning as `append` joins pieces. Post: if they lay in one place, no vertex is
-/// there twice but where the width steps. Leaves lines of fewer than four vertices as they are.
-void close(std::vector<Line::Vertex>& path);
-
 inline Line::Vertex lerp(const Line::Vertex& a, const Line::Vertex& b, double t) {
   return {lerp(a.at, b.at, t), a.width + t * (b.width - a.width)};
 }

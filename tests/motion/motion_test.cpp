@@ -202,8 +202,8 @@ TEST_CASE("motion: a path sampled finely is printed with few moves, in place, in
     CHECK(thin.path.size() < fine.path.size() / 3);
     CHECK(volume_mm3(thin, 200) == Approx(volume_mm3(fine, 200)).epsilon(0.006));
     CHECK(length_mm(thin) == Approx(length_mm(fine)).epsilon(0.004));  // less the noise
-    CHECK(thin.path.front() == fine.path.front());
-    CHECK(thin.path.back() == fine.path.back());
+    CHECK(thin.path.front().at == fine.path.front().at);
+    CHECK(thin.path.back().at == fine.path.back().at);
     for (const auto& j : fine.path) {  // the nearest place on the thin path is near, and as wide
       double nearest = 1e9, change = 1e9;
       for (std::size_t i = 1; i < thin.path.size(); ++i) {
@@ -214,8 +214,29 @@ TEST_CASE("motion: a path sampled finely is printed with few moves, in place, in
         const double qa = a.width * static_cast<double>(a.flow), qb = b.width * static_cast<double>(b.flow);
         if (d < nearest) nearest = d, change = std::abs(qa + t * (qb - qa) - j.width * static_cast<double>(j.flow));
       }
-      REQUIRE(nearest <= 6.5);  // the tolerance, and rounding of cuts to the lattice
-      REQUIRE(change <= 14);
+      REQUIRE(nearest <= 13);  // the tolerance, noise, and rounding of cuts to the lattice
+      REQUIRE(change <= 30);
+    }
+  }
+}
+
+TEST_CASE("motion: no bead turns by more than 60° beside a move shorter than 50 µm") {
+  std::mt19937 random(5);
+  for (int n = 0; n < 200; ++n) {
+    std::vector<Junction> path{{{0, 0}, 400, 1.F}};
+    double way = 0;
+    for (int i = 0; i < 150; ++i) {
+      way += (static_cast<double>(random() % 1000) / 500 - 1) * (i % 5 == 0 ? 3 : 0.3);
+      const double by = 1 + static_cast<double>(random() % 100);
+      path.push_back({path.back().at + Point{rounded(by * std::cos(way)), rounded(by * std::sin(way))},
+                      350 + static_cast<Um>(random() % 100), 1.F});
+    }
+    thin_out(path);
+    for (std::size_t i = 1; i + 1 < path.size(); ++i) {
+      const Point a = path[i].at - path[i - 1].at, b = path[i + 1].at - path[i].at;
+      const double before = distance({0, 0}, a), after = distance({0, 0}, b);
+      const double cosine = static_cast<double>(dot(a, b)) / std::max(1.0, before * after);
+      if (std::min(before, after) < 50) CHECK(cosine >= 0.45);  // places are on the lattice
     }
   }
 }

@@ -15,6 +15,7 @@ namespace {
 WallLayer filled(const Regions& regions) {
   WallSettings settings;
   settings.wall_line_count = 100;
+  settings.wall_corner_width = 75;  // what is bare is bare at ends, not in corners
   settings.wall_line_width_0 = settings.wall_line_width_x = 0.45_mm;
   return built(regions, settings);
 }

@@ -29,7 +29,7 @@ struct WallSettings {
   Um wall_transition_filter_distance = 1_mm;
   Um min_feature_size = 0.05_mm;
   Um min_wall_length = 0.1_mm;
-  double wall_corner_width = 75;
+  double wall_corner_width = 100;
   bool flow_compensation = true;
   Um min_output_width = 0.2_mm;
   double min_flow_ratio = 5;

@@ -1,0 +1,47 @@
+#pragma once
+#include "core/tolerances.h"
+
+#include <cstddef>
+#include <vector>
+
+/// A bead's path and its width, told with as few moves as both allow.
+namespace weft {
+
+/// A vertex of a centreline in fractional microns.
+struct PathVertex {
+  double x = 0, y = 0;
+  double band = 0;  ///< µm
+  friend bool operator==(const PathVertex&, const PathVertex&) = default;
+};
+using VertexPath = std::vector<PathVertex>;
+
+/// Makes the width of a path change no faster than plastic follows: it becomes its mean with weights that fall by e for
+/// every `reach` µm along the path (at its ends it is mirrored), so that the volume stays. Steps, which are two
+/// vertices in one place, become ramps. A closed path does not repeat its first vertex. Cost: linear. Source: the
+/// minimum of ∫ (w − w₀)² + reach² (dw/ds)² ds, discretised with lumped masses: one tridiagonal system.
+void smooth_widths(VertexPath& path, bool closed, double reach);
+
+/// Leaves out what chords stand for: the path stays within tolerances::path and the band within
+/// tolerances::band of what they were, but that no piece is shorter than tolerances::least_move that is not a path or a
+/// step of width that goes on. Ends
+/// stay. Pieces lie in the middle of what they stand for and lay what was laid there, as nearly as places and widths
+/// that are linear between vertices can. Post: at least two vertices, three of a closed path. Cost: O(n log n) where
+/// the path turns evenly. Source: Douglas & Peucker 1973, with the width as a third coordinate; L² projection on hat
+/// functions.
+void simplify(VertexPath& path, bool closed);
+
+/// Firmware extrudes evenly along a move: into how many pieces one of that length (µm) is cut along which the band
+/// changes by so much (µm), so that in none it changes by more than tolerances::band_step. Pieces are at least
+/// tolerances::shortest_piece long, or half of that where they would change by more than tolerances::band_leap.
+int ramp_pieces(double change_um, double length_um);
+
+/// Cuts the pieces of a path so. The volume stays.
+void cut_ramps(VertexPath& path, bool closed);
+
+/// The two steps of `simplify`: the indices of the vertices of an open path that stay, ascending …
+std::vector<std::size_t> chosen_vertices(const VertexPath& path);
+/// … and those vertices, in the middle of what their pieces stand for, of bands that lay what lies there; an even band
+/// stays. With `closed` the path's ends are one vertex, which is there twice; else they stay in place.
+VertexPath projected(const VertexPath& path, const std::vector<std::size_t>& chosen, bool closed);
+
+}  // namespace weft

@@ -1,0 +1,139 @@
+#include "model/simplify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <catch2/catch.hpp>
+
+using namespace weft;
+
+namespace {
+
+double length(const PathVertex& a, const PathVertex& b) {
+  return std::hypot(b.x - a.x, b.y - a.y);
+}
+
+/// What a path lays, µm².
+double laid(const VertexPath& path, bool closed) {
+  double sum = 0;
+  for (std::size_t i = 0; i + (closed ? 0 : 1) < path.size(); ++i) {
+    const PathVertex &a = path[i], &b = path[(i + 1) % path.size()];
+    sum += length(a, b) * (a.band + b.band) / 2;
+  }
+  return sum;
+}
+
+/// How far p lies off a path, µm.
+double off(const VertexPath& path, const PathVertex& p, bool closed) {
+  double best = 1e18;
+  for (std::size_t i = 0; i + (closed ? 0 : 1) < path.size(); ++i) {
+    const PathVertex &a = path[i], &b = path[(i + 1) % path.size()];
+    const double x = b.x - a.x, y = b.y - a.y, u = p.x - a.x, v = p.y - a.y, l2 = x * x + y * y;
+    const double t = l2 > 0 ? std::clamp((u * x + v * y) / l2, 0.0, 1.0) : 0;
+    best = std::min(best, std::hypot(u - t * x, v - t * y));
+  }
+  return best;
+}
+
+VertexPath walk(std::mt19937& random) {
+  VertexPath path{{0, 0, 400}};
+  double way = 0;
+  for (int i = 0; i < 200; ++i) {
+    way += (static_cast<double>(random() % 1000) / 500 - 1) * (i % 7 == 0 ? 3 : 0.2);
+    const double by = 1 + static_cast<double>(random() % 150'000) / 1000;  // of which no two are equal
+    const PathVertex& last = path.back();
+    path.push_back(
+        {last.x + by * std::cos(way), last.y + by * std::sin(way), 300.0 + static_cast<double>(random() % 200)});
+  }
+  return path;
+}
+
+}  // namespace
+
+TEST_CASE("simplify: widths become smooth, and the volume stays") {
+  const VertexPath step{{0, 0, 300}, {5'000, 0, 300}, {5'000, 0, 500}, {10'000, 0, 500}};
+  VertexPath ramp = step;
+  for (VertexPath fine = step; ramp.size() < 400;) {  // widths are told at vertices
+    fine.clear();
+    for (std::size_t i = 0; i + 1 < ramp.size(); ++i) {
+      fine.push_back(ramp[i]);
+      if (length(ramp[i], ramp[i + 1]) > 1)
+        fine.push_back({(ramp[i].x + ramp[i + 1].x) / 2, 0, (ramp[i].band + ramp[i + 1].band) / 2});
+    }
+    fine.push_back(ramp.back());
+    ramp = fine;
+  }
+  smooth_widths(ramp, false, 50);
+  CHECK(laid(ramp, false) == Approx(laid(step, false)).epsilon(1e-6));
+  for (const PathVertex& v : ramp) {  // 100 e^(-s / 50 µm) off
+    const double s = v.x - 5'000, wanted = s < 0 ? 300 + 100 * std::exp(s / 50) : 500 - 100 * std::exp(-s / 50);
+    CHECK(v.band == Approx(wanted).margin(8));
+  }
+}
+
+TEST_CASE("simplify: a taper told by its two ends stays one") {
+  const VertexPath taper{{0, 0, 300}, {6'000, 0, 500}, {6'010, 0, 500}, {6'010, 100, 500}};
+  VertexPath smooth = taper;
+  smooth_widths(smooth, false, 50);
+  CHECK(smooth.front().band == Approx(300).margin(2));
+  CHECK(smooth[1].band == Approx(500).margin(2));
+}
+
+TEST_CASE("simplify: a circle becomes a polygon that lies on both sides of it and lays as much") {
+  for (const double radius : {200.0, 1'000.0, 20'000.0}) {
+    VertexPath fine;
+    const int n = 720;
+    for (int i = 0; i < n; ++i) {
+      const double a = 2 * std::numbers::pi * i / n;
+      fine.push_back({radius * std::cos(a), radius * std::sin(a), 400});
+    }
+    VertexPath few = fine;
+    simplify(few, true);
+    CAPTURE(radius, few.size());
+    CHECK(static_cast<double>(few.size()) < 6 + 5 * std::sqrt(radius / 10));
+    CHECK(laid(few, true) == Approx(laid(fine, true)).epsilon(1e-3));
+    double most = 0;
+    for (const PathVertex& v : fine) most = std::max(most, off(few, v, true));
+    CHECK(most < 8);  // half of what chords through its points would
+    double inside = 0, outside = 0;
+    for (const PathVertex& v : few)
+      inside = std::max(inside, radius - std::hypot(v.x, v.y)),
+      outside = std::max(outside, std::hypot(v.x, v.y) - radius);
+    CHECK(outside > 1);
+    CHECK(inside < 1);
+  }
+}
+
+TEST_CASE("simplify: no path turns by more than 60° beside a piece shorter than a move") {
+  std::mt19937 random(7);
+  for (int n = 0; n < 300; ++n) {
+    const VertexPath path = walk(random);
+    const auto chosen = chosen_vertices(path);
+    REQUIRE(chosen.size() >= 2);
+    CHECK(chosen.front() == 0);
+    CHECK(chosen.back() + 1 == path.size());
+    for (std::size_t i = 1; i + 1 < chosen.size(); ++i) {
+      const PathVertex &a = path[chosen[i - 1]], &b = path[chosen[i]], &c = path[chosen[i + 1]];
+      const double before = length(a, b), after = length(b, c);
+      const double cosine = ((b.x - a.x) * (c.x - b.x) + (b.y - a.y) * (c.y - b.y)) / (before * after);
+      if (std::min(before, after) < tolerances::least_move) CHECK(cosine >= 0.5);  // turns by no more than 60°
+    }
+  }
+}
+
+TEST_CASE("simplify: a path is the same from either end") {
+  std::mt19937 random(8);
+  for (int n = 0; n < 100; ++n) {
+    VertexPath path = walk(random), back(path.rbegin(), path.rend());
+    simplify(path, false);
+    simplify(back, false);
+    std::reverse(back.begin(), back.end());
+    REQUIRE(back.size() == path.size());
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      CHECK(length(path[i], back[i]) < 1e-6);
+      CHECK(path[i].band == Approx(back[i].band));
+    }
+  }
+}
