@@ -1,6 +1,7 @@
 #include "model/simplify.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
@@ -115,6 +116,28 @@ class Projection {
   std::vector<double> whole_;
 };
 
+/// More vertices near the ends of pieces that are longer than the reach: what changes there changes there only.
+VertexPath finer_at_ends(const VertexPath& path, bool closed, double reach) {
+  VertexPath out;
+  out.reserve(3 * path.size());
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    out.push_back(path[i]);
+    if (i + 1 == path.size() && !closed) break;
+    const PathVertex &a = path[i], &b = path[(i + 1) % path.size()];
+    const double length = length_of(a, b);
+    const auto add = [&](double s) {
+      const double t = s / length;
+      out.push_back({a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.band + t * (b.band - a.band)});
+    };
+    constexpr std::array graded{0.5, 1.5, 3.5};  // of the reach
+    for (const double r : graded)
+      if (r * reach < length / 2) add(r * reach);
+    for (auto r = graded.rbegin(); r != graded.rend(); ++r)
+      if (*r * reach < length / 2) add(length - *r * reach);
+  }
+  return out;
+}
+
 /// Puts first the vertex that stands out most: which one is first is chance, and it stays.
 void begin_at_corner(VertexPath& path) {
   const std::size_t n = path.size();
@@ -205,9 +228,9 @@ std::vector<std::size_t> without_short_pieces(const VertexPath& path, const std:
 }  // namespace
 
 void smooth_widths(VertexPath& path, bool closed, double reach) {
+  if (path.size() < 3 || reach <= 0 || is_even(path)) return;
+  path = finer_at_ends(path, closed, reach);
   const std::size_t n = path.size();
-  if (n < 3) return;
-  if (is_even(path)) return;
   constexpr double least = 1e-3;  // a step is stiff, but not endlessly so
   std::vector<double> diagonal(n, 0.0), above(n, 0.0), right(n, 0.0);
   double corner = 0;

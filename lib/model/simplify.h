@@ -17,8 +17,9 @@ using VertexPath = std::vector<PathVertex>;
 
 /// Makes the width of a path change no faster than plastic follows: it becomes its mean with weights that fall by e for
 /// every `reach` µm along the path (at its ends it is mirrored), so that the volume stays. Steps, which are two
-/// vertices in one place, become ramps. A closed path does not repeat its first vertex. Cost: linear. Source: the
-/// minimum of ∫ (w − w₀)² + reach² (dw/ds)² ds, discretised with lumped masses: one tridiagonal system.
+/// vertices in one place, become ramps; vertices are added there. A closed path does not repeat its first vertex. Cost:
+/// linear. Source: the minimum of ∫ (w − w₀)² + reach² (dw/ds)² ds, discretised with lumped masses: one tridiagonal
+/// system.
 void smooth_widths(VertexPath& path, bool closed, double reach);
 
 /// Leaves out what chords stand for: the path stays within tolerances::path and the band within

@@ -78,7 +78,20 @@ TEST_CASE("simplify: a taper told by its two ends stays one") {
   VertexPath smooth = taper;
   smooth_widths(smooth, false, 50);
   CHECK(smooth.front().band == Approx(300).margin(2));
-  CHECK(smooth[1].band == Approx(500).margin(2));
+  CHECK(smooth.back().band == Approx(500).margin(2));
+}
+
+TEST_CASE("simplify: what is narrow for a short way stays narrow there, between long pieces that stay as they are") {
+  VertexPath neck{{0, 0, 400}, {5'000, 0, 400}, {5'000, 0, 300}, {5'200, 0, 300}, {5'200, 0, 400}, {10'000, 0, 400}};
+  const double before = laid(neck, false);
+  smooth_widths(neck, false, 50);
+  CHECK(laid(neck, false) == Approx(before).epsilon(1e-6));
+  double least = 1e9;
+  for (const PathVertex& v : neck) {
+    least = std::min(least, v.band);
+    if (std::abs(v.x - 5'100) > 400) CHECK(v.band == Approx(400).margin(2));
+  }
+  CHECK(least < 330);
 }
 
 TEST_CASE("simplify: a circle becomes a polygon that lies on both sides of it and lays as much") {
