@@ -3,6 +3,7 @@
 #include "core/polygon.h"
 #include "model/bead.h"
 
+#include <string>
 #include <vector>
 
 namespace weft {
@@ -14,11 +15,18 @@ struct SlicedLayer {
   Regions regions;
 };
 
+/// A notice, and where on the object; its message does not tell the place.
+struct PlacedNotice {
+  std::string code, message;
+  Point at;
+  friend bool operator==(const PlacedNotice&, const PlacedNotice&) = default;
+};
+
 /// Walls of one layer.
 struct WallLayer {
   Beads beads;
   Regions inside;  ///< what the walls leave for skin and infill, up to the inner edge of the innermost walls
-  Notices notices;
+  std::vector<PlacedNotice> notices;
 };
 
 /// Skin and infill of one layer.

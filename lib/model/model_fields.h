@@ -14,6 +14,8 @@ inline constexpr auto fields<Bead> = listed(&Bead::path, &Bead::role, &Bead::clo
 template <>
 inline constexpr auto fields<SlicedLayer> = listed(&SlicedLayer::z, &SlicedLayer::height, &SlicedLayer::regions);
 template <>
+inline constexpr auto fields<PlacedNotice> = listed(&PlacedNotice::code, &PlacedNotice::message, &PlacedNotice::at);
+template <>
 inline constexpr auto fields<WallLayer> = listed(&WallLayer::beads, &WallLayer::inside, &WallLayer::notices);
 template <>
 inline constexpr auto fields<FillLayer> = listed(&FillLayer::beads, &FillLayer::notices);

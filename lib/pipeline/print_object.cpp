@@ -14,11 +14,18 @@
 #include <string_view>
 #include <utility>
 
+#include <fmt/format.h>
+
 namespace weft::pipeline {
 namespace {
 
-void append(Notices& to, Notices from) {
-  std::move(from.begin(), from.end(), std::back_inserter(to));
+/// Of an object that stands there: places are told as they are on the bed.
+void append(Notices& to, std::vector<PlacedNotice> from, Point offset) {
+  for (auto& notice : from) {
+    const Point at = notice.at + offset;
+    to.push_back(
+        {std::move(notice.code), fmt::format("{}, at {:.2f}, {:.2f}", notice.message, to_mm(at.x), to_mm(at.y))});
+  }
 }
 
 // Versions of stages: a change of what a stage makes of the same input needs no new one, because keys hold the build of
@@ -123,7 +130,7 @@ PrintedLayers print_object(const Settings& settings, const PlacedObject& object,
   std::optional<Stopwatch> stopwatch(std::in_place, report.timings_ms.slice);
   const auto sliced_by = [&] { return slice_key(settings, object.mesh); };
   auto sliced = cached(cache, sliced_by, [&] { return slice_object(settings, object); });
-  append(report.warnings, slice::notices_of(*sliced, object.name));
+  append(report.warnings, slice::notices_of(*sliced, object.name), object.offsets.front());
 
   watch.progress("walls", 0.15);
   stopwatch.emplace(report.timings_ms.walls);
@@ -142,7 +149,7 @@ PrintedLayers print_object(const Settings& settings, const PlacedObject& object,
   auto walls = std::move(walled).take();
   auto fills = std::move(filled).take();
   PrintedLayers out(cuts.size());
-  for (auto& layer : walls) append(report.warnings, std::move(layer.notices));
+  for (auto& layer : walls) append(report.warnings, std::move(layer.notices), object.offsets.front());
   for (std::size_t i = 0; i < out.size(); ++i) {
     auto& layer = cuts[i].layer;
     auto& fill = fills[i];
@@ -154,7 +161,7 @@ PrintedLayers print_object(const Settings& settings, const PlacedObject& object,
               std::move(fill.sparse),
               std::move(walls[i].beads)};
     std::move(fill.beads.begin(), fill.beads.end(), std::back_inserter(out[i].beads));
-    append(report.warnings, std::move(fill.notices));
+    std::move(fill.notices.begin(), fill.notices.end(), std::back_inserter(report.warnings));
   }
   return out;
 }

@@ -1,5 +1,7 @@
 #include "slice/slice.h"
 
+#include <algorithm>
+
 namespace weft::slice {
 
 std::vector<Plane> planes(const LayerSettings& settings, Um model_height) {
@@ -7,9 +9,10 @@ std::vector<Plane> planes(const LayerSettings& settings, Um model_height) {
   Um bottom = 0;
   for (Um height = settings.initial_layer_height.value_or(settings.layer_height);; height = settings.layer_height) {
     const Um below = bottom + height / 2;
-    if (below >= model_height) return out;
+    if (below > model_height) return out;
     bottom += height;
-    out.push_back({bottom, height, below});
+    // where the model ends in the very middle of a layer, that is cut just below its top
+    out.push_back({bottom, height, std::min(below, model_height - 1)});
   }
 }
 

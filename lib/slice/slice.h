@@ -20,8 +20,8 @@ struct Plane {
   friend bool operator==(const Plane&, const Plane&) = default;
 };
 
-/// The first layer, then layers of layer_height, upwards from 0, as long as the middle of a layer is inside the model:
-/// what remains at the top is a layer when it is more than half of one, and nothing otherwise.
+/// The first layer, then layers of layer_height, upwards from 0, as long as the middle of a layer is inside the model or
+/// on its top: what remains at the top is a layer when it is at least half of one, and nothing otherwise.
 std::vector<Plane> planes(const LayerSettings& settings, Um model_height);
 
 /// Places where the mesh has a hole and an outline had to be closed without it.
@@ -66,8 +66,9 @@ class Cutter {
   std::vector<std::uint32_t> triangles_;  // ascending for each plane
 };
 
-/// At most one notice a kind of gap, over all layers: "open_contour_closed", "open_contour_bridged".
+/// At most one notice a kind of gap, over all layers: "open_contour_closed", "open_contour_bridged"; the place is that of
+/// the widest.
 /// @param of the object, as the user should read it
-Notices notices_of(std::span<const Cut> cuts, const std::string& of);
+std::vector<PlacedNotice> notices_of(std::span<const Cut> cuts, const std::string& of);
 
 }  // namespace weft::slice

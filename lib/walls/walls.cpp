@@ -54,19 +54,18 @@ void steady_over_air(const Regions& over_air, const Widths& widths, Beads& beads
       if (j.flow == 1.F && over(j.at)) j.width = rounded(bead.inset == 0 ? widths.outer : widths.inner);
 }
 
-std::string place_of(const WallInput& input, const Region& region) {
-  const Point at = box_of(region.outer).centre();
-  return fmt::format("layer {} (z {:.3f}), around {:.2f}, {:.2f}", input.index, to_mm(input.layer.z), to_mm(at.x),
-                     to_mm(at.y));
+PlacedNotice notice_of(const char* code, const WallInput& input, const Region& region, const std::string& what) {
+  return {code, fmt::format("layer {} (z {:.3f}): {}", input.index, to_mm(input.layer.z), what),
+          box_of(region.outer).centre()};
 }
 
 /// A part too small for any bead. Specks are no news.
-void add_left_out(const WallInput& input, const Region& region, Notices& out) {
+void add_left_out(const WallInput& input, const Region& region, std::vector<PlacedNotice>& out) {
   constexpr Um speck = 0.1_mm;
   const Point size = box_of(region.outer).size();
   if (std::max(size.x, size.y) < speck) return;
-  out.push_back({"thin_feature_dropped", fmt::format("{}: a part of {:.3f} x {:.3f} mm is left out",
-                                                     place_of(input, region), to_mm(size.x), to_mm(size.y))});
+  out.push_back(notice_of("thin_feature_dropped", input, region,
+                          fmt::format("a part of {:.3f} x {:.3f} mm is left out", to_mm(size.x), to_mm(size.y))));
 }
 
 }  // namespace
@@ -88,15 +87,13 @@ WallLayer build(const WallSettings& settings, const WallInput& input) {
     if (!again) kinds.add(regions[i], part);
     put_in_order(part.beads, settings.wall_order);
     if (!part.valid)
-      out.notices.push_back(
-          {"walls_without_medial_axis",
-           place_of(input, regions[i]) +
-               ": no medial axis of the outline; its walls are concentric and thin places stay empty"});
+      out.notices.push_back(notice_of("walls_without_medial_axis", input, regions[i],
+                                      "no medial axis of the outline; its walls are concentric and thin places stay "
+                                      "empty"));
     if (part.dropped_mm > worth_a_notice_mm)
-      out.notices.push_back(
-          {"thin_feature_dropped",
-           fmt::format("{}: {:.2f} mm of a part thinner than {:.3f} mm are left out", place_of(input, regions[i]),
-                       part.dropped_mm, to_mm(settings.min_feature_size))});
+      out.notices.push_back(notice_of("thin_feature_dropped", input, regions[i],
+                                      fmt::format("{:.2f} mm of a part thinner than {:.3f} mm are left out",
+                                                  part.dropped_mm, to_mm(settings.min_feature_size))));
     else if (part.beads.empty() && part.inside.empty())
       add_left_out(input, regions[i], out.notices);
     std::move(part.beads.begin(), part.beads.end(), std::back_inserter(out.beads));

@@ -77,12 +77,20 @@ TEST_CASE("slice: layers stand on each other, cut in their middle, the first of 
   CHECK(layers[4] == Plane{1100, 200, 1000});
 }
 
-TEST_CASE("slice: what remains at the top is a layer when it is more than half of one") {
+TEST_CASE("slice: what remains at the top is a layer when it is at least half of one") {
   CHECK(planes({}, 1000).size() == 5);
-  CHECK(planes({}, 1100).size() == 5);
-  CHECK(planes({}, 1101).size() == 6);
+  CHECK(planes({}, 1099).size() == 5);
+  CHECK(planes({}, 1100).size() == 6);
+  CHECK(planes({}, 22500).size() == 113);
   CHECK(planes({}, 48000).size() == 240);
   CHECK(planes({}, 0).empty());
+}
+
+TEST_CASE("slice: a layer that the model ends in the middle of is printed") {
+  const auto cuts = cut_all(solids::box({0, 0, 0}, {20000, 20000, 22500}));
+  REQUIRE(cuts.size() == 113);
+  REQUIRE(cuts.back().layer.regions.size() == 1);
+  CHECK(area_mm2(cuts.back().layer.regions) == Approx(400));
 }
 
 TEST_CASE("slice: a cube is a stack of squares") {
