@@ -25,6 +25,7 @@ constexpr double longest_turn = 2.7;      // bands; shallower edges are run alon
 constexpr double least_left = 0.3;        // bands of a line between its turns; else the turn is as wide as the place
 constexpr double most_lean = 4;           // bands that a narrow strip may lean from line to line and still be one strip
 constexpr double deepest_bump = 0.25;     // bands that the edge may stand into a turn
+constexpr double least_given_back = 0.9;  // of the width: a small area rather gets a little too much
 constexpr double shortest_bead =
     1;  // in widths: less is a dab, and a stop of the nozzle for a thousandth of the volume
 
@@ -87,6 +88,13 @@ class Filler {
       : style_(style), beads_(beads), frame_(style.angle_rad, style.origin), outline_(region, frame_) {}
 
   void run() {
+    const std::size_t before = beads_.size();
+    lay();
+    if (!style_.fixed_strand) give_back(before);
+  }
+
+ private:
+  void lay() {
     const double reach = outline_.greatest_y() - outline_.least_y();
     if (!(reach > 0)) return;
     const double count = std::max(1.0, std::round(reach / style_.band));
@@ -115,7 +123,16 @@ class Filler {
     }
   }
 
- private:
+  /// What the ends reach over the edge comes out of the lines' width: the wall there has its plastic already.
+  void give_back(std::size_t before) {
+    if (prolonged_ <= 0) return;
+    double laid = 0;
+    for (std::size_t i = before; i < beads_.size(); ++i) laid += 1000 * length_mm(beads_[i]);
+    const double share = std::max(1 - prolonged_ / std::max(laid, 1.0), least_given_back);
+    for (std::size_t i = before; i < beads_.size(); ++i)
+      for (Junction& j : beads_[i].path) j.width = std::max(1, rounded(share * j.width));
+  }
+
   struct Vertex {
     Turned at;
     Um width = 0;
@@ -203,6 +220,7 @@ class Filler {
       const double least = least_left * lines_.spacing;
       const bool joined =
           turn > 0 && (end + pull - start) * (rightwards ? 1 : -1) > least && length(lines[i + 1]) > turn + least;
+      prolonged_ += all_[here].from - left_[here] + right_[here] - all_[here].to;
       append_line(path, here, start, joined ? end + pull : end);
       if (!joined) {
         add(path, style_.role);
@@ -302,7 +320,7 @@ class Filler {
     double total = 0;
     for (std::size_t i = 1; i < path.size(); ++i)
       total += std::hypot(path[i].at.x - path[i - 1].at.x, path[i].at.y - path[i - 1].at.y);
-    if (total < shortest_bead * width_) return;
+    if (total - 2 * style_.overlap_um < shortest_bead * width_) return;
     Bead bead;
     bead.role = role, bead.part = style_.part, bead.sequence = style_.sequence;
     bead.path.reserve(path.size());
@@ -326,6 +344,7 @@ class Filler {
   std::vector<double> left_, right_;  // ends of each interval, reaching over the edge
   Turned at_;
   bool started_ = false;
+  double prolonged_ = 0;  // length of lines beyond their edges
 };
 
 }  // namespace

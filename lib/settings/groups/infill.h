@@ -22,7 +22,7 @@ struct InfillSettings {
   InfillPattern infill_pattern = InfillPattern::grid;
   std::optional<Um> infill_line_width;
   double infill_angle = 45;
-  LengthOrShare infill_overlap = share(5);
+  LengthOrShare infill_overlap = share(15);
   bool infill_connect_lines = true;
 };
 
