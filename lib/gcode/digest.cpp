@@ -83,6 +83,7 @@ void advance(MachineState& state, const LayerDigest& layer) {
     state.tool = change.tool;
     if (change.retracted) state.set_retracted(*change.retracted);
   }
+  if (layer.retracted || !layer.changes.empty()) state.drawn_mm.reset();
   if (layer.fan) state.fan = *layer.fan;
   if (layer.print_acceleration > 0) state.print_acceleration = layer.print_acceleration;
   if (layer.travel_acceleration > 0) state.travel_acceleration = layer.travel_acceleration;

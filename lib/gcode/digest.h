@@ -17,6 +17,8 @@ struct MachineState {
   double print_acceleration = 0, travel_acceleration = 0;  ///< mm/s²; 0: not said yet
   ToolId tool = 0;                                         ///< that is loaded
   std::bitset<any_tool + 1U> drawn_back{};                 ///< by tool: is its filament?
+  std::optional<Um> z{};             ///< where the nozzle is, as far as that is known before `at` is
+  std::optional<double> drawn_mm{};  ///< of filament by start G-code, while it is drawn back; else as the settings say
 
   bool retracted() const { return drawn_back[tool]; }
   void set_retracted(bool drawn) { drawn_back[tool] = drawn; }

@@ -165,8 +165,34 @@ class LayerText {
   void print(const Travel& travel) {
     if (travel.path.empty()) return;
     accelerate(travel.acceleration_mm_s2, true);
+    if (!state_.at) return first(travel);
     for (const Point3 to : travel.path)
       travel_to(to, state_.at ? speed_between(travel, *state_.at, to) : travel.speed_mm_s);
+  }
+
+  /// From where start G-code left the nozzle: up before it goes across the bed, and down when it is there. From an
+  /// unknown height Z comes first too: what is too low does harm on the way.
+  void first(const Travel& travel) {
+    const Um z = travel.path.front().z;
+    const auto go_to_z = [&](Um to) {
+      (out_ << "G0 Z").length(to);
+      feed(travel.z_speed_mm_s > 0 ? travel.z_speed_mm_s : travel.speed_mm_s);
+      out_ << '\n';
+    };
+    const bool down = state_.z && *state_.z > z;
+    if (!down && state_.z != z) go_to_z(z);
+    for (const Point3 to : travel.path) {
+      if (state_.at) {
+        travel_to(down ? Point3{to.x, to.y, *state_.z} : to, speed_between(travel, *state_.at, to));
+        continue;
+      }
+      ((out_ << "G0 X").length(to.x) << " Y").length(to.y);
+      feed(travel.speed_mm_s);
+      out_ << '\n';
+      state_.at = {to.x, to.y, down ? *state_.z : z};
+    }
+    if (down) go_to_z(travel.path.back().z);
+    state_.at = travel.path.back();
   }
 
   void extruder_only(double units, double speed_mm_s) {
@@ -209,8 +235,10 @@ class LayerText {
     state_.set_retracted(false);
     const auto& r = job_.settings.retraction;
     const double speed = r.retraction_prime_speed.value_or(r.retraction_retract_speed);
-    if (r.firmware_retraction) out_ << "G11\n";
-    const double mm = to_mm(r.firmware_retraction ? 0 : r.retraction_amount) + to_mm(r.retraction_extra_prime_amount);
+    if (r.firmware_retraction && !state_.drawn_mm) out_ << "G11\n";
+    const double drawn_mm = state_.drawn_mm.value_or(to_mm(r.firmware_retraction ? 0 : r.retraction_amount));
+    const double mm = drawn_mm + to_mm(r.retraction_extra_prime_amount);
+    state_.drawn_mm.reset();
     extruder_only(mm * units_per_mm, speed);
   }
 

@@ -4,6 +4,7 @@
 #include "gcode/custom_code.h"
 #include "gcode/header.h"
 #include "gcode/layer_text.h"
+#include "gcode/left_by.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,6 +58,16 @@ Writer::Writer(const Job& job, bool lenient)
   entries_.push_back(state);
   elapsed_s_.push_back(elapsed_s);
   expand_custom_code();
+  begin_where_start_ends();
+}
+
+/// The first layer begins with what start G-code has left; no later one does, as a layer begins with a travel.
+void Writer::begin_where_start_ends() {
+  const auto left = left_by(start_);
+  MachineState& state = entries_.front();
+  state.z = left.z;
+  state.set_retracted(left.drawn_mm > 0 || (left.by_firmware && job_.settings.retraction.firmware_retraction));
+  if (left.drawn_mm > 0) state.drawn_mm = left.drawn_mm;
 }
 
 void Writer::expand_custom_code() {

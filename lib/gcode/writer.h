@@ -46,6 +46,7 @@ class Writer {
   friend void check_custom_code(const Settings& settings);
   Writer(const Job& job, bool lenient);
   void expand_custom_code();
+  void begin_where_start_ends();
 
   const Job& job_;
   bool lenient_;  // a trial: the figures of the print are not the real ones

@@ -194,6 +194,7 @@ PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject
   for (auto& input : inputs) {
     input.room = room_at(settings.machine, input.z);
     input.filament_area_mm2 = std::numbers::pi / 4 * filament_mm * filament_mm;
+    input.nozzle = settings.machine.nozzle_diameter;
   }
   for (auto& notice : travel::check(settings.travel, settings.retraction)) plan.notices.push_back(std::move(notice));
 

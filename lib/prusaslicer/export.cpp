@@ -198,7 +198,7 @@ class Exporter {
     say("bridge_angle", angle == "auto" ? "0" : angle, "bridge_angle");
     say("thick_bridges", "1");
     say("elefant_foot_compensation", number(std::max(0.0, -to_mm(s_.walls.xy_offset_layer_0))), "xy_offset_layer_0");
-    say("seam_gap_distance", number(to_mm(s_.travel.seam_gap_distance)), "seam_gap_distance");
+    say("seam_gap_distance", print("seam_gap_distance"), "seam_gap_distance");
     say("infill_anchor_max", s_.infill.infill_connect_lines ? "50" : "0", "infill_connect_lines");
     if (!s_.retraction.retraction_enable) say("retract_length", "0");
     said_.insert("retraction_enable");

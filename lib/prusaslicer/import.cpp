@@ -293,8 +293,10 @@ class Translator {
     } else {
       lines_.find("thick_bridges");
     }
-    if (const auto* e = lines_.find("seam_gap_distance"))
-      set("seam_gap_distance", number(lines_.figure(*e).of(nozzle_), 3), *e);
+    if (const auto* e = lines_.find("seam_gap_distance")) {
+      const auto gap = lines_.figure(*e);
+      set("seam_gap_distance", number(gap.v, 3) + (gap.percent ? "%" : ""), *e);
+    }
     if (const auto* e = lines_.find("scarf_seam_placement")) {
       const auto* length = lines_.find("scarf_seam_length");
       set("scarf_joint_seam_length",

@@ -55,7 +55,7 @@ void check_seams(const TravelSettings& t, Check& check) {
                        "scarf_joint_seam_start_height_ratio", "scarf_joint_seam_length is 0");
   check.without_effect(!scarf && t.scarf_split_distance != usual.scarf_split_distance, "scarf_split_distance",
                        "scarf_joint_seam_length is 0");
-  check.without_effect(scarf && t.seam_gap_distance > 0, "seam_gap_distance",
+  check.without_effect(scarf && t.seam_gap_distance != usual.seam_gap_distance, "seam_gap_distance",
                        "a scarf seam (scarf_joint_seam_length) has no gap");
   check.without_effect(scarf && t.scarf_joint_seam_start_height_ratio == 100, "scarf_joint_seam_length",
                        "a ramp that begins at 100 % of the layer height is none");

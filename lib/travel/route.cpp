@@ -7,6 +7,7 @@
 #include "travel/way.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace weft::travel {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 struct Held {
   std::vector<Extrude> pieces;
   std::vector<Junction> onward;  ///< where a closed bead's end leads on: over what was printed first
-  bool closed_outer = false, scarf = false;
+  bool closed_outer = false, closed_wall = false, scarf = false;
 
   bool empty() const { return pieces.empty(); }
   std::vector<Junction>& last() { return pieces.back().path; }
@@ -65,7 +66,7 @@ class Writer {
     if (!held_.empty()) {
       const Point counted_on = held_.begin();  // by the layer above, of a closed bead
       const bool scarf = held_.scarf;
-      const Polyline gap = held_.closed_outer ? cut_end(held_.last(), gap_um()) : Polyline{};
+      const Polyline gap = held_.closed_wall ? cut_end(held_.last(), gap_um()) : Polyline{};
       put_down();
       drop_ = 0;
       travel(gap);
@@ -80,6 +81,7 @@ class Writer {
     Held held;
     auto path = path_of(bead, turn);
     held.closed_outer = bead.closed && bead.role == Role::outer_wall;
+    held.closed_wall = held.closed_outer || (bead.closed && bead.role == Role::inner_wall);
     // On the bed a ramp would begin in it.
     held.scarf = held.closed_outer && settings_.scarf_joint_seam_length > 0 && !layer_.input.time.first();
     if (held.scarf) {
@@ -104,7 +106,8 @@ class Writer {
 
   /// Not more than a third of the bead goes to the gap; a slanting seam needs none.
   double gap_um() {
-    return held_.scarf ? 0 : std::min<double>(settings_.seam_gap_distance, length_um(held_.last()) / 3);
+    if (held_.scarf) return 0;
+    return std::min<double>(settings_.seam_gap_distance.of(layer_.input.nozzle), length_um(held_.last()) / 3);
   }
 
   void label(std::uint32_t object) {
@@ -148,21 +151,26 @@ class Writer {
     if (draw) plan_.steps.push_back(Retract{std::move(wipe)});
     Travel travel;
     travel.crosses_wall = way.crosses;
-    if (draw && lifts(way)) {
+    if (draw && at_ && lifts(way)) {
       travel.path = lift(way);
     } else {
       for (const Point p : way.points) travel.path.push_back({p.x, p.y, plan_.z});
     }
     if (travel.path.empty()) return;
+    if (std::exchange(rise_, false) && flat(travel.path.front()) != *at_)
+      travel.path.insert(travel.path.begin(), here());
     if (drop_ > 0) travel.path.push_back({travel.path.back().x, travel.path.back().y, plan_.z - drop_});
     plan_.steps.push_back(std::move(travel));
     if (draw) plan_.steps.push_back(Prime{});
   }
 
   void first_travel(Point begin) {
-    const Way way = at_ ? router_.way(*at_, begin) : Way{{begin}, false, false, false};
-    if (at_ && begin == *at_) return;
-    go(way, at_ && (way.retract || retraction_.retract_at_layer_change) && draws_back(), {});
+    // From where start G-code ends the nozzle comes full: without a retraction it strings over the bed.
+    if (!at_) return go({{begin}, false, false, false}, draws_back(), {});
+    if (begin == *at_) return;
+    const Way way = router_.way(*at_, begin);
+    rise_ = true;
+    go(way, (way.retract || retraction_.retract_at_layer_change) && draws_back(), {});
   }
 
   /// The end of a bead that the pressure in the nozzle prints.
@@ -192,7 +200,7 @@ class Writer {
     Way way = begin == *at_ ? Way{} : router_.way(*at_, begin);
     for (const auto& piece : held_.pieces) window_.feed(volume_mm3(piece) / layer_.input.filament_area_mm2);
     bool draw = way.retract && draws_back();
-    const Polyline gap = held_.closed_outer ? cut_end(held_.last(), gap_um()) : Polyline{};
+    const Polyline gap = held_.closed_wall ? cut_end(held_.last(), gap_um()) : Polyline{};
     if (!gap.empty()) at_ = held_.end();
     const Polyline coasted = draw ? coast() : Polyline{};
     Polyline over = draw ? wipe(gap) : Polyline{};
@@ -224,7 +232,8 @@ class Writer {
   Departures departures_;
   std::optional<Point> at_;
   Held held_;
-  Um drop_ = 0;  ///< how far below the layer's top the next bead begins
+  bool rise_ = false;  ///< the next travel begins on the layer below: it goes up before it goes anywhere
+  Um drop_ = 0;        ///< how far below the layer's top the next bead begins
   std::uint32_t object_ = Block::adhesion;
 };
 

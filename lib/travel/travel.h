@@ -57,6 +57,7 @@ struct LayerInput {
   std::vector<ObjectLayer> objects;
   Room room;
   double filament_area_mm2 = 2.405;  ///< cross-section of the filament: 1.75 mm round
+  Um nozzle = 400;                   ///< diameter
 };
 
 /// The beads of one part of one object, or the adhesion: printed before the next block begins.
@@ -73,6 +74,7 @@ struct Prepared {
   std::vector<Block> blocks;
   std::vector<SeamChoices> seams;  ///< one an outer wall that is closed
   Comb comb;                       ///< where travels may go unretracted
+  Comb narrows;                    ///< where they may where that has no way; empty: nowhere
   Comb outline;                    ///< what a travel may not leave unretracted
   Comb free;                       ///< where the nozzle may go at all; empty: wherever a straight way may lead
   Comb around;  ///< the same less the parts and what is to be kept from them; empty: they are passed over

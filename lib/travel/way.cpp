@@ -15,7 +15,8 @@ double length_from(Point p, const Polyline& way) {
 }
 
 Way Router::way(Point p, Point q) const {
-  auto inside = combed(p, q);
+  auto inside = combed(layer_.comb, p, q);
+  if (!inside && !layer_.narrows.empty()) inside = combed(layer_.narrows, p, q);
   if (!inside || leaves_room(p, *inside)) return direct(p, q);
   const double length = length_from(p, *inside);
   if (too_long(length, distance(p, q))) return direct(p, q);
@@ -71,22 +72,22 @@ bool Router::leaves_outline(Point p, const Polyline& way) const {
 }
 
 /// The point of the comb area from which p is reached inside the part.
-std::optional<Point> Router::gate(Point p) const {
-  if (comb_.part_of(p) != Comb::outside) return p;
-  const auto gate = comb_.nearest_on_boundary(p, reach_um);
+std::optional<Point> Router::gate(const Comb& comb, Point p) const {
+  if (comb.part_of(p) != Comb::outside) return p;
+  const auto gate = comb.nearest_on_boundary(p, reach_um);
   if (!gate || outline_.part_of(p) == Comb::outside || !outline_.sees(p, *gate)) return std::nullopt;
   return gate;
 }
 
-std::optional<Polyline> Router::combed(Point p, Point q) const {
-  if (comb_.empty()) return std::nullopt;
-  const auto from = gate(p), to = gate(q);
+std::optional<Polyline> Router::combed(const Comb& comb, Point p, Point q) const {
+  if (comb.empty()) return std::nullopt;
+  const auto from = gate(comb, p), to = gate(comb, q);
   if (!from || !to) return std::nullopt;
   const double to_gates = distance(p, *from) + distance(*to, q);
   if (to_gates > 0 && distance(p, q) <= to_gates && outline_.sees(p, q)) return Polyline{q};
-  const std::uint32_t part = comb_.part_of(*from);
-  if (part == Comb::outside || part != comb_.part_of(*to)) return std::nullopt;
-  auto inside = comb_.way(*from, *to);
+  const std::uint32_t part = comb.part_of(*from);
+  if (part == Comb::outside || part != comb.part_of(*to)) return std::nullopt;
+  auto inside = comb.way(*from, *to);
   if (!inside) return std::nullopt;
   if (*from != p) inside->insert(inside->begin(), *from);
   if (*to != q) inside->push_back(q);

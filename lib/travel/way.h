@@ -18,22 +18,21 @@ class Router {
  public:
   /// The arguments must outlive the router.
   Router(const TravelSettings& settings, const RetractionSettings& retraction, const Prepared& layer)
-      : settings_(settings), retraction_(retraction), layer_(layer), comb_(layer.comb), outline_(layer.outline) {}
+      : settings_(settings), retraction_(retraction), layer_(layer), outline_(layer.outline) {}
 
   Way way(Point p, Point q) const;
 
  private:
   bool leaves_outline(Point p, const Polyline& way) const;
   bool leaves_room(Point p, const Polyline& way) const;
-  std::optional<Point> gate(Point p) const;
-  std::optional<Polyline> combed(Point p, Point q) const;
+  std::optional<Point> gate(const Comb& comb, Point p) const;
+  std::optional<Polyline> combed(const Comb& comb, Point p, Point q) const;
   bool too_long(double combed_um, double straight_um) const;
   Way direct(Point p, Point q) const;
 
   const TravelSettings& settings_;
   const RetractionSettings& retraction_;
   const Prepared& layer_;
-  const Comb& comb_;
   const Comb& outline_;
 };
 

@@ -392,8 +392,8 @@ TEST_CASE("gcode: start G-code of Cura's finds its names") {
 
 TEST_CASE("gcode: speeds change only where they change, and lifts are as slow as Z needs") {
   const auto f = words(Sample{}.layer(0), 'F');
-  // first travel (from an unknown place), wall, retraction, lift, travel, descent, priming, infill
-  CHECK(f == std::vector<double>{9000, 1800, 2400, 600, 9000, 600, 2400, 4800});
+  // up and first travel (from an unknown place), wall, retraction, lift, travel, descent, priming, infill
+  CHECK(f == std::vector<double>{600, 9000, 1800, 2400, 600, 9000, 600, 2400, 4800});
 }
 
 TEST_CASE("gcode: flow ratios are written when asked") {

@@ -54,9 +54,10 @@ TEST_CASE("travel: each setting that cannot matter, or contradicts another, is n
            [](TravelSettings& t, RetractionSettings&) { t.scarf_joint_seam_start_height_ratio = 50; }},
       Case{"scarf_split_distance has no effect",
            [](TravelSettings& t, RetractionSettings&) { t.scarf_split_distance = 500; }},
-      Case{
-          "seam_gap_distance has no effect",
-          [](TravelSettings& t, RetractionSettings&) { t.scarf_joint_seam_length = 10000, t.seam_gap_distance = 100; }},
+      Case{"seam_gap_distance has no effect",
+           [](TravelSettings& t, RetractionSettings&) {
+             t.scarf_joint_seam_length = 10000, t.seam_gap_distance = length(100);
+           }},
       Case{"scarf_joint_seam_length has no effect",
            [](TravelSettings& t, RetractionSettings&) {
              t.scarf_joint_seam_length = 10000, t.scarf_joint_seam_start_height_ratio = 100;

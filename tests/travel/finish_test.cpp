@@ -63,10 +63,11 @@ TEST_CASE("travel: a circle that would leave the reach goes to the other side, t
   CHECK((neither.back() == Point3{50000, 0, 200}));
 }
 
-TEST_CASE("travel: a seam gap shortens each outer wall by its length", "[travel]") {
+TEST_CASE("travel: a seam gap shortens each outer wall by its length, or that share of the nozzle", "[travel]") {
   TravelSettings settings;
+  settings.seam_gap_distance = length(0);
   const double whole = outer_wall_um(plan(settings, {}, stack(2)));
-  settings.seam_gap_distance = 100;
+  settings.seam_gap_distance = GENERATE(length(100), share(25));
   CHECK(whole - outer_wall_um(plan(settings, {}, stack(2))) == Approx(2 * 4 * 100.0).margin(8));
 }
 

@@ -105,6 +105,47 @@ TEST_CASE("travel: with no_outer_surfaces ways keep off the outer wall", "[trave
   for (const Point p : *way) CHECK((p.y > 27000 || p.y < 12000 - 3 * sample::width / 2 + 30));
 }
 
+TEST_CASE("travel: with no_outer_surfaces a neck of two walls is gone through along them, not over the edge",
+          "[travel]") {
+  // Two rooms and a neck between them that has no room for second walls.
+  const Region rooms{{{0, 0},
+                      {10000, 0},
+                      {10000, 4600},
+                      {20000, 4600},
+                      {20000, 0},
+                      {30000, 0},
+                      {30000, 10000},
+                      {20000, 10000},
+                      {20000, 5400},
+                      {10000, 5400},
+                      {10000, 10000},
+                      {0, 10000}},
+                     {}};
+  const auto settings = combing(Combing::no_outer_surfaces);
+  const auto prepared = prepare(settings, sample::layer({rooms}));
+  REQUIRE(prepared.comb.part_of({5000, 5000}) != prepared.comb.part_of({25000, 5000}));
+  const RetractionSettings retraction;
+  const auto way = Router(settings, retraction, prepared).way({5000, 2000}, {25000, 2000});
+  CHECK_FALSE(way.retract);
+  CHECK_FALSE(way.crosses);
+}
+
+TEST_CASE("travel: the way to the next layer goes up before it goes anywhere", "[travel]") {
+  std::optional<Point3> at;
+  int ways_up = 0;
+  const auto island = Regions{sample::rectangle({60000, 0}, {70000, 10000})};
+  for (const auto& layer : plan({}, {}, {sample::layer(sample::plate(), 0), sample::layer(island, 1)}))
+    for (const auto& step : layer.steps) {
+      if (const auto* t = std::get_if<Travel>(&step))
+        for (const Point3 to : t->path) {
+          if (at && at->z != to.z) CHECK(flat(*at) == flat(to)), ++ways_up;
+          at = to;
+        }
+      if (const auto* e = std::get_if<Extrude>(&step)) at = place_of(*e, e->path.size() - 1, layer.z);
+    }
+  CHECK(ways_up == 1);
+}
+
 TEST_CASE("travel: a combing offset keeps travels that much further in, or lets them that much further out",
           "[travel]") {
   // A bay from above: ways from arm to arm bend round its floor, the boundary of combing.

@@ -43,21 +43,21 @@ constexpr auto choices_of(Combing) {
 /// Order of paths, seams, and the way between them.
 struct TravelSettings {
   PathOrder path_order = PathOrder::optimized;
-  SeamType z_seam_type = SeamType::sharpest_corner;
+  SeamType z_seam_type = SeamType::aligned;
   SeamCorner z_seam_corner = SeamCorner::weighted;
   double z_seam_visibility_weight = 0.2;
   double z_seam_corner_weight = 1;
   double z_seam_overhang_weight = 0.5;
   Um z_seam_x = 0_mm;
   Um z_seam_y = 0_mm;
-  Combing retraction_combing = Combing::all;
+  Combing retraction_combing = Combing::no_outer_surfaces;
   Um retraction_combing_offset = 0_mm;
   std::optional<Um> retraction_combing_max_distance;
   std::optional<LengthOrShare> retraction_combing_max_detour = length(20_mm);
   bool travel_avoid_other_parts = false;
   Um travel_avoid_distance = 0.625_mm;
   bool staggered_inner_seams = false;
-  Um seam_gap_distance = 0_mm;
+  LengthOrShare seam_gap_distance = share(15);
   Um wall_0_wipe_dist = 0_mm;
   bool coasting_enable = false;
   double coasting_volume = 0.064;
@@ -105,7 +105,8 @@ inline constexpr std::tuple travel_schema{
     setting("staggered_inner_seams", Scope::region, &TravelSettings::staggered_inner_seams,
             "Seams of inner walls lie aside of the outer wall's, alternately, so that no gap runs through all walls."),
     setting("seam_gap_distance", Scope::region, &TravelSettings::seam_gap_distance, Unit::mm, 0_mm, 5_mm,
-            "Outer walls end this far before the place where they began."),
+            "Closed walls end this far before the place where they began: what the nozzle still holds closes the loop. "
+            "A share is of nozzle_diameter."),
     setting("wall_0_wipe_dist", Scope::region, &TravelSettings::wall_0_wipe_dist, Unit::mm, 0_mm, 10_mm,
             "How far the nozzle runs on over an outer wall without extruding after closing it."),
     setting("coasting_enable", Scope::tool, &TravelSettings::coasting_enable,
