@@ -75,7 +75,7 @@ LayerDigest digest_of(const Settings& settings, const LayerPlan& layer) {
 }
 
 void advance(MachineState& state, const LayerDigest& layer) {
-  if (layer.place_lost) state.at.reset();
+  if (layer.place_lost) state.at.reset(), state.z = MachineState::from_above;
   if (layer.at) state.at = layer.at;
   if (layer.wiped_to && state.at) state.at = Point3{layer.wiped_to->x, layer.wiped_to->y, state.at->z};
   if (layer.retracted) state.set_retracted(*layer.retracted);

@@ -17,6 +17,7 @@ struct MachineState {
   double print_acceleration = 0, travel_acceleration = 0;  ///< mm/s²; 0: not said yet
   ToolId tool = 0;                                         ///< that is loaded
   std::bitset<any_tool + 1U> drawn_back{};                 ///< by tool: is its filament?
+  static constexpr Um from_above = max_coord;              ///< for `z`: at some height over what is printed
   std::optional<Um> z{};             ///< where the nozzle is, as far as that is known before `at` is
   std::optional<double> drawn_mm{};  ///< of filament by start G-code, while it is drawn back; else as the settings say
 

@@ -250,7 +250,7 @@ class LayerText {
 
   /// Firmware or the user may have had the nozzle elsewhere: the place is said again before anything is laid down.
   void lose_place() {
-    state_.at.reset();
+    state_.at.reset(), state_.z = MachineState::from_above;
     feed_ = 0;
   }
 

@@ -78,7 +78,10 @@ TEST_CASE("codec: results of stages come back as they were") {
       CHECK(cuts2[i].closed.widest_um == cuts[i].closed.widest_um);
       CHECK(cuts2[i].closed.at == cuts[i].closed.at);
     }
-    const std::vector<WallLayer> walls{{beads(dice), regions(dice), notices(dice)}, {beads(dice), {}, {}}};
+    std::vector<PlacedNotice> placed;
+    for (auto& notice : notices(dice))
+      placed.push_back({std::move(notice), {dice(-max_coord, max_coord), dice(-max_coord, max_coord)}});
+    const std::vector<WallLayer> walls{{beads(dice), regions(dice), placed}, {beads(dice), {}, {}}};
     const auto walls2 = there_and_back(walls);
     CHECK(walls2[0].beads == walls[0].beads);
     CHECK(walls2[0].inside == walls[0].inside);

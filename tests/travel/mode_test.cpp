@@ -138,7 +138,10 @@ TEST_CASE("travel: the way to the next layer goes up before it goes anywhere", "
     for (const auto& step : layer.steps) {
       if (const auto* t = std::get_if<Travel>(&step))
         for (const Point3 to : t->path) {
-          if (at && at->z != to.z) CHECK(flat(*at) == flat(to)), ++ways_up;
+          if (at && at->z != to.z) {
+            CHECK(flat(*at) == flat(to));
+            ++ways_up;
+          }
           at = to;
         }
       if (const auto* e = std::get_if<Extrude>(&step)) at = place_of(*e, e->path.size() - 1, layer.z);
