@@ -83,10 +83,11 @@ void write_page(const std::vector<jobs::Prepared>& jobs, const Finished& finishe
     t.strength = jobs::strength_estimate(*entry.record, jobs[i].job.settings);
     t.picture = picture_of(options.folder / entry.line.output, jobs[i].job.settings, picture_share);
   };
-  tasks::run_crew(
+  const auto broken = tasks::run_crew(
       options.threads,
       [&]() -> std::optional<std::size_t> { return begun < jobs.size() ? std::optional(begun++) : std::nullopt; },
       fill);
+  if (!broken.empty()) std::rethrow_exception(broken.front().error);
   jobs::mark_best(trials);
   std::vector<std::string> names;
   for (const auto& axis : axes) names.push_back(axis.key);

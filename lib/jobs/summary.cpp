@@ -31,12 +31,14 @@ std::string own_value(const JobLine& line, const std::string& key) {
 
 namespace {
 
-/// Whether the record is of what the job is now. Of a model that cannot be read nothing is known but that.
+/// Whether the record is of what the job is now. A job that failed before its inputs were known has no hash of them,
+/// and looking for one would take what it took then: it is run again by the next run, whatever they are.
 bool is_of(const Record& record, const Job& job, FileHashes& files) {
+  if (record.inputs_sha256.empty()) return record.exit_status != 0;
   try {
     return record.inputs_sha256 == inputs_hash(job, files);
-  } catch (const Error&) {
-    return record.exit_status != 0 && record.inputs_sha256.empty();
+  } catch (const Error&) {  // it can no longer be read
+    return false;
   }
 }
 
