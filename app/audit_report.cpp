@@ -44,9 +44,17 @@ Json violation_of(const audit::Finding& f) {
     out["outside_mm"] = to_mm(f.outside);
   }
   if (!f.object.empty()) out["object"] = f.object;
+  if (!f.setting.empty()) out["setting"] = f.setting;
   out["layer"] = f.layer;
   out["line"] = f.line;
   out["text"] = f.text;
+  return out;
+}
+
+Json reach_beyond(const audit::Report& r) {
+  Json out = Json::object();
+  for (std::size_t i = 0; i < r.reach_beyond.size(); ++i)
+    if (r.reach_beyond[i] > 0) out[std::string(audit::name_of(static_cast<audit::Side>(i)))] = to_mm(r.reach_beyond[i]);
   return out;
 }
 
@@ -80,6 +88,12 @@ Json entry_of(const AuditEntry& entry) {
   out["opaque"] = Json::array();
   for (const auto& o : r.opaque)
     out["opaque"].push_back({{"command", o.name}, {"count", o.count}, {"first_line", o.first_line}});
+  out["not_audited_because"] = Json::array();
+  for (const auto& u : r.unaudited)
+    out["not_audited_because"].push_back(
+        {{"command", u.cause.command}, {"line", u.cause.line}, {"why", u.cause.why}, {"moves", u.count}});
+  out["summary"] = audit::summary(r);
+  out["reach_beyond_surface_mm"] = reach_beyond(r);
   out["warnings"] = Json::array();
   for (const auto& n : r.notices) out["warnings"].push_back({{"code", n.code}, {"message", n.message}});
   return out;
@@ -109,6 +123,8 @@ std::string audit_junit(const std::vector<AuditEntry>& entries) {
       const auto& r = *e.outcome.report;
       cases += fmt::format(">\n    <failure type=\"boundary\" message=\"{}\">", escape::xml(audit::summary(r)));
       for (const auto& f : r.findings) cases += escape::xml(audit::describe(f)) + "\n";
+      for (const auto& u : r.unaudited)
+        cases += escape::xml(fmt::format("{} moves not audited: {}", u.count, audit::describe(u.cause))) + "\n";
       cases += "</failure>\n  </testcase>\n";
     } else {
       ++errors;

@@ -51,10 +51,10 @@ void tell(Console& console, const AuditEntry& entry, bool name_printer) {
   if (entry.outcome.error) return console.error(*entry.outcome.error);
   const auto& r = *entry.outcome.report;
   for (const auto& notice : r.notices) console.warning({notice.code, where + ": " + notice.message});
-  std::string opaque;
   for (const auto& o : r.opaque)
-    opaque += fmt::format("{}{} ({}x, first on line {})", opaque.empty() ? "" : ", ", o.name, o.count, o.first_line);
-  if (!opaque.empty()) console.detail(fmt::format("{}: cannot be followed through {}", where, opaque));
+    console.detail(fmt::format("{}: opaque: {} ({}x, first on line {})", where, o.name, o.count, o.first_line));
+  for (const auto& u : r.unaudited)
+    console.detail(fmt::format("{}: {} moves not audited: {}", where, u.count, audit::describe(u.cause)));
   for (const auto& f : r.findings) console.detail(fmt::format("{}: {}", where, audit::describe(f)));
   for (const auto& t : r.totals)
     console.detail(fmt::format("{}: {} x {}{}{}, worst {:.3f} mm", where, t.count,
@@ -64,9 +64,16 @@ void tell(Console& console, const AuditEntry& entry, bool name_printer) {
                                                                        : " beyond ",
                                t.kind == audit::Finding::Kind::no_go ? "" : audit::name_of(t.side), to_mm(t.worst)));
   if (r.clean())
-    console.info(fmt::format("{}: pass, {} ({:.1f} %)", where, audit::summary(r), 100 * r.coverage()));
+    console.info(fmt::format("{}: pass, {}", where, audit::summary(r)));
   else
     console.error(Error{Error::Kind::audit, audit::summary(r), where, audit::remedy(r)});
+}
+
+/// The table of commands that move the nozzle or change what coordinates mean.
+std::string table_of_commands() {
+  std::string out;
+  for (const auto& m : audit::Reader::meanings()) out += fmt::format("{:<12} {}\n", m.command, m.what);
+  return out;
 }
 
 }  // namespace
@@ -75,7 +82,9 @@ int audit_verb(const Words& words) {
   po::options_description options("Options of weft audit");
   options.add_options()("against", po::value<std::vector<std::string>>()->multitoken()->value_name("FILE..."),
                         "printer profiles: says of each whether the files may run there")(
-      "format", po::value<std::string>()->value_name("json|junit")->default_value("json"), "form of the report");
+      "format", po::value<std::string>()->value_name("json|junit")->default_value("json"), "form of the report")(
+      "commands", po::bool_switch(),
+      "says of each G- and M-code that moves the nozzle or changes what coordinates mean what the audit does with it");
   const auto command = parse_command(words, options);
   if (command.help) {
     std::ostringstream out;
@@ -84,6 +93,7 @@ int audit_verb(const Words& words) {
         << common_help();
     return write_output("-", out.str()), 0;
   }
+  if (command.options["commands"].as<bool>()) return fmt::print("{}", table_of_commands()), 0;
   const auto format = command.options["format"].as<std::string>();
   if (format != "json" && format != "junit")
     throw Error{Error::Kind::usage, fmt::format("'{}' is not one of json, junit", format), "--format"};

@@ -73,24 +73,72 @@ std::string stated(std::string_view gcode, const std::vector<Mark>& marks, Repor
   }
   if (!is_stated) state();
   copy_to(gcode.size());
-  for (Finding& f : report.findings) {
+  const auto renumber = [&](std::int64_t& line) {
     std::int64_t before = 0;
-    for (const Mark& m : marks) before += m.line <= f.line ? 1 : 0;
-    if (place.replaced == 0 && f.line > 1) ++before;
-    f.line += before;
-  }
+    for (const Mark& m : marks) before += m.line <= line ? 1 : 0;
+    if (place.replaced == 0 && line > 1) ++before;
+    line += before;
+  };
+  for (Finding& f : report.findings) renumber(f.line);
+  for (Unaudited& u : report.unaudited)
+    if (u.cause.line > 0) renumber(u.cause.line);
   return out;
+}
+
+/// May the line come from this line of custom G-code, whose placeholders stand for anything?
+bool may_be(std::string_view line, std::string_view written) {
+  std::size_t at = 0;
+  for (bool first = true; !written.empty(); first = false) {
+    const auto open = written.find_first_of("{[");
+    const auto piece = written.substr(0, open);
+    const auto found = line.find(piece, at);
+    if (found == std::string_view::npos || (first && found != 0)) return false;
+    at = found + piece.size();
+    if (open == std::string_view::npos) return at == line.size() || line.ends_with(piece);
+    const auto close = written.find_first_of("}]", open);
+    written.remove_prefix(close == std::string_view::npos ? written.size() : close + 1);
+  }
+  return true;
+}
+
+/// Does the finding's line stand in this custom G-code?
+bool stands_in(const Finding& f, std::string_view text) {
+  if (f.feature != "custom" && f.kind != Finding::Kind::damaged) return false;
+  const auto bare = [](std::string_view line) {
+    line = line.substr(0, line.find(';'));
+    while (!line.empty() && (line.back() == ' ' || line.back() == '\t' || line.back() == '\r' || line.back() == '\n'))
+      line.remove_suffix(1);
+    while (!line.empty() && (line.front() == ' ' || line.front() == '\t')) line.remove_prefix(1);
+    return line;
+  };
+  const auto wanted = bare(f.text);
+  while (!wanted.empty() && !text.empty()) {
+    const auto end = std::min(text.find('\n'), text.size() - 1) + 1;
+    const auto line = bare(text.substr(0, end));
+    text.remove_prefix(end);
+    // A line that is only a placeholder may be anything.
+    if (line.find_first_of("{[") != 0 && !line.empty() && may_be(wanted, line)) return true;
+  }
+  return false;
 }
 
 struct Closer {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
-/// Formats that hold G-code but are no text.
+/// Formats that hold G-code but are no text that a printer reads.
 std::string_view not_text(std::string_view front) {
+  if (front.starts_with("\xFF\xFE") || front.starts_with("\xFE\xFF")) return "UTF-16; save it as UTF-8 or plain text";
+  if (front.size() >= 4 && front[0] != '\0' && front[1] == '\0' && front[2] != '\0' && front[3] == '\0')
+    return "UTF-16; save it as UTF-8 or plain text";
+  if (front.size() >= 4 && front[0] == '\0' && front[1] != '\0' && front[2] == '\0' && front[3] != '\0')
+    return "UTF-16; save it as UTF-8 or plain text";
   if (front.starts_with("GCDE")) return "binary G-code; export it as plain text";
   if (front.starts_with("PK\x03\x04")) return "a zip archive; take the .gcode file out of it";
-  if (front.starts_with("\x1f\x8b")) return "compressed; unpack it";
+  if (front.starts_with("\x1f\x8b")) return "compressed by gzip; unpack it with gunzip";
+  if (front.starts_with("BZh")) return "compressed by bzip2; unpack it with bunzip2";
+  if (front.starts_with("\xFD\x37zXZ")) return "compressed by xz; unpack it with unxz";
+  if (front.starts_with("\x28\xB5\x2F\xFD")) return "compressed by zstd; unpack it with unzstd";
   return {};
 }
 
@@ -110,9 +158,16 @@ void Check::add(std::string_view piece) {
   auditor_->feed(std::string_view(gcode_).substr(before));  // the bytes that stand there
 }
 
+void Check::custom_code(std::string_view setting, std::string_view text) {
+  custom_.emplace_back(setting, text);
+}
+
 Passed Check::passed() {
   auto gcode = std::move(gcode_);
   Report report = auditor_->finish();
+  for (Finding& f : report.findings)
+    for (const auto& [setting, text] : custom_)
+      if (f.setting.empty() && stands_in(f, text)) f.setting = setting;
   if (!report.clean()) {
     if (mode_ == Mode::reject) throw Rejected(std::move(report));
     report.verdict = Verdict::annotated;
@@ -156,7 +211,9 @@ Report examine(const MachineSettings& machine, const MaterialSettings& material,
   while (const std::size_t n = std::fread(buffer.get(), 1, piece, file.get())) {
     const std::string_view bytes(buffer.get(), n);
     if (std::exchange(first, false))
-      if (const auto reason = not_text(bytes); !reason.empty()) refuse("is not G-code as text", std::string(reason));
+      if (const auto reason = not_text(bytes); !reason.empty())
+        refuse(fmt::format("is not G-code as text but {}", reason.substr(0, reason.find(';'))),
+               std::string(reason.substr(reason.find(';') + 2)));
     auditor.feed(bytes);
   }
   if (std::ferror(file.get())) refuse(fmt::format("cannot be read: {}", std::strerror(errno)));

@@ -8,11 +8,14 @@
 #include "settings/groups/machine.h"
 #include "settings/groups/material.h"
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 /// The boundary audit: finished G-code is read back by a reader that shares nothing with the writer, and every motion
@@ -46,7 +49,16 @@ struct Finding {
   std::int64_t line = 0;   ///< from 1, in the bytes that were audited; in annotated G-code, of the annotated text
   std::string text;        ///< the line, cut to 120 characters
   std::string problem;     ///< of a damaged line
+  std::string setting;     ///< the custom G-code that it came from; "" when it is the slicer's own, or not known
 };
+
+/// Moves whose way is not known, by what made it so.
+struct Unaudited {
+  Cause cause;
+  std::int64_t count = 0;
+};
+/// "G68 on line 12: it turns the coordinates".
+std::string describe(const Cause& cause);
 
 /// How many findings of one sort there are, and how far the worst of them is outside.
 struct Total {
@@ -58,7 +70,8 @@ struct Total {
   Um worst;
 };
 
-enum class Verdict { pass, annotated, rejected };
+/// Verdict::unaudited: nothing was found, but not every motion could be judged, or there is none.
+enum class Verdict { pass, annotated, rejected, unaudited };
 std::string_view name_of(Verdict verdict);
 
 struct Report {
@@ -70,15 +83,22 @@ struct Report {
   Um worst_outside = 0;
   std::vector<Finding> findings;  ///< by line; the first audit_max_findings, the worst of each sort always among them
   std::vector<Total> totals;      ///< by kind, side and feature
-  std::vector<Opaque> opaque;     ///< commands after which the place of the nozzle is not known
+  std::vector<Unaudited> unaudited;  ///< why, by line
+  std::vector<Opaque> opaque;        ///< what only the printer knows: macros, calibrations, tool changes
   std::int64_t opaque_count = 0;
   std::int64_t lines = 0, bytes = 0;
+  /// How far the reach goes beyond the print surface and beyond 0 … machine_height: −x, +x, −y, +y, −z, +z. What is
+  /// printed stays on the surface; custom G-code and travels may use all of it.
+  std::array<Um, 6> reach_beyond{};
   Um tolerance = 0;
   Notices notices;
 
   /// Share of the moves that were judged in full, 0 … 1; 1 when there are none.
   double coverage() const;
-  bool clean() const { return violation_count == 0; }
+  /// Does the file hold no move at all?
+  bool empty() const { return checked_moves + unaudited_moves == 0 && violation_count == 0; }
+  /// Was every motion judged, and none found outside?
+  bool clean() const { return violation_count == 0 && unaudited_moves == 0 && !empty(); }
 };
 
 enum class Mode { reject, annotate };
@@ -118,6 +138,8 @@ class Check {
   void reserve(std::size_t bytes);
   /// What the text goes on with. Cost: one pass.
   void add(std::string_view piece);
+  /// Custom G-code of the profile: findings in it name their setting. `text` may hold placeholders.
+  void custom_code(std::string_view setting, std::string_view text);
   /// States the verdict in the text's header: the line that starts with `; weft_audit = ` is rewritten, or one is put
   /// behind the first line. With Mode::annotate a comment stands before every offending line; else the bytes are kept.
   /// Memory: when annotating, one copy of the text. Post: there is no text.
@@ -129,6 +151,7 @@ class Check {
   std::unique_ptr<Auditor> auditor_;
   Mode mode_;
   std::string gcode_;
+  std::vector<std::pair<std::string, std::string>> custom_;
 };
 
 /// Audits finished G-code, as Check does. @throws Rejected
@@ -144,17 +167,20 @@ Report examine(const MachineSettings& machine, const MaterialSettings& material,
 Report examine_text(const MachineSettings& machine, const MaterialSettings& material, const AuditSettings& audit,
                     std::string_view gcode);
 
+/// Where G-code leaves the nozzle, from above; nullopt when that is not known, as where placeholders decide it.
+std::optional<Point> place_after(const MachineSettings& machine, std::string_view gcode);
+
 /// "line 120: skirt, extrude at (201.200, 10.000, 0.200) is 1.200 mm outside +x of the print surface: G1 X201.2 …"
 std::string describe(const Finding& finding);
 
 /// "12 moves outside, worst 1.200 mm beyond +x of the print surface (skirt, extrude, line 120)"; of a clean report
-/// "18231 moves checked, 0 not audited".
+/// "18231 moves checked; opaque: PRINT_START".
 std::string summary(const Report& report);
 
 /// What the user can do about the worst finding; "" when there is none.
 std::string remedy(const Report& report);
 
-/// "pass, 18231 moves checked, 0 not audited", as it stands behind `; weft_audit = `.
+/// "pass, 18231 moves checked; opaque: PRINT_START", as it stands behind `; weft_audit = `.
 std::string header_value(const Report& report);
 
 }  // namespace weft::audit

@@ -2,6 +2,7 @@
 
 #include "core/stop.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -18,9 +19,28 @@ Shape surface_of(const MachineSettings& machine) {
   return Shape::disc(machine.machine_center_is_zero ? Vec{} : Vec{radius_mm, radius_mm}, radius_mm);
 }
 
-std::optional<Vec> home_of(const MachineSettings& machine) {
-  if (!machine.home_position || machine.home_position->empty()) return std::nullopt;
-  return vec_of(machine.home_position->front());
+std::optional<Vec> point_of(const std::optional<Ring>& point) {
+  if (!point || point->empty()) return std::nullopt;
+  return vec_of(point->front());
+}
+
+std::optional<double> height_of(const std::optional<Um>& height) {
+  return height ? std::optional(to_mm(*height)) : std::nullopt;
+}
+
+std::array<Um, 6> beyond(const MachineSettings& machine, const Bounds& surface, const Bounds& reach) {
+  const auto um = [](double mm) { return static_cast<Um>(std::lround(std::max(0.0, mm) * 1000)); };
+  return {um(surface.min.x - reach.min.x),         um(reach.max.x - surface.max.x),
+          um(surface.min.y - reach.min.y),         um(reach.max.y - surface.max.y),
+          um(-to_mm(machine.machine_reach_z_min)), um(to_mm(reach_z_max(machine) - machine.machine_height))};
+}
+
+Reader::Machine reader_machine(const MachineSettings& machine) {
+  return {.home = point_of(machine.home_position),
+          .home_z = height_of(machine.home_z),
+          .after_macro = point_of(machine.macro_position),
+          .after_macro_z = height_of(machine.macro_z),
+          .firmware = machine.firmware};
 }
 
 double disc_area_mm2(Um diameter) {
@@ -36,13 +56,26 @@ double band_mm(double width_mm, double height_mm) {
 
 }  // namespace
 
+std::optional<Point> place_after(const MachineSettings& machine, std::string_view gcode) {
+  Reader reader(reader_machine(machine));
+  Lines lines;
+  const auto read = [&](const Lines::Line& l) { reader.line(l.begin, l.end); };
+  lines.feed(gcode, read);
+  lines.finish(read);
+  const auto place = reader.place();
+  return place ? std::optional(Point{from_mm(place->x), from_mm(place->y)}) : std::nullopt;
+}
+
 Volumes::Volumes(const MachineSettings& machine, const AuditSettings& audit)
     : surface(surface_of(machine)),
       reach(machine.machine_reach.empty() ? surface : Shape::polygon(reach_area(machine))),
+      reach_is_box(reach.box()),
+      reach_is_convex(reach.convex()),
       reach_z_min_mm(to_mm(machine.machine_reach_z_min)),
       reach_z_max_mm(to_mm(reach_z_max(machine))),
       no_go_below_mm(to_mm(exclude_height(machine))),
       tolerance_mm(to_mm(audit.audit_tolerance)),
+      reach_beyond(beyond(machine, surface.bounds(), reach.bounds())),
       surface_inside(surface.inner_box()),
       reach_inside(reach.inner_box()) {
   for (const Ring& ring : machine.bed_exclude_areas) no_go.push_back(Shape::polygon(ring));
@@ -53,7 +86,7 @@ Auditor::Auditor(const MachineSettings& machine, const MaterialSettings& materia
                  bool keep_marks)
     : volumes_(machine, audit),
       filament_area_mm2_(disc_area_mm2(material.filament_diameter)),
-      reader_(home_of(machine)),
+      reader_(reader_machine(machine)),
       tally_(audit.audit_max_findings, volumes_.tolerance_mm, keep_marks),
       unmarked_(audit.audit_max_findings, volumes_.tolerance_mm, keep_marks) {}
 
@@ -68,20 +101,28 @@ void Auditor::feed(std::string_view bytes) {
 Report Auditor::finish() {
   lines_.finish([&](const Lines::Line& l) { line(l); });
   const bool unmarked = !reader_.context().began();
-  if (unmarked) tally_.merge(std::move(unmarked_));
+  if (unmarked) {
+    tally_.merge(std::move(unmarked_));
+    for (std::size_t i = 0; i < unmarked_by_cause_.size(); ++i) {
+      unaudited_by_cause_.resize(std::max(unaudited_by_cause_.size(), i + 1));
+      unaudited_by_cause_[i] += unmarked_by_cause_[i];
+      unaudited_ += unmarked_by_cause_[i];
+      checked_ -= unmarked_by_cause_[i];
+    }
+  }
   Report report;
   tally_.report(report);
-  report.verdict = report.clean() ? Verdict::pass : Verdict::rejected;
   report.checked_moves = checked_;
   report.unaudited_moves = unaudited_;
+  report_unaudited(report);
   report.opaque.assign(reader_.opaque().begin(), reader_.opaque().end());
   report.opaque_count = reader_.opaque_count();
   report.lines = reader_.line_number();
+  report.reach_beyond = volumes_.reach_beyond;
   report.bytes = lines_.bytes();
   report.tolerance = static_cast<Um>(std::lround(volumes_.tolerance_mm * 1000));
-  if (checked_ + unaudited_ == 0)
-    report.notices.push_back({"audit_no_moves", "the file holds no move: nothing was audited"});
-  else if (unmarked)
+  report.verdict = report.violation_count > 0 ? Verdict::rejected : report.clean() ? Verdict::pass : Verdict::unaudited;
+  if (!report.empty() && unmarked)
     report.notices.push_back(
         {"audit_no_features",
          "no comment tells the print from custom G-code: every extrusion was held against the print surface"});
@@ -108,6 +149,7 @@ void Auditor::line(const Lines::Line& l) {
     return;
   }
   reader_.line(l.begin, l.end);
+  line_offset_ = l.offset;
   if (reader_.motions().empty() && reader_.problems().empty()) return;
   violation_.excess.mm = surface_violation_.excess.mm = 0;
   for (const Motion& m : reader_.motions()) judge(m);
@@ -120,8 +162,8 @@ void Auditor::line(const Lines::Line& l) {
 }
 
 void Auditor::judge(const Motion& m) {
+  if (!m.continues) count(m);
   const bool known = m.from_known && m.x_known && m.y_known;
-  ++(known && m.judgeable ? checked_ : unaudited_);
   if (m.x_known && m.y_known) {
     judge_reach(m);
     const bool printing = m.extrudes && known && (!reader_.context().custom() || !reader_.context().began());
@@ -134,6 +176,49 @@ void Auditor::judge(const Motion& m) {
   if (m.z_known) judge_height(m);
 }
 
+/// The motion is judged by its whole extent, or counted with what kept it from being.
+void Auditor::count(const Motion& m) {
+  const Context& context = reader_.context();
+  const bool known = m.from_known && m.x_known && m.y_known && m.judgeable && !(m.moves_z && m.z == Known::no);
+  const bool laid = m.extrudes && context.began() && !context.custom();
+  if (known || can_be_judged(m, laid)) {
+    ++checked_;
+    if (known || !m.extrudes || context.began()) return;
+    const auto cause = static_cast<std::size_t>(std::max<int>(m.cause, 0));
+    unmarked_by_cause_.resize(std::max(unmarked_by_cause_.size(), cause + 1));
+    ++unmarked_by_cause_[cause];
+    return;
+  }
+  ++unaudited_;
+  const auto cause = static_cast<std::size_t>(std::max<int>(m.cause, 0));
+  unaudited_by_cause_.resize(std::max(unaudited_by_cause_.size(), cause + 1));
+  if (unaudited_by_cause_[cause]++ == 0)
+    tally_.mark(
+        {line_offset_, reader_.line_number(), "; WEFT-AUDIT not audited: " + describe(reader_.causes()[cause])});
+}
+
+/// Can a motion from a place that is not known be judged, taken to start anywhere in the reach? Every segment between
+/// two places of a convex reach stays in it; a bead and what may meet a no-go area need their start.
+bool Auditor::can_be_judged(const Motion& m, bool laid) const {
+  if (!m.judgeable || (m.moves_z && m.z == Known::no)) return false;
+  if (!m.moves_xy) return true;  // straight up or down
+  if (m.from == Known::no || m.x == Known::no || m.y == Known::no || m.path.arc || laid) return false;
+  if (!volumes_.no_go.empty() && below_no_go(m)) return false;
+  return m.x_known && m.y_known ? volumes_.reach_is_convex : volumes_.reach_is_box;
+}
+
+/// Where Z is not known the nozzle is taken to be low, as it is after homing.
+bool Auditor::below_no_go(const Motion& m) const {
+  return !m.z_known || std::min(m.z_from, m.z_to) < volumes_.no_go_below_mm;
+}
+
+void Auditor::report_unaudited(Report& report) const {
+  for (std::size_t i = 0; i < unaudited_by_cause_.size(); ++i)
+    if (unaudited_by_cause_[i] > 0) report.unaudited.push_back({reader_.causes()[i], unaudited_by_cause_[i]});
+  std::stable_sort(report.unaudited.begin(), report.unaudited.end(),
+                   [](const Unaudited& a, const Unaudited& b) { return a.cause.line < b.cause.line; });
+}
+
 void Auditor::offer(Violation& worst, Finding::Kind kind, const Motion& m, const Excess& excess, int area) {
   if (excess.mm <= volumes_.tolerance_mm || excess.mm <= worst.excess.mm) return;
   worst = {.kind = kind, .move = m.kind, .excess = excess, .z_mm = m.z_to, .area = area};
@@ -143,8 +228,10 @@ void Auditor::judge_reach(const Motion& m) {
   const Bounds& inside = volumes_.reach_inside;
   if (!m.path.arc && inside.holds(m.path.from, 0) && inside.holds(m.path.to, 0)) return;
   Path path = m.path;
-  if (m.from_home && !path.arc)
-    path.from = path.to;  // homing switches may stand outside; the way from there is the machine's
+  if (m.from_home && !path.arc) {  // homing switches may stand outside; the way in from there is the machine's
+    if (!m.moves_xy) return;
+    path = volumes_.reach.from_inside(path);
+  }
   offer(violation_, Finding::Kind::reach, m, volumes_.reach.leaving(path, 0));
 }
 
@@ -162,8 +249,7 @@ void Auditor::judge_surface(const Motion& m, double margin_mm) {
 }
 
 void Auditor::judge_no_go(const Motion& m, double margin_mm) {
-  // Where Z is not known the nozzle is taken to be low, as it is after homing.
-  if (m.z_known && std::min(m.z_from, m.z_to) >= volumes_.no_go_below_mm) return;
+  if (!below_no_go(m)) return;
   for (std::size_t i = 0; i < volumes_.no_go.size(); ++i)
     offer(violation_, Finding::Kind::no_go, m, volumes_.no_go[i].entering(m.path, margin_mm), static_cast<int>(i) + 1);
 }

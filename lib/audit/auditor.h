@@ -12,7 +12,9 @@ struct Volumes {
   Volumes(const MachineSettings& machine, const AuditSettings& audit);
   Shape surface, reach;
   std::vector<Shape> no_go;
+  bool reach_is_box, reach_is_convex;
   double reach_z_min_mm, reach_z_max_mm, no_go_below_mm, tolerance_mm;
+  std::array<Um, 6> reach_beyond;       ///< Report::reach_beyond
   Bounds surface_inside, reach_inside;  ///< boxes wholly inside: most motions need no more than these
   std::vector<Vec> nozzle_offsets;
   Vec nozzle_offset(int tool) const {
@@ -39,6 +41,10 @@ class Auditor {
   void judge_no_go(const Motion& motion, double margin_mm);
   void judge_height(const Motion& motion);
   void judge_half_known(const Motion& motion);
+  bool can_be_judged(const Motion& motion, bool printing) const;
+  bool below_no_go(const Motion& motion) const;
+  void count(const Motion& motion);
+  void report_unaudited(Report& report) const;
   double half_bead_mm(const Motion& motion);
   void offer(Violation& worst, Finding::Kind kind, const Motion& motion, const Excess& excess, int area = 0);
 
@@ -49,8 +55,12 @@ class Auditor {
   Tally tally_;
   Tally unmarked_;  ///< what counts only if no comment ever tells print from custom G-code
   std::int64_t checked_ = 0, unaudited_ = 0;
+  std::vector<std::int64_t> unaudited_by_cause_;  ///< by the reader's number of the cause
+  /// Beads from a place that is not known, by cause: they count if no comment ever tells print from custom G-code.
+  std::vector<std::int64_t> unmarked_by_cause_;
   double layer_z_mm_ = 0, layer_height_mm_ = 0;  ///< of the last extrusion, for files that do not state a height
   // Of the line at hand:
+  std::int64_t line_offset_ = 0;
   Violation violation_, surface_violation_;  ///< the worst; its excess is 0 when there is none
 };
 

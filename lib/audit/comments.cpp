@@ -108,79 +108,93 @@ void Context::next_layer(int number) {
   if (feature_ == custom_index) feature_ = 0;  // a layer's own moves come before its first feature is named
 }
 
+void Context::layer_named(std::string_view number) {
+  next_layer(whole_from(number));
+}
+
+void Context::one_layer_on(std::string_view) {
+  next_layer(layer_ + 1);
+}
+
+/// Simplify3D: "layer 2, Z = 0.4".
+void Context::layer_at_height(std::string_view rest) {
+  if (rest.find(", Z =") != std::string_view::npos) next_layer(layer_ + 1);
+}
+
+void Context::count_layers(std::string_view number) {
+  layer_count_ = whole_from(number);
+}
+
+/// Cura says the time after each layer.
+void Context::layer_done(std::string_view) {
+  if (layer_count_ > 0 && layer_ + 1 >= layer_count_) ended_ = true;
+}
+
+void Context::end(std::string_view) {
+  ended_ = true;
+}
+
+void Context::set_width(std::string_view length) {
+  width_mm_ = length_from(length);
+}
+
+void Context::set_height(std::string_view length) {
+  height_mm_ = length_from(length);
+}
+
+/// weft, below PrusaSlicer's "Skirt/Brim".
+void Context::brim(std::string_view rest) {
+  if (rest.empty()) set_feature("brim");
+}
+
+void Context::mesh(std::string_view name) {
+  set_object(name == "NONMESH" ? std::string_view{} : name);
+}
+
+void Context::printing_object(std::string_view rest) {
+  set_object(rest.substr(0, rest.find(" id:")));
+}
+
+void Context::no_object(std::string_view) {
+  set_object({});
+}
+
 void Context::read(std::string_view c) {
+  struct Sign {
+    std::string_view prefix;
+    void (Context::*read)(std::string_view rest);
+  };
+  using C = Context;
+  static constexpr Sign signs[] = {
+      {"TYPE:", &C::set_feature},
+      {"WIDTH:", &C::set_width},
+      {"HEIGHT:", &C::set_height},
+      {"LAYER_CHANGE", &C::one_layer_on},
+      {"LAYER:", &C::layer_named},
+      {"LAYER_COUNT:", &C::count_layers},
+      {"TIME_ELAPSED:", &C::layer_done},
+      {"MESH:", &C::mesh},
+      {"printing object ", &C::printing_object},
+      {"stop printing object", &C::no_object},
+      {"brim", &C::brim},
+      {"CHANGE_LAYER", &C::one_layer_on},  // Bambu
+      {"FEATURE:", &C::set_feature},
+      {"LINE_WIDTH:", &C::set_width},
+      {"LAYER_HEIGHT:", &C::set_height},
+      {"OBJECT_ID:", &C::set_object},
+      {"start printing object, unique label id:", &C::set_object},
+      {"MACHINE_END_GCODE_START", &C::end},
+      {"EXECUTABLE_BLOCK_END", &C::end},
+      {"End of Gcode", &C::end},
+      {"feature ", &C::set_feature},  // Simplify3D
+      {"layer ", &C::layer_at_height},
+      {"BEGIN_LAYER", &C::one_layer_on},   // KISSlicer
+      {"; --- layer ", &C::one_layer_on},  // Kiri:Moto
+  };
   while (!c.empty() && scan::is_blank(c.front())) c.remove_prefix(1);
   if (c.empty()) return;
-  switch (c.front()) {
-    case 'T':
-      if (take(c, "TYPE:"))
-        set_feature(c);
-      else if (c.starts_with("TIME_ELAPSED:") && layer_count_ > 0 && layer_ + 1 >= layer_count_)
-        ended_ = true;  // Cura
-      break;
-    case 'F':
-      if (take(c, "FEATURE:")) set_feature(c);  // Bambu
-      break;
-    case 'f':
-      if (take(c, "feature ")) set_feature(c);  // Simplify3D
-      break;
-    case 'L':
-      if (c.starts_with("LAYER_CHANGE"))
-        next_layer(layer_ + 1);
-      else if (take(c, "LAYER:"))
-        next_layer(whole_from(c));
-      else if (take(c, "LAYER_COUNT:"))
-        layer_count_ = whole_from(c);
-      else if (take(c, "LINE_WIDTH:"))
-        width_mm_ = length_from(c);
-      else if (take(c, "LAYER_HEIGHT:"))
-        height_mm_ = length_from(c);
-      break;
-    case 'l':
-      if (c.starts_with("layer ") && c.find(", Z =") != std::string_view::npos) next_layer(layer_ + 1);  // Simplify3D
-      break;
-    case 'B':
-      if (c.starts_with("BEGIN_LAYER")) next_layer(layer_ + 1);  // KISSlicer
-      break;
-    case ';':
-      if (c.starts_with("; --- layer ")) next_layer(layer_ + 1);  // Kiri:Moto
-      break;
-    case 'b':
-      if (c == "brim") set_feature(c);  // weft, below PrusaSlicer's "Skirt/Brim"
-      break;
-    case 'C':
-      if (c.starts_with("CHANGE_LAYER")) next_layer(layer_ + 1);  // Bambu
-      break;
-    case 'W':
-      if (take(c, "WIDTH:")) width_mm_ = length_from(c);
-      break;
-    case 'H':
-      if (take(c, "HEIGHT:")) height_mm_ = length_from(c);
-      break;
-    case 'M':
-      if (take(c, "MESH:"))
-        set_object(c == "NONMESH" ? std::string_view{} : c);
-      else if (c.starts_with("MACHINE_END_GCODE_START"))
-        ended_ = true;
-      break;
-    case 'E':
-      if (c.starts_with("EXECUTABLE_BLOCK_END") || c.starts_with("End of Gcode")) ended_ = true;
-      break;
-    case 'O':
-      if (take(c, "OBJECT_ID:")) set_object(c);  // Bambu
-      break;
-    case 'p':
-      if (take(c, "printing object ")) set_object(c.substr(0, c.find(" id:")));
-      break;
-    case 's':
-      if (c.starts_with("stop printing object"))
-        set_object({});
-      else if (take(c, "start printing object, unique label id:"))
-        set_object(c);
-      break;
-    default:
-      break;
-  }
+  for (const Sign& s : signs)
+    if (s.prefix.front() == c.front() && take(c, s.prefix)) return (this->*s.read)(c);
 }
 
 }  // namespace weft::audit

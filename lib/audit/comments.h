@@ -39,6 +39,19 @@ class Context {
   static constexpr std::size_t most_name = 60, most_names = 64;
   void set_feature(std::string_view slicers_name);
   void next_layer(int number);
+  // What the signs in comments mean; see read().
+  void layer_named(std::string_view number);
+  void one_layer_on(std::string_view);
+  void layer_at_height(std::string_view rest);
+  void count_layers(std::string_view number);
+  void layer_done(std::string_view);
+  void end(std::string_view);
+  void set_width(std::string_view length);
+  void set_height(std::string_view length);
+  void brim(std::string_view rest);
+  void mesh(std::string_view name);
+  void printing_object(std::string_view rest);
+  void no_object(std::string_view);
 
   std::vector<std::string> names_;
   std::uint8_t feature_ = 0;

@@ -42,17 +42,14 @@ constexpr std::array harmless_commands{
     "SET_PRINT_STATS_INFO"sv,
     "SET_RETRACTION"sv,
     "SET_SERVO"sv,
-    "SET_SKEW"sv,
     "SET_STEPPER_ENABLE"sv,
     "SET_TEMPERATURE_FAN_TARGET"sv,
     "SET_TMC_CURRENT"sv,
     "SET_TMC_FIELD"sv,
     "SET_VELOCITY_LIMIT"sv,
-    "SKEW_PROFILE"sv,
     "STATUS"sv,
     "TEMPERATURE_WAIT"sv,
     "TURN_OFF_HEATERS"sv,
-    "UPDATE_DELAYED_GCODE"sv,
 };
 static_assert(std::is_sorted(harmless_commands.begin(), harmless_commands.end()));
 
@@ -87,16 +84,22 @@ bool Reader::klipper_moves(const Arguments& arguments) {
   const auto* const text = find(arguments, "MOVE");
   if (!text) return false;
   const auto v = klipper::integer_of(*text);
-  if (!v) problem("an argument that is no number"), forget_position();
+  if (!v) problem("an argument that is no number"), damaged_position();
   return v.value_or(0) != 0;
 }
 
-/// A straight way to a place in machine coordinates that a command, not a move, asks for.
-void Reader::move_straight_to(const std::array<double, 3>& to, const std::array<bool, 3>& known) {
-  Motion& m = begin_motion(to, known);
-  m.kind = m.z_known && state_.known[z] && m.z_to > m.z_from ? Motion::Kind::lift : Motion::Kind::travel;
-  state_.position = to;
-  state_.known = known;
+/// One axis of SET_GCODE_OFFSET, E being the fourth. @param to where MOVE=1 then leads
+void Reader::klipper_offset_of(std::size_t i, const std::string& text, bool step, std::array<double, 3>& to) {
+  const auto v = klipper_number(text);
+  if (!v) return damaged_position();
+  double& old = i < 3 ? state_.homing_offset[i] : state_.homing_e;
+  const double wanted = *v + (step ? old : 0), by = wanted - old;
+  if (!(std::abs(wanted) <= scan::furthest_mm)) return problem("a number beyond any machine"), damaged_position();
+  if (i < 3)
+    shift(i, by), to[i] += by;
+  else
+    state_.e -= by;
+  old = wanted;
 }
 
 /// SET_GCODE_OFFSET: what is written means another place from now on; the nozzle stays, unless MOVE=1.
@@ -105,25 +108,12 @@ void Reader::klipper_offset(const Arguments& arguments) {
                                     steps[] = {"X_ADJUST", "Y_ADJUST", "Z_ADJUST", "E_ADJUST"};
   std::array<double, 3> to = state_.position;
   for (std::size_t i = 0; i < 4; ++i) {
-    const auto* const whole = find(arguments, axes[i]);
-    const auto* const step = whole ? nullptr : find(arguments, steps[i]);
-    if (!whole && !step) continue;
-    const auto v = klipper_number(whole ? *whole : *step);
-    double& old = i < 3 ? state_.homing_offset[i] : state_.homing_e;
-    const double wanted = v.value_or(0) + (whole ? 0 : old), by = wanted - old;
-    if (i == 3) {
-      state_.e -= v ? by : 0;
-    } else if (!v || !(std::abs(wanted) <= scan::furthest_mm)) {
-      if (v) problem("a number beyond any machine");
-      offset_lost_[i] = true, state_.offset_known[i] = false;
-      continue;
-    } else {
-      state_.offset[i] += by;
-      to[i] += by;
-    }
-    if (v) old = wanted;
+    if (const auto* const whole = find(arguments, axes[i]))
+      klipper_offset_of(i, *whole, false, to);
+    else if (const auto* const step = find(arguments, steps[i]))
+      klipper_offset_of(i, *step, true, to);
   }
-  if (klipper_moves(arguments)) move_straight_to(to, state_.known);
+  if (klipper_moves(arguments)) move_straight_to(to, state_.known, state_.cause);
 }
 
 void Reader::klipper_save(const Arguments& arguments) {
@@ -138,14 +128,49 @@ void Reader::klipper_save(const Arguments& arguments) {
 void Reader::klipper_restore(const Arguments& arguments) {
   const auto at = saved_.find(name_in(arguments, "default"));
   if (at == saved_.end()) {  // Klipper stops here, but a macro may have saved it
-    lose_offsets({});
-    return opaque_command("RESTORE_GCODE_STATE");
+    opaque_command("RESTORE_GCODE_STATE");
+    return lose(stored, nullptr, cause_of("RESTORE_GCODE_STATE", "the file does not say what was saved", true));
   }
-  const State now = std::exchange(state_, at->second);
   const State& then = at->second;
-  state_.position = now.position, state_.known = now.known, state_.homed = now.homed;
-  for (std::size_t i = 0; i < 3; ++i) state_.offset_known[i] = then.offset_known[i] && !offset_lost_[i];
-  if (klipper_moves(arguments)) move_straight_to(then.position, then.known);
+  const State now = std::exchange(state_, then);
+  state_.position = now.position, state_.known = now.known, state_.cause = now.cause, state_.homed = now.homed;
+  for (std::size_t i = 0; i < 3; ++i) frame_known_[i] = frame_lost(i) < 0;
+  if (klipper_moves(arguments)) move_straight_to(then.position, then.known, then.cause);
+}
+
+/// SET_KINEMATIC_POSITION, FORCE_MOVE: the machine stands elsewhere than it believes, until it is homed.
+void Reader::klipper_forced(const Arguments&) {
+  const auto cause = cause_of("SET_KINEMATIC_POSITION", "the machine stands elsewhere than it believes", true);
+  state_.shift_lost.fill(cause);
+  frame_known_.fill(false);
+  forget_position(cause, Known::no);
+}
+
+/// ACTIVATE_EXTRUDER EXTRUDER=extruder1: the tool in use.
+void Reader::klipper_extruder(const Arguments& arguments) {
+  const auto* const name = find(arguments, "EXTRUDER");
+  const std::string_view stem = "extruder";
+  if (!name || !name->starts_with(stem)) return opaque_command("ACTIVATE_EXTRUDER");
+  const auto number = klipper::integer_of(name->size() == stem.size() ? "0" : name->substr(stem.size()));
+  if (!number || *number < 0) return opaque_command("ACTIVATE_EXTRUDER");
+  tool_ = *number;
+  take_tool_offsets();
+}
+
+void Reader::klipper_skew(const Arguments& arguments) {
+  const auto* const clear = find(arguments, "CLEAR");
+  if (!clear || klipper::integer_of(*clear).value_or(0) == 0)
+    lose(stored, nullptr, cause_of("SET_SKEW", "it skews the axes", true));
+}
+
+void Reader::klipper_delayed(const Arguments& arguments) {
+  const auto* const duration = find(arguments, "DURATION");
+  if (!duration || klipper::number_of(*duration) != 0.0) opaque_command("UPDATE_DELAYED_GCODE");
+}
+
+/// SKEW_PROFILE: what a calibration measured, like a mesh.
+void Reader::klipper_skew_profile(const Arguments&) {
+  list_opaque("SKEW_PROFILE");
 }
 
 /// Reads the arguments as Klipper's host does and hands them to the command.
@@ -161,18 +186,7 @@ void Reader::klipper_command(KlipperHandler handler, std::string_view text) {
   const auto arguments = named ? klipper::arguments_of(text) : std::nullopt;
   if (arguments) return (this->*handler)(*arguments);
   problem("arguments that the firmware refuses");
-  lose_offsets({});
-  forget_position();
-}
-
-/// "extruder" is the first tool, "extruder1" the one with that number; what else it is called tells none.
-void Reader::klipper_activate(const Arguments& arguments) {
-  constexpr std::string_view first = "extruder";
-  const auto* const found = find(arguments, "EXTRUDER");
-  if (!found || !found->starts_with(first)) return;
-  const std::string_view name = *found;
-  const auto number = klipper::integer_of(name.substr(first.size()));
-  if (name == first || number) tool_ = number.value_or(0);
+  damaged_position();
 }
 
 void Reader::klipper_object(const Arguments& arguments) {
@@ -189,9 +203,17 @@ const char* Reader::extended_command(const char* p, const char* end) {
     KlipperHandler handler;
   };
   static constexpr Modelled modelled[] = {
-      {"ACTIVATE_EXTRUDER", &Reader::klipper_activate},  {"EXCLUDE_OBJECT_END", &Reader::klipper_object_end},
-      {"EXCLUDE_OBJECT_START", &Reader::klipper_object}, {"RESTORE_GCODE_STATE", &Reader::klipper_restore},
-      {"SAVE_GCODE_STATE", &Reader::klipper_save},       {"SET_GCODE_OFFSET", &Reader::klipper_offset},
+      {"ACTIVATE_EXTRUDER", &Reader::klipper_extruder},
+      {"EXCLUDE_OBJECT_END", &Reader::klipper_object_end},
+      {"EXCLUDE_OBJECT_START", &Reader::klipper_object},
+      {"FORCE_MOVE", &Reader::klipper_forced},
+      {"RESTORE_GCODE_STATE", &Reader::klipper_restore},
+      {"SAVE_GCODE_STATE", &Reader::klipper_save},
+      {"SET_GCODE_OFFSET", &Reader::klipper_offset},
+      {"SET_KINEMATIC_POSITION", &Reader::klipper_forced},
+      {"SET_SKEW", &Reader::klipper_skew},
+      {"SKEW_PROFILE", &Reader::klipper_skew_profile},
+      {"UPDATE_DELAYED_GCODE", &Reader::klipper_delayed},
   };
   const char* name_end = p;
   while (name_end < end && (scan::is_letter(*name_end) || scan::is_digit(*name_end) || *name_end == '_')) ++name_end;
@@ -208,6 +230,7 @@ const char* Reader::extended_command(const char* p, const char* end) {
       klipper_command(m.handler, {name_end, static_cast<std::size_t>(end - name_end)});
       return end;
     }
+  if (name == "SDCARD_LOOP_BEGIN") lose(stored, nullptr, cause_of(name, "the lines from here are run again", true));
   const auto at = std::lower_bound(harmless_commands.begin(), harmless_commands.end(), name);
   if (at == harmless_commands.end() || *at != name) opaque_command(name);
   return skip_words(p, end);

@@ -1,5 +1,6 @@
 #include "audit/shape.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace weft::audit {
@@ -157,6 +158,29 @@ Excess Shape::worst_between_meetings(const Path& path, bool inside) const {
     if (const Excess e = deepest(path, stops[i], stops[i + 1]); e.mm > worst.mm) worst = e;
   }
   return worst;
+}
+
+bool Shape::box() const {
+  return !disc_ && convex_ &&
+         std::all_of(edges_.begin(), edges_.end(), [](const Edge& e) { return e.a.x == e.b.x || e.a.y == e.b.y; });
+}
+
+Path Shape::from_inside(const Path& path) const {
+  if (leaving({.from = path.from, .to = path.from}, 0).mm <= 0) return path;
+  Path rest = path;
+  rest.from = path.to;
+  if (disc_ || convex_) return rest;  // what lies between a place inside and the end, which is judged, is inside
+  std::vector<double> stops{1.0};
+  double t[2];
+  for (const Edge& e : edges_)
+    for (int i = meetings(path, e.a, e.b, t); i-- > 0;) stops.push_back(t[i]);
+  std::sort(stops.begin(), stops.end());
+  for (std::size_t i = 0; i + 1 < stops.size(); ++i)
+    if (stops[i + 1] - stops[i] > 1e-12 && holds(audit::at(path, (stops[i] + stops[i + 1]) / 2))) {
+      rest.from = audit::at(path, stops[i]);
+      break;
+    }
+  return rest;
 }
 
 Bounds Shape::inner_box() const {

@@ -38,6 +38,14 @@ class Shape {
   /// How deep the path, grown by `margin_mm`, enters the shape. Pre: a polygon. `side` is Side::no_go.
   Excess entering(const Path& path, double margin_mm) const;
 
+  /// The path without its first stretch outside of the shape: from where it first enters. Only its end when it never
+  /// does. Pre: straight.
+  Path from_inside(const Path& path) const;
+
+  bool convex() const { return convex_; }
+  /// Is it a rectangle along the axes?
+  bool box() const;
+
   const Bounds& bounds() const { return bounds_; }
 
   /// A box that lies wholly inside, as large as a scaled bounding box can be; empty when the middle is not inside.

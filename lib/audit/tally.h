@@ -2,6 +2,7 @@
 #include "audit/audit.h"
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace weft::audit {
@@ -44,6 +45,10 @@ class Tally {
   void merge(Tally other);
   /// Fills the counts, findings and totals of the report.
   void report(Report& report) const;
+  /// An annotation that is no finding.
+  void mark(Mark mark) {
+    if (keep_marks_) marks_.push_back(std::move(mark));
+  }
   const std::vector<Mark>& marks() const { return marks_; }
   bool empty() const { return lines_ == 0; }
 

@@ -40,7 +40,8 @@ std::string who(const Finding& f) {
 }  // namespace
 
 std::string_view name_of(Motion::Kind kind) {
-  static constexpr std::array<std::string_view, 4> names{"travel", "extrude", "arc", "lift"};
+  static constexpr std::array<std::string_view, 6> names{"travel", "extrude",     "arc",
+                                                         "lift",   "sloped lift", "spiral lift"};
   return names[static_cast<std::size_t>(kind)];
 }
 
@@ -50,41 +51,100 @@ std::string_view name_of(Side side) {
 }
 
 std::string_view name_of(Verdict verdict) {
-  static constexpr std::array<std::string_view, 3> names{"pass", "annotated", "rejected"};
+  static constexpr std::array<std::string_view, 4> names{"pass", "annotated", "rejected", "unaudited"};
   return names[static_cast<std::size_t>(verdict)];
 }
 
 std::string describe(const Finding& f) {
-  if (f.kind == Finding::Kind::damaged) return fmt::format("line {}: {}: {}", f.line, f.problem, f.text);
-  return fmt::format("line {}: {} at ({:.3f}, {:.3f}, {:.3f}) is {}{}: {}", f.line, who(f), to_mm(f.at.x),
+  const std::string from = f.setting.empty() ? "" : fmt::format(" (from {})", f.setting);
+  if (f.kind == Finding::Kind::damaged) return fmt::format("line {}: {}{}: {}", f.line, f.problem, from, f.text);
+  return fmt::format("line {}: {} at ({:.3f}, {:.3f}, {:.3f}) is {}{}{}: {}", f.line, who(f), to_mm(f.at.x),
                      to_mm(f.at.y), to_mm(f.at.z), extent_of(f),
-                     f.object.empty() ? "" : fmt::format(" (object {})", f.object), f.text);
+                     f.object.empty() ? "" : fmt::format(" (object {})", f.object), from, f.text);
 }
 
-std::string summary(const Report& r) {
-  if (r.clean()) return fmt::format("{} moves checked, {} not audited", r.checked_moves, r.unaudited_moves);
-  const auto outside = r.violation_count - r.damaged_count;
+std::string describe(const Cause& cause) {
+  if (cause.command.empty()) return std::string(cause.why);
+  return fmt::format("{} on line {}: {}", cause.command, cause.line, cause.why);
+}
+
+namespace {
+
+/// "PRINT_START, G29", cut after some.
+std::string names_of(const std::vector<Opaque>& opaque) {
+  constexpr std::size_t most = 12;
   std::string out;
-  const Finding* const worst = worst_of(r);
-  if (outside > 0) {
-    out = fmt::format("{} move{} outside", outside, plural(outside));
-    if (worst) out += fmt::format(", worst {} ({}, line {})", extent_of(*worst), who(*worst), worst->line);
-  }
-  if (r.damaged_count > 0) {
-    const auto first = std::find_if(r.findings.begin(), r.findings.end(),
-                                    [](const Finding& f) { return f.kind == Finding::Kind::damaged; });
-    out += fmt::format("{}{} damaged line{}", out.empty() ? "" : "; ", r.damaged_count, plural(r.damaged_count));
-    if (first != r.findings.end()) out += fmt::format(", first line {}: {}", first->line, first->problem);
+  for (std::size_t i = 0; i < opaque.size() && i < most; ++i) out += (i == 0 ? "" : ", ") + opaque[i].name;
+  if (opaque.size() > most) out += fmt::format(" and {} more", opaque.size() - most);
+  return out;
+}
+
+/// "1553 moves not audited (G68 on line 3: it turns the coordinates)".
+std::string unaudited_of(const Report& r) {
+  std::string out = fmt::format("{} move{} not audited", r.unaudited_moves, plural(r.unaudited_moves));
+  if (r.unaudited.empty()) return out;
+  const auto most = std::max_element(r.unaudited.begin(), r.unaudited.end(),
+                                     [](const Unaudited& a, const Unaudited& b) { return a.count < b.count; });
+  out += " (" + describe(most->cause);
+  if (r.unaudited.size() > 1)
+    out += fmt::format("; {} more cause{}", r.unaudited.size() - 1,
+                       plural(static_cast<std::int64_t>(r.unaudited.size()) - 1));
+  return out + ")";
+}
+
+std::string damage_of(const Report& r) {
+  const auto first = std::find_if(r.findings.begin(), r.findings.end(),
+                                  [](const Finding& f) { return f.kind == Finding::Kind::damaged; });
+  std::string out = fmt::format("{} damaged line{}", r.damaged_count, plural(r.damaged_count));
+  if (first != r.findings.end()) {
+    out += fmt::format(", first line {}: {}", first->line, first->problem);
+    if (!first->setting.empty()) out += fmt::format(", from {}: {}", first->setting, first->text);
   }
   return out;
 }
 
+}  // namespace
+
+std::string summary(const Report& r) {
+  if (r.empty()) return "nothing to audit: did the upload break off?";
+  const auto outside = r.violation_count - r.damaged_count;
+  std::string out;
+  const auto add = [&](const std::string& part) { out += (out.empty() ? "" : "; ") + part; };
+  if (const Finding* const worst = worst_of(r); outside > 0) {
+    out = fmt::format("{} move{} outside", outside, plural(outside));
+    if (worst) {
+      out += fmt::format(", worst {} ({}, line {})", extent_of(*worst), who(*worst), worst->line);
+      if (!worst->setting.empty()) out += fmt::format(", from {}: {}", worst->setting, worst->text);
+    }
+  }
+  if (r.damaged_count > 0) add(damage_of(r));
+  if (r.unaudited_moves > 0) add(unaudited_of(r));
+  if (r.clean()) add(fmt::format("{} move{} checked", r.checked_moves, plural(r.checked_moves)));
+  if (!r.opaque.empty()) add("opaque: " + names_of(r.opaque));
+  return out;
+}
+
+namespace {
+
+/// How to have moves audited that could not be.
+std::string remedy_for(const Cause& cause) {
+  if (cause.frame)
+    return fmt::format("take {} out, or use --audit annotate if the printer is known to stay inside", cause.command);
+  if (cause.command == "G28") return "say with home_position and home_z where G28 leaves the nozzle";
+  if (cause.command.empty())
+    return "home first (G28), and say with home_position and home_z where that leaves the nozzle";
+  return "say with macro_position and macro_z where macros leave the nozzle";
+}
+
+}  // namespace
+
 std::string remedy(const Report& r) {
   const Finding* const f = worst_of(r);
-  if (!f) return {};
+  if (!f) return r.unaudited.empty() ? std::string{} : remedy_for(r.unaudited.front().cause);
   switch (f->kind) {
     case Finding::Kind::damaged:
-      return "slice it again or copy it again: the file is not as its slicer wrote it";
+      return f->setting.empty() ? "slice it again or copy it again: the file is not as its slicer wrote it"
+                                : "mend " + f->setting;
     case Finding::Kind::no_go:
       return "move the part away from bed_exclude_areas, or give exclude_height if the nozzle may pass above them";
     case Finding::Kind::surface:
@@ -98,17 +158,22 @@ std::string remedy(const Report& r) {
     return "the print or its end G-code is higher than the machine; see machine_height and machine_reach_z_max";
   if (f->side == Side::minus_z) return "if the nozzle may go this low, say so with machine_reach_z_min";
   if (f->feature == "custom")
-    return "if the nozzle can go there, say so with machine_reach; if not, mend the start or end G-code";
+    return fmt::format("if the nozzle can go there, say so with machine_reach; if not, mend {}",
+                       f->setting.empty() ? "the start or end G-code" : f->setting);
   return "move the part inwards; if the nozzle can go there, say so with machine_reach";
 }
 
 std::string header_value(const Report& r) {
   if (r.clean()) return fmt::format("pass, {}", summary(r));
   const auto outside = r.violation_count - r.damaged_count;
-  std::string out = fmt::format("{}: {} move{} outside, worst {:.3f} mm", name_of(r.verdict), outside, plural(outside),
-                                to_mm(r.worst_outside));
-  if (r.damaged_count > 0) out += fmt::format(", {} damaged line{}", r.damaged_count, plural(r.damaged_count));
-  return out;
+  std::string out;
+  const auto add = [&](const std::string& part) { out += (out.empty() ? ": " : ", ") + part; };
+  if (outside > 0)
+    add(fmt::format("{} move{} outside, worst {:.3f} mm", outside, plural(outside), to_mm(r.worst_outside)));
+  if (r.damaged_count > 0) add(fmt::format("{} damaged line{}", r.damaged_count, plural(r.damaged_count)));
+  if (r.unaudited_moves > 0) add(fmt::format("{} move{} not audited", r.unaudited_moves, plural(r.unaudited_moves)));
+  if (r.empty()) add("nothing to audit");
+  return std::string(name_of(r.verdict)) + out;
 }
 
 }  // namespace weft::audit

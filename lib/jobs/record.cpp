@@ -81,6 +81,7 @@ std::optional<Record> read_record(const fs::path& folder, const JobLine& job) {
     out.layers = r.at("layers");
     out.warnings = r.at("warnings").size();
     out.verdict = r.at("audit").at("verdict");
+    out.audit = r.at("audit").value("summary", "");
     out.line = dumped(r);
     if (out.id != job.id) return std::nullopt;
     return out;

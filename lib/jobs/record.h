@@ -27,6 +27,7 @@ struct Record {
   double print_time_s = 0, filament_mm = 0, filament_g = 0, height_mm = 0;
   std::size_t layers = 0, warnings = 0;
   std::string verdict;  ///< of the audit
+  std::string audit;    ///< the same in words
   std::string line;     ///< JSON, without newline
 };
 

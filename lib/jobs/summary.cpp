@@ -104,7 +104,10 @@ std::string junit_xml(const Collected& collected, std::string_view suite) {
   for (const auto& entry : collected.entries) {
     out += fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", escape::xml(suite),
                        escape::xml(entry.line.id), entry.record ? entry.record->seconds : 0.0);
-    if (entry.ok())
+    if (entry.ok() && entry.record->verdict == "annotated")
+      out += fmt::format(">\n   <system-out>audit annotated: {}</system-out>\n  </testcase>\n",
+                         escape::xml(entry.record->audit));
+    else if (entry.ok())
       out += "/>\n";
     else if (entry.record)
       out += fmt::format(">\n   <failure type=\"exit status {}\" message=\"{}\"/>\n  </testcase>\n",

@@ -76,6 +76,7 @@ void note_statistics(const Statistics& s, Report& report) {
 void note_audit(const audit::Report& a, Report& report) {
   auto& out = report.audit;
   out.verdict = audit::name_of(a.verdict);
+  out.summary = audit::summary(a);
   out.checked_moves = static_cast<std::size_t>(a.checked_moves);
   out.not_audited = static_cast<std::size_t>(a.unaudited_moves);
   out.violation_count = static_cast<std::size_t>(a.violation_count);
@@ -85,11 +86,31 @@ void note_audit(const audit::Report& a, Report& report) {
                               std::string(audit::name_of(f.side)),
                               f.object,
                               f.text,
+                              f.setting,
                               {to_mm(f.at.x), to_mm(f.at.y), to_mm(f.at.z)},
                               to_mm(f.outside),
                               f.layer,
                               static_cast<std::size_t>(f.line)});
+  for (const auto& u : a.unaudited)
+    out.gaps.push_back({u.cause.command, std::string(u.cause.why), static_cast<std::size_t>(u.cause.line),
+                        static_cast<std::size_t>(u.count)});
+  for (const auto& o : a.opaque) out.opaque.push_back(o.name);
+  for (std::size_t i = 0; i < a.reach_beyond.size(); ++i)
+    if (a.reach_beyond[i] > 0)
+      out.reach_beyond_mm.emplace_back(audit::name_of(static_cast<audit::Side>(i)), to_mm(a.reach_beyond[i]));
   report.warnings.insert(report.warnings.end(), a.notices.begin(), a.notices.end());
+  if (a.verdict == audit::Verdict::annotated)
+    report.warnings.push_back({"audit_annotated", "the boundary audit found " + out.summary});
+}
+
+/// The profile's own G-code, so that what is found in it names its setting.
+void name_custom_code(const GcodeSettings& g, audit::Check& check) {
+  check.custom_code("machine_start_gcode", g.machine_start_gcode);
+  check.custom_code("before_layer_gcode", g.before_layer_gcode);
+  check.custom_code("layer_gcode", g.layer_gcode);
+  check.custom_code("tool_change_gcode", g.tool_change_gcode);
+  check.custom_code("between_objects_gcode", g.between_objects_gcode);
+  check.custom_code("machine_end_gcode", g.machine_end_gcode);
 }
 
 std::optional<audit::Passed> verdict_of(audit::Check& check, const Job& job, Report& report) {
@@ -97,7 +118,8 @@ std::optional<audit::Passed> verdict_of(audit::Check& check, const Job& job, Rep
   try {
     auto passed = check.passed();
     note_audit(passed.report(), report);
-    report.status = Report::Status::ok;
+    report.status =
+        passed.report().verdict == audit::Verdict::annotated ? Report::Status::annotated : Report::Status::ok;
     if (job.hash_gcode) report.gcode_sha256 = sha256(passed.gcode());
     return passed;
   } catch (const audit::Rejected& rejected) {
@@ -161,6 +183,7 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
   report.warnings.insert(report.warnings.end(), plan.notices.begin(), plan.notices.end());
   begin("G-code", 0.85);
   audit::Check check(job.settings.machine, job.settings.material, job.settings.audit, job.audit);
+  name_custom_code(job.settings.gcode, check);
   write_gcode({job.settings, plan, statistics, std::filesystem::path(job.models.front()).stem().string(),
                std::move(thumbnails), provenance_lines(report.models, job.placement), std::move(digests)},
               plan, std::move(packed), check, report);

@@ -1,4 +1,5 @@
 #include "adhesion/adhesion.h"
+#include "audit/audit.h"
 #include "gcode/digest.h"
 #include "model/sequence.h"
 #include "motion/motion.h"
@@ -138,11 +139,19 @@ struct PackedLayer {
   Statistics statistics;
 };
 
+/// Where the start G-code leaves the nozzle, where the first travel must know it: round no-go areas and notches.
+std::optional<Point> start_of(const Settings& settings) {
+  const auto& m = settings.machine;
+  const bool open = m.bed_exclude_areas.empty() && m.bed_shape != BedShape::polygon && m.machine_reach.size() <= 2;
+  return open ? std::nullopt : audit::place_after(m, settings.gcode.machine_start_gcode);
+}
+
 /// Ways, speeds and times. What a layer was made of is let go of as it goes.
 std::vector<PackedLayer> plan_moves(const Settings& settings, std::vector<travel::Prepared> prepared,
                                     std::vector<travel::Ordered> ordered, Notices& notices) {
   const std::size_t count = prepared.size();
   std::vector<std::optional<Point>> from(count);
+  if (count > 0) from[0] = start_of(settings);
   for (std::size_t i = 1; i < count; ++i) from[i] = ordered[i - 1].end ? ordered[i - 1].end : from[i - 1];
   const auto rules = motion::rules_of(settings);
   std::vector<travel::Routed> departures(count);  // without their plans, which go on

@@ -17,6 +17,8 @@ std::string_view name_of(Report::Status status) {
       return "ok";
     case Report::Status::rejected:
       return "rejected";
+    case Report::Status::annotated:
+      return "annotated";
     case Report::Status::failed:
       break;
   }
@@ -65,9 +67,20 @@ Json audit_of(const Report::Audit& a) {
                           {"layer", v.layer},
                           {"line", v.line},
                           {"text", v.line_text}});
+  for (std::size_t i = 0; i < a.violations.size(); ++i)
+    if (!a.violations[i].setting.empty()) violations[i]["setting"] = a.violations[i].setting;
+  Json beyond = Json::object();
+  for (const auto& [side, mm] : a.reach_beyond_mm) beyond[side] = rounded3(mm);
+  Json gaps = Json::array();
+  for (const auto& g : a.gaps)
+    gaps.push_back({{"command", g.command}, {"line", g.line}, {"why", g.why}, {"moves", g.moves}});
   return {{"verdict", a.verdict},
+          {"summary", a.summary},
           {"checked_moves", a.checked_moves},
           {"not_audited", a.not_audited},
+          {"not_audited_because", std::move(gaps)},
+          {"opaque", a.opaque},
+          {"reach_beyond_surface_mm", std::move(beyond)},
           {"violations", std::move(violations)},
           {"violation_count", a.violation_count}};
 }

@@ -11,7 +11,8 @@ namespace weft {
 
 /// What a job did, in numbers: the JSON report of `weft slice` (its fields are part of the contract with users).
 struct Report {
-  enum class Status { ok, rejected, failed };
+  /// annotated: written although the audit found something, as it was asked for.
+  enum class Status { ok, rejected, failed, annotated };
 
   struct Model {
     std::string file, sha256;
@@ -35,16 +36,24 @@ struct Report {
     std::size_t moves = 0, retractions = 0, wall_crossings = 0;
   };
   struct Violation {
-    std::string move, feature, side, object, line_text;
+    std::string move, feature, side, object, line_text, setting;  ///< setting: the custom G-code it came from, or ""
     std::array<double, 3> at_mm{};
     double outside_mm = 0;
     int layer = 0;
     std::size_t line = 0;
   };
+  struct Gap {
+    std::string command, why;
+    std::size_t line = 0, moves = 0;
+  };
   struct Audit {
-    std::string verdict;  ///< "pass", "annotated", "rejected"; empty when the job did not get that far
+    std::string verdict;  ///< "pass", "annotated", "rejected", "unaudited"; empty when the job did not get that far
+    std::string summary;  ///< in words
     std::size_t checked_moves = 0, not_audited = 0, violation_count = 0;
     std::vector<Violation> violations;
+    std::vector<std::pair<std::string, double>> reach_beyond_mm;  ///< of the print surface, by side
+    std::vector<Gap> gaps;                                        ///< why moves were not audited
+    std::vector<std::string> opaque;                              ///< macros that only the printer knows
   };
   /// Wall-clock time of a stage, ms. The audit reads layers while others are written: its time counts in gcode, too.
   struct Timings {

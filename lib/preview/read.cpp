@@ -136,7 +136,7 @@ class Gatherer {
 
   double filament_mm2_;
   LayersBy by_;
-  audit::Reader reader_{std::nullopt};
+  audit::Reader reader_{{}};
   std::array<std::uint8_t, 256> feature_of_{};
   std::uint8_t custom_ = none;
   Toolpaths out_;

@@ -228,6 +228,8 @@ void check_areas(const MachineSettings& machine, const Refuse& refuse) {
     refuse("machine_reach_z_min", "is not below the highest Z of the reach", "lower it, or raise machine_reach_z_max");
   if (machine.home_position && machine.home_position->size() != 1)
     refuse("home_position", "is not one point", "give it as 0x0, or auto when it is not known");
+  if (machine.macro_position && machine.macro_position->size() != 1)
+    refuse("macro_position", "is not one point", "give it as 0x0, or auto when it is not known");
 }
 
 }  // namespace

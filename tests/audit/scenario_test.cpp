@@ -70,7 +70,8 @@ TEST_CASE("audit: a helical lift that swings over the edge is found although bot
   CHECK(report.findings[0].line == 9);
   CHECK(report.findings[0].side == Side::plus_x);
   CHECK(report.findings[0].outside == 1500);
-  CHECK(report.findings[0].move == Motion::Kind::arc);
+  CHECK(report.findings[0].move == Motion::Kind::lift_spiral);
+  CHECK(bench.moves("G1 X190 Y50\nG1 X201 Y50 Z0.6\n").findings.at(0).move == Motion::Kind::lift_slope);
   CHECK(bench.moves("G1 X199.5 Y50\nG1 Z0.6\n").clean());
   CHECK(bench.moves("G1 X199.5 Y50\nG1 X199 Y51 Z0.6\n").clean());
 }
@@ -200,6 +201,7 @@ TEST_CASE("audit: a purge line at Y-3 passes when the reach says so, and is cust
   }
   bench.machine.machine_reach = {{0, -5_mm}, {200_mm, 200_mm}};
   const auto passed = bench(start);
+  CHECK(passed.reach_beyond == std::array<Um, 6>{0, 0, 5_mm, 0, 0, 0});
   CHECK(passed.clean());
   CHECK(passed.opaque.size() == 1);
   CHECK(passed.opaque[0].name == "G80");
@@ -208,25 +210,29 @@ TEST_CASE("audit: a purge line at Y-3 passes when the reach says so, and is cust
 }
 
 TEST_CASE("audit: relative moves, shifted origins and inches are judged in machine coordinates", "[audit]") {
-  const Bench bench;
+  Bench bench;
   CHECK(bench.moves("G91\nG1 X60\nG1 X39.9\n").clean());
   CHECK(bench.moves("G91\nG1 X60\nG1 X40.1\n").findings.at(0).line == 9);
   CHECK(bench.moves("G92 X0\nG1 X-100\nG1 X100\n").clean());
   CHECK(bench.moves("G92 X0\nG1 X100.5\n").findings.at(0).outside == 500);
   CHECK(bench.moves("G92 X0\nG1 X-100.5\n").findings.at(0).side == Side::minus_x);
-  CHECK(bench.moves("G92 X0\nG92.1\nG1 X200\n").clean());
-  CHECK(bench.moves("G92 X500\nG53 G1 X150\nG1 X550\n").clean());
   CHECK(bench.moves("G92 X500\nG28 X\nG1 X150\n").clean());
   CHECK(bench.moves("G20\nG1 X7.8 Y1\n").clean());
   CHECK(bench.moves("G20\nG1 X7.9 Y1\n").findings.at(0).outside == Approx(660).margin(1));
   CHECK(bench.moves("G20\nG91\nG2 X0.5 Y0 I0.25 J0\nG21\nG90\nG1 X199\n").clean());
+  // What not every build of a firmware knows is not audited.
+  CHECK(bench.moves("G92 X0\nG92.1\nG1 X200\n").verdict == Verdict::unaudited);
+  CHECK(bench.moves("G92 X500\nG53 G1 X150\nG1 X550\n").verdict == Verdict::unaudited);
+  bench.machine.firmware = Firmware::smoothie;
+  CHECK(bench.moves("G92 X0\nG92.1\nG1 X200\n").clean());
+  CHECK(bench.moves("G92 X500\nG53 G1 X150\nG1 X550\n").clean());
 }
 
 TEST_CASE("audit: the nozzle's offset moves the print, not the reach", "[audit]") {
   Bench bench;
   bench.machine.nozzle_offsets = {{0, 0}, {18_mm, 0}};
   CHECK(bench.moves(";WIDTH:0.4\nG1 X190 Y50\nG1 X190 Y60 E1\n").clean());
-  const auto second = bench.moves("T1\n;WIDTH:0.4\nG1 X190 Y50\nG1 X190 Y60 E1\n");
+  const auto second = bench.moves("T1\n;WIDTH:0.4\nG1 X190 Y50 Z0.2\nG1 X190 Y60 E1\n");
   REQUIRE(second.violation_count == 1);
   CHECK(second.findings[0].outside == 8179);
 }

@@ -55,5 +55,6 @@ TEST_CASE("machine: areas that enclose nothing are refused with their key", "[se
   refused("machine_reach", "0x0, 10x10, 20x20");
   refused("machine_reach", "5x5");
   refused("home_position", "0x0, 1x1");
+  refused("macro_position", "0x0, 1x1");
   refused("machine_reach_z_min", "900");
 }

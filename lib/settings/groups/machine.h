@@ -36,6 +36,9 @@ struct MachineSettings {
   Um machine_reach_z_min = 0_mm;
   std::optional<Um> machine_reach_z_max;
   std::optional<Ring> home_position;
+  std::optional<Um> home_z;
+  std::optional<Ring> macro_position;
+  std::optional<Um> macro_z;
   Ring nozzle_offsets;
   Um nozzle_diameter = 0.4_mm;
   Firmware firmware = Firmware::marlin2;
@@ -78,6 +81,12 @@ inline constexpr std::tuple machine_schema{
             "Highest Z that the nozzle can go to; auto is machine_height."),
     setting("home_position", Scope::machine, &MachineSettings::home_position,
             "Where G28 leaves the nozzle, one point; auto: unknown."),
+    setting("home_z", Scope::machine, &MachineSettings::home_z, Unit::mm, -1000_mm, 10000_mm,
+            "Height at which G28 leaves the nozzle; auto: unknown."),
+    setting("macro_position", Scope::machine, &MachineSettings::macro_position,
+            "Where the printer's own macros (PRINT_START, a tool change) leave the nozzle, one point; auto: unknown."),
+    setting("macro_z", Scope::machine, &MachineSettings::macro_z, Unit::mm, -1000_mm, 10000_mm,
+            "Height at which the printer's own macros leave the nozzle; auto: unknown."),
     setting(
         "nozzle_offsets", Scope::tool, &MachineSettings::nozzle_offsets,
         "Where each nozzle stands from the first, in order of tool number, when the firmware does not allow for it."),
