@@ -75,7 +75,7 @@ struct Printed {
 
 /// Filament that each tool lays down, as the audit's reader sees it, mm.
 std::vector<double> filament_by_tool(const std::string& text) {
-  audit::Reader reader(audit::Vec{0, 0});
+  audit::Reader reader({.home = audit::Vec{0, 0}});
   std::vector<double> out(3);
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);) {
