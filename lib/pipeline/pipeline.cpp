@@ -58,11 +58,13 @@ void write_gcode(const gcode::Job& job, PrintPlan& plan, std::vector<std::string
   check.add(tail);
 }
 
-void note_statistics(const Statistics& s, Report& report) {
+void note_statistics(const Settings& settings, const Statistics& s, Report& report) {
   report.print_time_s = s.print_time_s;
   report.filament_mm = s.filament_mm;
   report.filament_mm3 = s.filament_mm3;
   report.filament_g = s.filament_g;
+  report.cost = cost_of(settings.machine, settings.material, s.filament_g, s.print_time_s);
+  report.currency = settings.machine.currency;
   for (std::size_t i = 0; i < s.features.size(); ++i)
     report.features[i] = {s.features[i].mm, s.features[i].mm3, s.features[i].s};
   for (const auto& t : s.tools)
@@ -177,7 +179,7 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
   begin("travel", 0.65);
   auto [plan, packed, digests, statistics] =
       plan_plate(job.settings, objects, by_layer(count_copies(objects)), std::move(layers), report);
-  note_statistics(statistics, report);
+  note_statistics(job.settings, statistics, report);
   report.layers = plan.layers.size();
   for (const auto& layer : plan.layers) report.height_mm = std::max(report.height_mm, to_mm(layer.z));
   report.warnings.insert(report.warnings.end(), plan.notices.begin(), plan.notices.end());

@@ -90,7 +90,6 @@ constexpr auto rows = std::to_array<Key>({
         .fate = "only for changes of tool or colour within a print",
         .initial = "0",
         .of_filament = true},
-    Key{.name = "filament_cost", .fate = "prices are not reckoned", .initial = "0"},
     Key{.name = "filament_spool_weight", .fate = "prices are not reckoned", .initial = "0"},
     Key{.name = "perimeter_generator",
         .fate = "weft has one generator of walls, which fills what these are about",

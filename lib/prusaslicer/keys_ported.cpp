@@ -23,6 +23,7 @@ constexpr auto rows = std::to_array<Key>({
         .initial = "PLA"},
     Key{.name = "filament_diameter", .form = Form::length, .ours = "filament_diameter", .initial = "1.75"},
     Key{.name = "filament_density", .form = Form::number, .ours = "material_density", .initial = "0"},
+    Key{.name = "filament_cost", .form = Form::number, .ours = "filament_cost", .initial = "0"},
     Key{.name = "extrusion_multiplier", .form = Form::times_100, .ours = "material_flow", .initial = "1"},
     Key{.name = "temperature",
         .form = Form::number,

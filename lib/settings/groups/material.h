@@ -9,6 +9,7 @@ struct MaterialSettings {
   std::string material_type = "PLA";
   Um filament_diameter = 1.75_mm;
   double material_density = 1.24;
+  double filament_cost = 0;
   double material_flow = 100;
   double material_max_volumetric_speed = 12;
   int material_print_temperature = 210;
@@ -27,6 +28,9 @@ inline constexpr std::tuple material_schema{
             "Diameter of the filament."),
     setting("material_density", Scope::tool, &MaterialSettings::material_density, Unit::g_cm3, 0.1, 20,
             "Density, for the weight in the report."),
+    setting(
+        "filament_cost", Scope::tool, &MaterialSettings::filament_cost, Unit::per_kg, 0, 1'000'000,
+        "What a kilogram of the filament costs, in `currency`, for the cost in report and footer; 0: not reckoned."),
     setting("material_flow", Scope::tool, &MaterialSettings::material_flow, Unit::percent, 1, 300,
             "Multiplies every extrusion."),
     setting("material_max_volumetric_speed", Scope::tool, &MaterialSettings::material_max_volumetric_speed, Unit::mm3_s,
