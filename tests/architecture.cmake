@@ -10,7 +10,7 @@ set(checked 0)
 set(libraries
   fmt=fmt:: nettle=PkgConfig::nettle tbb=TBB:: boost=Boost:: polyclipping=PkgConfig::polyclipping CGAL=CGAL:: Eigen=Eigen3::
   minizip=PkgConfig::minizip expat.h=PkgConfig::expat png.h=PkgConfig::libpng nlohmann=nlohmann_json::
-  sys=system sanitizer=system unistd.h=system fcntl.h=system glob.h=system link.h=system elf.h=system malloc.h=system)
+  sys=system sanitizer=system unistd.h=system fcntl.h=system glob.h=system link.h=system elf.h=system malloc.h=system spawn.h=system)
 
 macro(fault text)
   message(SEND_ERROR "${text}")
