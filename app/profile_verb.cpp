@@ -1,6 +1,7 @@
 #include "command.h"
 #include "pipeline/profile_file.h"
 #include "profile/rules.h"
+#include "profile_folders.h"
 #include "prusaslicer/export.h"
 #include "settings/catalogue.h"
 #include "settings/near.h"
@@ -164,11 +165,14 @@ void diff(const Command& command) {
 }
 
 void import_one(const Command& command) {
-  print(command, imported(command.profiles.front(), command.import));
+  print(command, imported(profile_file(command.profiles.front(), {}, command.import.folders), command.import));
 }
 
 void list(const Command& command) {
-  print(command, listed(command.profiles.front(), command.import.presets));
+  const auto& folders = command.import.folders;
+  print(command, command.profiles.empty()
+                     ? list_of_profiles(folders)
+                     : listed(profile_file(command.profiles.front(), {}, folders), command.import.presets));
 }
 
 void show(const Command& command) {
@@ -192,9 +196,10 @@ struct Deed {
   std::string_view name;
   std::size_t files;  ///< how many it takes; 0: one or more
   void (*run)(const Command&);
+  bool none_too = false;  ///< it means something without a file
 };
 constexpr std::array deeds{Deed{"check", 0, check}, Deed{"diff", 2, diff}, Deed{"import", 1, import_one},
-                           Deed{"list", 1, list}, Deed{"show", 0, show}};
+                           Deed{"list", 1, list, true}, Deed{"show", 0, show}};
 
 /// The deed that the first word names. @throws Error{usage} for another word, or another number of files
 const Deed& deed_of(const Command& command) {
@@ -207,6 +212,7 @@ const Deed& deed_of(const Command& command) {
     throw Error{Error::Kind::usage, fmt::format("'{}' is not one of check, diff, import, list, show", what),
                 "weft profile"};
   const auto where = "weft profile " + what;
+  if (command.profiles.empty() && found->none_too) return *found;
   if (command.profiles.empty()) throw Error{Error::Kind::usage, "no profile was given", where};
   if (found->files != 0 && command.profiles.size() != found->files)
     throw Error{Error::Kind::usage, found->files == 1 ? "takes one file" : "takes two files", where};
@@ -220,6 +226,8 @@ std::string help(const po::options_description& options) {
          "bundle, .gcode, .3mf), and say what becomes of each line\n"
          "weft profile show FILE...    print every setting as resolved\n"
          "weft profile diff A B        what is not the same in two profiles, and where it comes from\n"
+         "weft profile list            the profiles that -p finds by name, in the folders of WEFT_PROFILES and beside "
+         "the program\n"
          "weft profile list BUNDLE     the presets of a PrusaSlicer bundle; with --preset printer=NAME those that "
          "fit it\n\n"
       << options << "\n"
@@ -229,13 +237,18 @@ std::string help(const po::options_description& options) {
 
 }  // namespace
 
-int profile(const Words& words) {
-  po::options_description options("Options of weft profile");
-  options.add_options()(
+po::options_description profile_options() {
+  po::options_description out("Options of weft profile");
+  out.add_options()(
       "explain", po::value<std::vector<std::string>>()->value_name("KEY"),
       "show: where the value of KEY comes from, and what it shadows; all: of every setting that a profile sets")(
       "format", po::value<std::string>()->value_name("weft|prusaslicer")->default_value("weft"),
       "show: in whose words");
+  return out;
+}
+
+int profile(const Words& words) {
+  const auto options = profile_options();
   auto command = parse_command(words, options, Result::profile);
   if (command.help || words.empty()) return write_output("-", help(options)), words.empty() ? 2 : 0;
   for (std::size_t i = 1; i < command.inputs.size(); ++i) command.profiles.emplace_back(command.inputs[i]);
