@@ -3,6 +3,7 @@
 #include "pipeline/profile_file.h"
 #include "pipeline/write_file.h"
 #include "profile_folders.h"
+#include "prusaslicer/keys.h"
 #include "settings/catalogue.h"
 #include "settings/value.h"
 
@@ -37,6 +38,8 @@ po::options_description common_options() {
       "threads,j", po::value<unsigned>()->value_name("N"),
       "worker threads (default: all cores); the output does not depend on it")(
       "quiet,q", po::bool_switch(), "errors only")("verbose,v", po::bool_switch(), "debug detail")(
+      "loglevel", po::value<int>()->value_name("N"),
+      "the same as PrusaSlicer counts it: 0 … 5, from errors only to debug detail")(
       "log-format", po::value<std::string>()->value_name("text|json")->default_value("text"),
       "form of the messages on standard error")(
       "progress", po::value<std::string>()->value_name("auto|always|never")->default_value("auto"),
@@ -52,6 +55,11 @@ std::string dashed(std::string_view key) {
   return out;
 }
 
+std::string underscored(std::string key) {
+  std::replace(key.begin(), key.end(), '-', '_');
+  return key;
+}
+
 /// Every setting as an option of its own; hidden from the help, which points to `weft settings`.
 po::options_description setting_options() {
   po::options_description out;
@@ -64,14 +72,39 @@ po::options_description setting_options() {
   return out;
 }
 
+/// PrusaSlicer's keys that are none of weft's, as options too.
+po::options_description prusaslicer_options() {
+  po::options_description out;
+  const auto ours = setting_options(), common = common_options();
+  for (const auto& row : prusaslicer::keys()) {
+    const auto name = dashed(row.name);
+    if (ours.find_nothrow(name, false) || common.find_nothrow(name, false) || out.find_nothrow(name, false)) continue;
+    auto* value = po::value<std::vector<std::string>>();
+    if (row.written == prusaslicer::Written::flag) value->implicit_value({"1"}, "1");
+    out.add_options()(name.c_str(), value);
+  }
+  return out;
+}
+
 /// Program_options takes "-90" for an option: a number behind a long option is joined to it. Underscores become dashes.
 std::vector<std::string> normalised(const std::vector<std::string>& words) {
+  const auto settings = setting_options(), theirs = prusaslicer_options();
+  const auto switched_off = [&](const std::string& word) -> std::string {  // --no-wipe
+    if (word.rfind("--no-", 0) != 0) return {};
+    const std::string key = dashed(word.substr(5));
+    for (const auto* options : {&settings, &theirs})
+      if (const auto* option = options->find_nothrow(key, false); option && option->semantic()->min_tokens() == 0)
+        return "--" + key + (options == &settings ? "=false" : "=0");
+    return {};
+  };
   std::vector<std::string> out;
   for (const auto& word : words) {
     const bool number =
         word.size() > 1 && word[0] == '-' && (std::isdigit(static_cast<unsigned char>(word[1])) != 0 || word[1] == '.');
     if (number && !out.empty() && out.back().rfind("--", 0) == 0 && out.back().find('=') == std::string::npos) {
       out.back() += "=" + word;
+    } else if (const auto off = switched_off(word); !off.empty()) {
+      out.push_back(off);
     } else if (word.rfind("--", 0) == 0) {
       const auto equals = std::min(word.find('='), word.size());
       out.push_back(dashed(word.substr(0, equals)) + word.substr(equals));
@@ -143,7 +176,10 @@ Command parse_command(const std::vector<std::string>& words, const po::options_d
   po::options_description all, hidden;
   hidden.add_options()("input", po::value<std::vector<std::string>>());
   const auto settings = setting_options();
-  all.add(common_options()).add(verb_options).add(hidden).add(settings);
+  po::options_description theirs;  // what the verb itself understands means that
+  for (const auto& option : prusaslicer_options().options())
+    if (!verb_options.find_nothrow(option->long_name(), false)) theirs.add(option);
+  all.add(common_options()).add(verb_options).add(hidden).add(settings).add(theirs);
   po::positional_options_description positional;
   positional.add("input", -1);
 
@@ -161,6 +197,9 @@ Command parse_command(const std::vector<std::string>& words, const po::options_d
         command.settings.push_back(assignment(option.value.at(0)));
       else if (settings.find_nothrow(option.string_key, false))
         command.settings.emplace_back(option.string_key, option.value.empty() ? "true" : option.value[0]);
+      else if (theirs.find_nothrow(option.string_key, false))
+        command.import.options.emplace_back(underscored(option.string_key),
+                                            option.value.empty() ? "1" : option.value[0]);
       else if (option.string_key == "profile" || option.string_key == "load")
         command.profiles.emplace_back(option.value.at(0));
       else if (option.string_key == "input")
@@ -185,6 +224,14 @@ Command parse_command(const std::vector<std::string>& words, const po::options_d
   command.console.verbosity = o["quiet"].as<bool>()     ? Verbosity::quiet
                               : o["verbose"].as<bool>() ? Verbosity::detail
                                                         : Verbosity::normal;
+  if (o.count("loglevel")) {
+    const int level = o["loglevel"].as<int>();
+    if (level < 0 || level > 5)
+      throw Error{Error::Kind::usage, fmt::format("{} is outside 0 … 5", level), "--loglevel"};
+    command.console.verbosity = level <= 1   ? Verbosity::quiet
+                                : level >= 4 ? Verbosity::detail
+                                             : command.console.verbosity;
+  }
   command.console.format = choice<LogFormat>("--log-format", o["log-format"].as<std::string>(),
                                              {{"text", LogFormat::text}, {"json", LogFormat::json}});
   command.console.progress = choice<ProgressMode>(
@@ -203,6 +250,7 @@ std::string common_help() {
 Profile resolve(const Command& command) {
   Profile profile;
   for (const auto& file : command.profiles) apply_profile(profile, file, command.import);
+  apply_options(profile, command.import);
   for (const auto& [key, text] : command.settings) apply_value(profile, key, text, "--set " + key);
   check_consistency(profile);
   Files files = command.files;

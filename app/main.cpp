@@ -37,7 +37,7 @@ const Verb* find_verb(const std::string& name) {
 }
 
 int run(Words words) {
-  if (words.empty()) throw Error{Error::Kind::usage, "no verb was given", {}, "see weft --help"};
+  if (words.empty()) return fmt::print(stderr, "{}", overview()), exit_status(Error::Kind::usage);
   if (words[0] == "--version" || words[0] == "-V") return write_output("-", version_text()), 0;
   if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") return write_output("-", overview()), 0;
   if (const auto* verb = find_verb(words[0])) return verb->run({words.begin() + 1, words.end()});
@@ -46,6 +46,10 @@ int run(Words words) {
   if (std::any_of(words.begin(), words.end(), is_export)) {
     std::erase_if(words, is_export);
     return slice(words);
+  }
+  if (std::find(words.begin(), words.end(), "--info") != words.end()) {
+    std::erase(words, "--info");
+    return inspect(words);
   }
   throw Error{Error::Kind::usage, "is not a verb", fmt::format("'{}'", words[0]), "see weft --help"};
 }

@@ -119,7 +119,7 @@ int preview(const Words& words) {
   const Profile profile = resolve(command);
   const FileBytes file(command.inputs[0]);
   const std::string_view gcode = file.view();
-  const auto paths = preview::read(gcode, profile.settings.material.filament_diameter);
+  const auto paths = preview::read(gcode, diameter_of_e(profile.settings));
   if (paths.layers.empty())
     throw Error{Error::Kind::file, "holds no motion that could be drawn", command.inputs[0], "is it G-code?"};
   preview::View view;

@@ -1,5 +1,6 @@
 #pragma once
 #include "preview/preview.h"
+#include "settings/settings.h"
 
 #include <string>
 #include <string_view>
@@ -12,5 +13,11 @@ preview::Kind preview_kind(const std::string& destination);
 /// Draws finished G-code to a file of that kind. @throws Error{file}, Error{usage}
 void write_preview(const std::string& destination, std::string_view gcode, Um filament_diameter,
                    const std::string& title);
+
+/// The diameter of filament that makes E what the G-code means: of 1 mm² where E is in mm³.
+inline Um diameter_of_e(const Settings& settings) {
+  constexpr Um of_a_square_mm = 1128;
+  return settings.gcode.volumetric_extrusion ? of_a_square_mm : settings.material.filament_diameter;
+}
 
 }  // namespace weft::app

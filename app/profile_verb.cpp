@@ -1,4 +1,5 @@
 #include "command.h"
+#include "pipeline/check.h"
 #include "pipeline/profile_file.h"
 #include "profile/rules.h"
 #include "profile_folders.h"
@@ -154,7 +155,9 @@ std::string format_of(const Command& command) {
 void check(const Command& command) {
   (void)format_of(command);
   Console console(command.console);
-  const auto doubts = doubts_about(resolved_aloud(command, console));
+  const auto profile = resolved_aloud(command, console);
+  auto doubts = doubts_about(profile);
+  for (auto& notice : pipeline::check(profile.settings)) doubts.push_back(std::move(notice));
   for (const auto& doubt : doubts) console.warning(doubt);
   console.info(fmt::format("{} settings are valid{}", catalogue().size(),
                            doubts.empty() ? "" : fmt::format(", {} of them doubtful", doubts.size())));

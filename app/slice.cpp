@@ -2,6 +2,7 @@
 #include "command.h"
 #include "core/figures.h"
 #include "core/hash.h"
+#include "gcode/file_name.h"
 #include "limits.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/write_file.h"
@@ -26,6 +27,10 @@ po::options_description slice_options() {
   out.add_options()("center", po::value<std::string>()->value_name("X,Y"),
                     "put the centre of the models' bounding box there (default: centre of the bed)")(
       "keep-position", po::bool_switch(), "keep the coordinates of the file")(
+      "dont-arrange", po::bool_switch(), "keep the coordinates of the file, but stand on the bed; --center moves it")(
+      "export-gcode,g", po::bool_switch(), "what weft slice does anyway")("gcode", po::bool_switch(), "the same")(
+      "info", po::bool_switch(), "facts of the models, as weft inspect tells them; nothing is sliced")(
+      "drop", po::bool_switch(), "with --keep-position: put down what floats or dips")(
       "scale", po::value<std::string>()->value_name("F"), "uniform scale: 2, 0.5, 25.4 or 50%")(
       "rotate", po::value<double>()->value_name("DEG")->default_value(0.0, "0"), "rotation about Z, counter-clockwise")(
       "copies", po::value<int>()->value_name("N")->default_value(1), "N copies, arranged on the bed")(
@@ -64,6 +69,8 @@ Placement placement_of(const po::variables_map& o) {
   Placement p;
   if (o.count("center")) p.centre = parse_point(o["center"].as<std::string>(), "--center");
   p.keep_position = o["keep-position"].as<bool>();
+  p.drop = o["drop"].as<bool>();
+  if (o["dont-arrange"].as<bool>() && !p.centre) p.keep_position = p.drop = true;
   if (p.keep_position && p.centre)
     throw Error{Error::Kind::usage, "contradicts --center", "--keep-position", "give one of the two"};
   if (o.count("scale")) p.scale = parse_scale(o["scale"].as<std::string>());
@@ -153,14 +160,23 @@ std::string preview_of(const Command& command) {
   return command.options.count("preview") ? command.options["preview"].as<std::string>() : std::string();
 }
 
+/// Where the G-code goes: where -o says, else beside the model, by output_filename_format. What is not known before the
+/// print is made counts as nothing.
+std::string destination_of(const Command& command, const Settings& settings, const Report& report) {
+  if (command.output) return *command.output;
+  Statistics made;
+  made.print_time_s = report.print_time_s;
+  made.filament_mm = report.filament_mm, made.filament_mm3 = report.filament_mm3, made.filament_g = report.filament_g;
+  const std::filesystem::path model(command.inputs.front());
+  const PrintPlan plan;
+  return (model.parent_path() / gcode::file_name({settings, plan, made, model.stem().string(), {}})).string();
+}
+
 /// What is refused before the work, not after it. @throws Error{usage}
 void refuse_nonsense(const Command& command) {
   if (command.inputs.empty())
     throw Error{Error::Kind::usage, "no model was given", "weft slice",
                 "as in weft slice part.stl -p printer.ini -o part.gcode"};
-  if (!command.output)
-    throw Error{Error::Kind::usage, "where should the G-code go?", "weft slice",
-                "add -o OUT.gcode, or -o - for standard output"};
   if (command.output == "-" && command.report == "-")
     throw Error{Error::Kind::usage, "G-code and report cannot both go to standard output", "--report",
                 "name a file for one of them"};
@@ -178,6 +194,7 @@ int slice(const Words& words) {
     out << "weft slice MODEL... -p PROFILE [-s KEY=VALUE]... -o OUT.gcode\n\n" << options << "\n" << common_help();
     return write_output("-", out.str()), 0;
   }
+  if (command.options["info"].as<bool>()) return inspect(command.inputs);
   refuse_nonsense(command);
   const auto preview = preview_of(command);
 
@@ -185,6 +202,7 @@ int slice(const Words& words) {
   const Limits limits(limit_of(command.options, "timeout"), limit_of(command.options, "max-memory"));
 
   Report report;
+  if (command.report && command.console.verbosity == Verbosity::detail) report.tours.emplace();  // figures to debug by
   const auto finish = [&] {
     warn(console, report.warnings, command.console.verbosity == Verbosity::detail ? report.warnings.size() : 3);
     report.peak_memory_mb = peak_memory_mb();
@@ -200,6 +218,7 @@ int slice(const Words& words) {
   try {
     const auto profile = resolve(command);
     report.warnings = profile.notices;
+    (void)destination_of(command, profile.settings, report);  // refused before the work, not after it
     Watch watch;
     watch.progress = [&](std::string_view stage, double share) {
       console.progress(stage, share);
@@ -213,9 +232,9 @@ int slice(const Words& words) {
     watchdog.dismiss();
     if (cache) console.detail("cache: " + told(*cache));
     if (gcode && !preview.empty())
-      write_preview(preview, gcode->gcode(), profile.settings.material.filament_diameter,
+      write_preview(preview, gcode->gcode(), diameter_of_e(profile.settings),
                     std::filesystem::path(command.inputs.front()).filename().string());
-    if (gcode) write_gcode(*command.output, *gcode);
+    if (gcode) write_gcode(destination_of(command, profile.settings, report), *gcode);
     finish();
     if (!gcode) throw Error{Error::Kind::audit, report.error, {}, {}};
     console.info(summary(report));

@@ -4,6 +4,7 @@
 #include "core/file_bytes.h"
 #include "pipeline/write_file.h"
 #include "preview/preview.h"
+#include "preview_file.h"
 #include "tasks/crew.h"
 #include "verbs.h"
 
@@ -52,7 +53,7 @@ jobs::SweepOptions combine_of(const Command& command) {
 std::string picture_of(const std::filesystem::path& gcode, const Settings& settings, double share) {
   try {
     const FileBytes file(gcode.string());
-    const auto paths = preview::read_layer(file.view(), settings.material.filament_diameter, share);
+    const auto paths = preview::read_layer(file.view(), diameter_of_e(settings), share);
     if (paths.layers.empty()) return {};
     preview::View view;
     view.size = 420;

@@ -2,8 +2,8 @@
 
 #include "core/stop.h"
 #include "gcode/custom_code.h"
-#include "gcode/moves.h"
 #include "model/flow.h"
+#include "model/moves.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,12 +35,32 @@ std::size_t expected_bytes(const LayerPlan& plan) {
   return n;
 }
 
+/// What is extruded between two junctions, as it lies there: a strand over air is round, sparse infill printed for
+/// several layers is as high as they are, and a bead of less flow is as much narrower.
+struct Size {
+  Um width, height;
+};
+Size size_of(const Extrude& bead, const Junction& a, const Junction& b) {
+  const double flow = (static_cast<double>(a.flow) + static_cast<double>(b.flow)) / 2;
+  const double band = (a.width + b.width) / 2.0;
+  if (bead.role == Role::bridge) {
+    const Um diameter = rounded(std::sqrt(4 / std::numbers::pi * band * flow * bead.height));
+    return {diameter, diameter};
+  }
+  const Um height = bead.role == Role::infill && flow > 1 ? rounded(bead.height * flow) : bead.height;
+  return {flow::line_width(rounded(band * flow * bead.height / height), height), height};
+}
+
 class LayerText {
  public:
   explicit LayerText(const LayerJob& job) : job_(job), state_(job.entry), out_(expected_bytes(job.plan)) {
     const auto& material = job.settings.material;
     const double diameter_mm = to_mm(material.filament_diameter);
-    e_per_mm3_ = material.material_flow / 100.0 / (std::numbers::pi / 4 * diameter_mm * diameter_mm) * units_per_mm;
+    const bool volumetric = job.settings.gcode.volumetric_extrusion;
+    const double area_mm2 = std::numbers::pi / 4 * diameter_mm * diameter_mm;
+    e_per_mm3_ = material.material_flow / 100.0 / (volumetric ? 1 : area_mm2) * units_per_mm;
+    e_per_mm_ = (volumetric ? area_mm2 : 1) * units_per_mm;
+    writes_e_ = job.settings.gcode.write_extrusion;
   }
 
   std::string all() && {
@@ -66,7 +86,7 @@ class LayerText {
     job_.comments.layer(out_, job_.index, job_.plan.z, job_.plan.height,
                         job_.before_layer.find(";BEFORE_LAYER_CHANGE") != std::string_view::npos);
     out_ << job_.preamble;
-    if (!job_.settings.gcode.relative_extrusion) out_ << "G92 E0\n";
+    if (!job_.settings.gcode.relative_extrusion && writes_e_) out_ << "G92 E0\n";
     custom(job_.before_layer);
   }
 
@@ -111,6 +131,7 @@ class LayerText {
 
   /// E for what is wanted in sum so far.
   void filament(double units) {
+    if (!writes_e_) return;
     e_wanted_ += units;
     const std::int64_t step = nearest(e_wanted_) - e_written_;
     if (step == 0) return;
@@ -134,14 +155,12 @@ class LayerText {
       role_ = static_cast<int>(bead.role);
       job_.comments.feature(out_, bead.role);
     }
-    if (bead.height != height_ && job_.comments.says_sizes())
-      (out_ << ";HEIGHT:").spelled(height_ = bead.height) << '\n';
     accelerate(bead.acceleration_mm_s2, false);
     const double height_mm = to_mm(bead.height);
     const bool varies = !bead.segment_speed_mm_s.empty(), flow_comments = job_.settings.gcode.gcode_flow_comments;
-    for_each_move(bead.path, height_mm, [&](const Move& move) {
+    for_each_move(bead.path, height_mm, [&](const BeadMove& move) {
       const auto &a = bead.path[move.piece - 1], &b = bead.path[move.piece];
-      width((a.width + b.width) / 2, bead.height);
+      if (job_.comments.says_sizes()) sizes(size_of(bead, a, b));
       out_ << "G1";
       const Point3 to = place_of(bead, move.to, job_.plan.z);
       axes(to);
@@ -156,10 +175,11 @@ class LayerText {
     });
   }
 
-  void width(Um band, Um height) {
-    if (std::abs(band - band_) < width_step || !job_.comments.says_sizes()) return;
-    band_ = band;
-    (out_ << ";WIDTH:").spelled(flow::line_width(band, height)) << '\n';
+  /// Where it changes by more than a viewer sees.
+  void sizes(Size size) {
+    if (size.height != height_) (out_ << ";HEIGHT:").spelled(height_ = size.height) << '\n';
+    if (std::abs(size.width - width_) < width_step) return;
+    (out_ << ";WIDTH:").spelled(width_ = size.width) << '\n';
   }
 
   void print(const Travel& travel) {
@@ -196,6 +216,7 @@ class LayerText {
   }
 
   void extruder_only(double units, double speed_mm_s) {
+    if (!writes_e_) return;
     if (nearest(e_wanted_ + units) == e_written_) return void(e_wanted_ += units);
     out_ << "G1";
     filament(units);
@@ -205,11 +226,11 @@ class LayerText {
 
   void print(const Retract& retract) {
     const auto& r = job_.settings.retraction;
-    const double amount = to_mm(r.retraction_amount) * units_per_mm;
+    const double amount = to_mm(r.retraction_amount) * e_per_mm_;
     const bool draws = !state_.retracted();
     state_.set_retracted(true);
     const double before = r.firmware_retraction ? 1 : retract.before_wipe;
-    if (draws && r.firmware_retraction)
+    if (draws && r.firmware_retraction && writes_e_)
       out_ << "G10\n";
     else if (draws)
       extruder_only(-amount * before, r.retraction_retract_speed);
@@ -235,11 +256,11 @@ class LayerText {
     state_.set_retracted(false);
     const auto& r = job_.settings.retraction;
     const double speed = r.retraction_prime_speed.value_or(r.retraction_retract_speed);
-    if (r.firmware_retraction && !state_.drawn_mm) out_ << "G11\n";
+    if (r.firmware_retraction && !state_.drawn_mm && writes_e_) out_ << "G11\n";
     const double drawn_mm = state_.drawn_mm.value_or(to_mm(r.firmware_retraction ? 0 : r.retraction_amount));
     const double mm = drawn_mm + to_mm(r.retraction_extra_prime_amount);
     state_.drawn_mm.reset();
-    extruder_only(mm * units_per_mm, speed);
+    extruder_only(mm * e_per_mm_, speed);
   }
 
   void print(const SetFan& fan) {
@@ -282,13 +303,14 @@ class LayerText {
   const LayerJob& job_;
   MachineState state_;
   Text out_;
-  double e_per_mm3_ = 0;
+  double e_per_mm3_ = 0, e_per_mm_ = 0;  // units
+  bool writes_e_ = true;
   double e_wanted_ = 0;         // units since the layer began
   std::int64_t e_written_ = 0;  // likewise
   std::int64_t feed_ = 0;       // 0: not said in this layer
   int role_ = -1;
   std::size_t tool_changes_ = 0;
-  Um height_ = 0, band_ = 0;
+  Um height_ = 0, width_ = 0;
 };
 
 }  // namespace

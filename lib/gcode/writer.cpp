@@ -119,7 +119,8 @@ std::string Writer::head() const {
   if (sets_chamber && m.material_bed_temp_wait) out << "M191 S" << std::int64_t{m.build_volume_temperature} << '\n';
   out << start_;
   if (sets_nozzle && m.material_print_temp_wait) out << "M109 S" << std::int64_t{first_nozzle(m)} << '\n';
-  out << "G21\nG90\n" << (job_.settings.gcode.relative_extrusion ? "M83\n" : "M82\n");
+  out << "G21\nG90\n";
+  if (job_.settings.gcode.write_extrusion) out << (job_.settings.gcode.relative_extrusion ? "M83\n" : "M82\n");
   return std::move(out).take();
 }
 

@@ -43,14 +43,29 @@ double angle_along_walls(const Region& region) {
   return length[peak] >= all / 2 ? angle[peak] : radians(45);
 }
 
+/// The directions, joints and order that a pattern of solid layers asks for.
+void apply(SkinPattern pattern, SolidStyle& style) {
+  style.connect = style.connect && pattern != SkinPattern::monotonic_lines;
+  style.turned = pattern != SkinPattern::aligned_lines;
+  style.ordered = pattern == SkinPattern::monotonic || pattern == SkinPattern::monotonic_lines;
+}
+
+/// Lines laid so far apart that they overlap less are as wide as before.
+void spread_out(Um by, std::size_t from, Beads& beads) {
+  if (by == 0) return;
+  for (std::size_t i = from; i < beads.size(); ++i)
+    for (Junction& j : beads[i].path) j.width = std::max(1, j.width - by);
+}
+
 }  // namespace
 
 FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const FillInput& input) {
   const Um automatic = flow::automatic_width(input.nozzle, input.height);
-  const Um skin_band = flow::band(shells.skin_line_width.value_or(automatic), input.height);
-  const Um top_band = flow::band(shells.top_skin_line_width.value_or(input.nozzle), input.height);
-  const Um sparse_band = flow::band(
-      infill.infill_line_width.value_or(flow::automatic_width(input.nozzle, input.height, false)), input.height);
+  const Um skin_band = flow::spacing(shells.skin_line_width.value_or(automatic), input.height, input.overlap_factor);
+  const Um top_band =
+      flow::spacing(shells.top_skin_line_width.value_or(input.nozzle), input.height, input.overlap_factor);
+  const Um sparse_width = infill.infill_line_width.value_or(flow::automatic_width(input.nozzle, input.height, false));
+  const Um sparse_band = flow::band(sparse_width, input.height);
   const double overlap = infill.infill_overlap.of(input.wall_line_width > 0 ? input.wall_line_width : automatic);
   const bool turned_layer = input.index % 2 == 1;
   const double turn = turned_layer ? radians(90) : 0;
@@ -68,6 +83,8 @@ FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const 
                    .sequence = 0};
   SolidStyle top = solid;
   top.role = Role::top_skin, top.band = top_band;
+  apply(shells.bottom_pattern, solid);
+  apply(shells.top_pattern, top);
   SolidStyle bridge = solid;
   bridge.role = Role::bridge, bridge.band = input.nozzle, bridge.fixed_strand = true;
   bridge.flow = flow::bridge_flow(input.nozzle, input.height) * shells.bridge_flow / 100;
@@ -86,10 +103,13 @@ FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const 
     style.part = part;
     for (const Region& region : regions) {
       stop_if_asked();
-      style.sequence = ++sequence;
+      style.sequence = style.ordered ? ++sequence : 0;
       if (style.role != Role::bridge)
-        style.angle_rad = turn + (shells.skin_angle ? radians(*shells.skin_angle) : angle_along_walls(region));
+        style.angle_rad =
+            (style.turned ? turn : 0) + (shells.skin_angle ? radians(*shells.skin_angle) : angle_along_walls(region));
+      const std::size_t from = layer.beads.size();
       fill_solid(region, style, layer.beads);
+      if (style.role != Role::bridge) spread_out(flow::spread(input.height, input.overlap_factor), from, layer.beads);
     }
   };
   for (const PartAreas& areas : input.areas) {
@@ -101,6 +121,12 @@ FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const 
       SparseStyle style = sparse;
       style.part = areas.part;
       for (const Region& region : areas.sparse) {
+        stop_if_asked();
+        fill_sparse(region, style, layer.beads);
+      }
+      style.layers = areas.combined_layers;
+      style.band = flow::band(sparse_width, input.height * areas.combined_layers);
+      for (const Region& region : areas.combined) {
         stop_if_asked();
         fill_sparse(region, style, layer.beads);
       }

@@ -138,7 +138,9 @@ Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, cons
   if (top) seen_above = index + 1 < object.layers.size() ? inside - window.outline(index + 1) : inside;
   if (bottom) air_below = inside - window.outline(index - 1);
 
-  if (infill.infill_sparse_density >= 100) {
+  const bool whole =
+      settings.infill_solid_every_layers && index % static_cast<std::size_t>(*settings.infill_solid_every_layers) == 0;
+  if (infill.infill_sparse_density >= 100 || whole) {
     kinds.solid = inside;
   } else {
     const Mask wanted = solid_cells(window, object.layers, index, reach);

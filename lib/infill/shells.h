@@ -39,6 +39,8 @@ struct PartAreas {
   Regions top;    ///< solid, seen from above
   Regions solid;  ///< other solid: bottoms, under tops, beside slopes
   Regions sparse;
+  Regions combined;  ///< sparse, printed here for `combined_layers` layers at once
+  int combined_layers = 1;
   std::vector<BridgeArea> bridges;
 };
 using LayerAreas = std::vector<PartAreas>;  ///< parts ascending, each once
@@ -55,5 +57,10 @@ using LayerAreas = std::vector<PartAreas>;  ///< parts ascending, each once
 /// Cost: 0.1 to 0.3 ms a layer for a part the size of a hand.
 std::vector<LayerAreas> find_areas(const ShellSettings& settings, const InfillSettings& infill,
                                    const ShellObject& object, std::size_t first, std::size_t count);
+
+/// What is sparse in as many layers as infill_sparse_thickness holds is printed in the highest of them, for all of
+/// them; the rest stays where it is. The first layer stands for itself. `areas` is that of all layers of the object.
+/// Cost: a Boolean a layer where there is something to combine.
+void combine_sparse(const InfillSettings& infill, const ShellObject& object, std::vector<LayerAreas>& areas);
 
 }  // namespace weft::infill

@@ -14,6 +14,8 @@ struct SolidStyle {
   bool fixed_strand = false;  ///< keep `band` as the width of each line (bridges)
   double flow = 1;
   Point origin{};
+  bool turned = true;   ///< by 90° on every second layer
+  bool ordered = true;  ///< lines are printed one after the other, also where another order is shorter
   std::uint32_t part = 0, sequence = 0;
 };
 

@@ -327,7 +327,8 @@ class Web {
       bead.role = Role::infill, bead.part = style_.part;
       bead.path.reserve(path.size());
       for (const Place& p : path) {
-        const Junction j{{style_.origin.x + rounded(p.x), style_.origin.y + rounded(p.y)}, width, 1.F};
+        const Junction j{
+            {style_.origin.x + rounded(p.x), style_.origin.y + rounded(p.y)}, width, static_cast<float>(style_.layers)};
         if (bead.path.empty() || bead.path.back().at != j.at) bead.path.push_back(j);
       }
       if (bead.path.size() >= 2) beads.push_back(std::move(bead));
@@ -367,7 +368,7 @@ void fill_concentric(const Region& region, const SparseStyle& style, Beads& bead
     Bead& bead = beads.emplace_back();
     bead.role = Role::infill, bead.part = style.part, bead.closed = true;
     bead.path.reserve(loop.size());
-    for (const Point p : loop) bead.path.push_back({p, width, 1.F});
+    for (const Point p : loop) bead.path.push_back({p, width, static_cast<float>(style.layers)});
   }
 }
 

@@ -16,6 +16,7 @@ struct SparseStyle {
   bool turned_layer = false;  ///< every second layer: the pattern `lines` is turned by 90°
   Um z = 0;
   Point origin{};  ///< patterns are anchored here, so that layers stand on each other
+  int layers = 1;  ///< printed at once: as much higher are the beads
   std::uint32_t part = 0;
 };
 

@@ -77,6 +77,7 @@ constexpr std::array fields{
     Field{"output", false, [](JobLine& j, const Values& v, Folder) { j.output = v[0]; }},
     Field{"center", true, [](JobLine& j, const Values& v, Folder) { j.placement.centre = point(v); }},
     Field{"keep_position", false, [](JobLine& j, const Values& v, Folder) { j.placement.keep_position = flag(v[0]); }},
+    Field{"drop", false, [](JobLine& j, const Values& v, Folder) { j.placement.drop = flag(v[0]); }},
     Field{"scale", false, [](JobLine& j, const Values& v, Folder) { j.placement.scale = scale(v[0]); }},
     Field{"rotate", false,
           [](JobLine& j, const Values& v, Folder) { j.placement.rotate_deg = number(v[0], -36000, 36000); }},

@@ -36,9 +36,9 @@ struct JobList {
 };
 
 /// One JSON object a line: {"id": …, "models": […], "profiles": […], "set": {…}, "output": …}, and where they are
-/// wanted "center": [x, y], "keep_position", "scale", "rotate", "copies", "spacing", "audit", "timeout" (s), and the
-/// free fields "label", "priority", "due" and "x-…". Blank lines do not count. Models and profiles are relative to
-/// `folder`.
+/// wanted "center": [x, y], "keep_position", "drop", "scale", "rotate", "copies", "spacing", "audit", "timeout" (s),
+/// and the free fields "label", "priority", "due" and "x-…". Blank lines do not count. Models and profiles are relative
+/// to `folder`.
 JobList read_jsonl(std::string_view text, const std::string& path, const std::filesystem::path& folder);
 
 /// A header line with the same names, of which models and profiles are lists separated by `;`; every other column is a

@@ -197,6 +197,7 @@ std::string inputs_hash(const Job& job, FileHashes& files) {
   const auto& p = job.placement;
   exact::add(key, p.centre);
   exact::add(key, p.keep_position);
+  exact::add(key, p.drop);
   exact::add(key, p.scale);
   exact::add(key, p.rotate_deg);
   exact::add(key, Um{p.copies});

@@ -46,6 +46,9 @@ std::optional<std::string> damage_of_binary_stl(std::string_view bytes);
 Contents read_binary_stl(const Source& source);
 /// The same of a file that is not in memory as a whole: in blocks, each of which is shown to `see` in its turn, on any
 /// thread and beside what else is done.
+/// How many bytes a binary STL has behind its triangles, when they are few and none of them is a triangle: what some
+/// programs append. Nothing: it has none, or is no such file.
+std::optional<std::size_t> bytes_behind_binary_stl(std::string_view bytes);
 /// Throws: Error::Kind::file as well. Pre: is_binary_stl.
 Contents read_binary_stl(InputFile& file, const std::string& path, double scale,
                          const std::function<void(std::string_view)>& see);

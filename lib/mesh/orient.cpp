@@ -1,6 +1,7 @@
 #include "mesh/orient.h"
 
 #include "mesh/box_tree.h"
+#include "mesh/cuts.h"
 #include "tasks/blocks.h"
 #include "tasks/parallel.h"
 
@@ -107,19 +108,56 @@ void measure(const Mesh& mesh, const ShellForest& forest, std::vector<Shell>& sh
       [&](std::uint32_t shell, double six_um3) { shells[shell].six_um3 += six_um3; });
 }
 
+/// The triangles of each shell, one behind the other.
+struct TrianglesByShell {
+  std::vector<std::size_t> first;
+  std::vector<std::uint32_t> triangles;
+
+  TrianglesByShell(const ShellForest& forest, std::size_t count, std::size_t shells)
+      : first(shells + 1), triangles(count) {
+    for (std::size_t t = 0; t < count; ++t) ++first[forest.shell(t) + 1];
+    for (std::size_t s = 0; s < shells; ++s) first[s + 1] += first[s];
+    auto next = first;
+    for (std::uint32_t t = 0; t < count; ++t) triangles[next[forest.shell(t)]++] = t;
+  }
+  void add(std::size_t shell, std::vector<std::uint32_t>& to) const {
+    to.insert(to.end(), triangles.begin() + static_cast<std::ptrdiff_t>(first[shell]),
+              triangles.begin() + static_cast<std::ptrdiff_t>(first[shell + 1]));
+  }
+};
+
+bool apart(const Box3& a, const Box3& b) {
+  return a.max.x <= b.min.x || b.max.x <= a.min.x || a.max.y <= b.min.y || b.max.y <= a.min.y || a.max.z <= b.min.z ||
+         b.max.z <= a.min.z;
+}
+
+/// Whether a shell cuts through one that faces outward.
+bool cuts(const Mesh& mesh, const TrianglesByShell& triangles, const std::vector<Shell>& shells, std::size_t shell) {
+  std::vector<std::uint32_t> own, others;
+  for (std::size_t s = 0; s < shells.size(); ++s)
+    if (shells[s].facing() > 0 && !apart(shells[s].box, shells[shell].box)) triangles.add(s, others);
+  if (others.empty()) return false;
+  triangles.add(shell, own);
+  return cut_each_other(mesh, own, others);
+}
+
 /// Rule 4 of the header.
-void turn_parts_inside_out(std::vector<Shell>& shells) {
+void turn_parts_inside_out(const Mesh& mesh, const ShellForest& forest, std::vector<Shell>& shells) {
   const auto faces_inward = [](const Shell& s) { return s.closed && !s.one_sided && s.facing() < 0; };
   if (std::none_of(shells.begin(), shells.end(), faces_inward)) return;
   std::vector<Box3> outward;
   for (const Shell& shell : shells)
     if (shell.facing() > 0) outward.push_back(shell.box);
   const BoxTree tree(std::move(outward));
-  for (Shell& shell : shells)
-    if (faces_inward(shell) && !tree.any_contains(shell.box)) shell.invert = !shell.invert;
+  const TrianglesByShell triangles(forest, mesh.triangles.size(), shells.size());
+  std::vector<std::uint8_t> hole(shells.size());  // looked at while all face as the file says
+  for (std::size_t s = 0; s < shells.size(); ++s)
+    hole[s] = faces_inward(shells[s]) && (tree.any_contains(shells[s].box) || cuts(mesh, triangles, shells, s));
+  for (std::size_t s = 0; s < shells.size(); ++s)
+    if (faces_inward(shells[s]) && !hole[s]) shells[s].invert = !shells[s].invert;
 }
 
-void decide(std::vector<Shell>& shells) {
+void decide(const Mesh& mesh, const ShellForest& forest, std::vector<Shell>& shells) {
   double six_um3 = 0;
   for (Shell& shell : shells) {
     if (shell.one_sided) continue;
@@ -130,7 +168,7 @@ void decide(std::vector<Shell>& shells) {
   }
   if (six_um3 < 0)
     for (Shell& shell : shells) shell.invert = !shell.one_sided && !shell.invert;
-  turn_parts_inside_out(shells);
+  turn_parts_inside_out(mesh, forest, shells);
 }
 
 }  // namespace
@@ -139,7 +177,7 @@ void orient(Mesh& mesh, Adjacency adjacency, Repairs& repairs) {
   std::vector<Shell> shells = shells_of(mesh, adjacency);
   find_open_at_crowded_edges(adjacency, shells);
   measure(mesh, adjacency.shells, shells);
-  decide(shells);
+  decide(mesh, adjacency.shells, shells);
   repairs.shells = shells.size();
   bool any = false;
   for (const Shell& shell : shells) {

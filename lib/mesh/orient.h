@@ -11,11 +11,11 @@ namespace weft::mesh {
 /// 3. If the shells together enclose a negative volume, the file is inside out: all are turned. Scraps of surface, with
 /// no
 ///    fewer open edges than triangles, have no say in it.
-/// 4. A closed shell that still faces inward is a void if its box lies in the box of a shell that faces outward,
-///    and stays. Elsewhere it can only be a part that is inside out, and is turned.
+/// 4. A closed shell that still faces inward is a void if its box lies in the box of a shell that faces outward, and a
+///    hole if it cuts through one: both stay. Elsewhere it can only be a part that is inside out, and is turned.
 ///
-/// So a void that the file says is one is never made solid. An inside-out part within the box of another stays too;
-/// the slicer's nonzero rule sees it as solid nevertheless. One-sided shells (Möbius) and open ones in rule 4 are left.
+/// So what the file says is empty is never made solid. An inside-out part within the box of another stays too; slicing
+/// sees it as solid nevertheless. One-sided shells (Möbius) and open ones in rule 4 are left.
 /// Writes the counts flipped, inverted_shells, shells and one_sided_shells. Cost: linear, but for rule 4, where shells
 /// are looked for in a tree of boxes.
 void orient(Mesh& mesh, Adjacency adjacency, Repairs& repairs);

@@ -25,7 +25,7 @@ Eigen::Rotation2Dd::Matrix2 turn(double degrees) {
   return result;
 }
 
-PlacedModel at_origin(Loaded loaded, double rotate_deg, Point& home) {
+PlacedModel at_origin(Loaded loaded, double rotate_deg, Point3& home) {
   PlacedModel model{std::move(loaded.path), {}, {}, {}, {}, {}};
   Box3 in_file;
   for (const Object& object : loaded.objects) in_file.add(box_of(object.mesh));
@@ -33,8 +33,9 @@ PlacedModel at_origin(Loaded loaded, double rotate_deg, Point& home) {
   for (Object& object : loaded.objects) model.objects.push_back(rotated(std::move(object.mesh), rotate_deg, about));
   Box3 turned;
   for (const Mesh& mesh : model.objects) turned.add(box_of(mesh));
-  home = turned.footprint().centre();
-  const Point3 by{-home.x, -home.y, -turned.min.z};
+  const Point centre = turned.footprint().centre();
+  home = {centre.x, centre.y, turned.min.z};
+  const Point3 by{-home.x, -home.y, -home.z};
   std::vector<Point> corners;
   for (Mesh& mesh : model.objects) {
     mesh = moved(std::move(mesh), by);
@@ -44,6 +45,16 @@ PlacedModel at_origin(Loaded loaded, double rotate_deg, Point& home) {
   }
   model.hull = convex_hull(std::move(corners));
   return model;
+}
+
+/// A part that keeps its place stands on the bed there.
+void check_stands(const std::string& path, Um z) {
+  constexpr Um rounding = 10;  // of exporters
+  if (std::abs(z) <= rounding) return;
+  throw Error(Error::Kind::model,
+              z > 0 ? fmt::format("stands {:.3f} mm above the bed", to_mm(z))
+                    : fmt::format("reaches {:.3f} mm below the bed", to_mm(-z)),
+              path, "with --keep-position its Z is that of the file; --drop puts it down");
 }
 
 }  // namespace
@@ -75,11 +86,14 @@ std::vector<PlacedModel> place(std::vector<Loaded> models, const PlacementOption
     throw Error(Error::Kind::usage, "copies of one position would lie in each other", "--keep-position",
                 "leave out --copies or --keep-position");
   std::vector<PlacedModel> placed;
-  std::vector<Point> homes(models.size());
+  std::vector<Point3> homes(models.size());
   for (std::size_t i = 0; i < models.size(); ++i)
     placed.push_back(at_origin(std::move(models[i]), options.rotate_deg, homes[i]));
   if (options.keep_position) {
-    for (std::size_t i = 0; i < models.size(); ++i) placed[i].instances = {homes[i]};
+    for (std::size_t i = 0; i < models.size(); ++i) {
+      if (!options.drop) check_stands(placed[i].path, homes[i].z);
+      placed[i].instances = {{homes[i].x, homes[i].y}};
+    }
     return placed;
   }
   const auto copies = static_cast<std::size_t>(options.copies);

@@ -17,7 +17,8 @@ struct Plate {
 
 struct PlacementOptions {
   double rotate_deg = 0;          ///< counter-clockwise about a vertical axis through the middle of each model
-  bool keep_position = false;     ///< x and y stay as in the file; Pre: copies is 1
+  bool keep_position = false;     ///< the file's coordinates stay; Pre: copies is 1
+  bool drop = false;              ///< … but what floats or dips is put down on the bed
   std::optional<Point> center{};  ///< of the box of everything; none: the middle of the plate
   int copies = 1;                 ///< of each model, > 0
   Um spacing = 6_mm;              ///< between the boxes of two models or copies, >= 0

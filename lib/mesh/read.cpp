@@ -1,8 +1,8 @@
 #include "mesh/read.h"
 
 #include "core/error.h"
-#include "core/hash.h"
 #include "core/file_bytes.h"
+#include "core/hash.h"
 #include "mesh/formats.h"
 #include "tasks/tasks.h"
 
@@ -45,6 +45,7 @@ Reader reader_for(const Source& source) {
   if (is_text(source.bytes) && is_obj(source.bytes))
     return {Format::obj, [](const Source& obj) { return read_obj(obj); }};
   if (is_3mf(source.bytes)) return {Format::three_mf, read_3mf};
+  if (!is_text(source.bytes) && bytes_behind_binary_stl(source.bytes)) return {Format::stl_binary, read_binary_stl};
   throw unknown(source);
 }
 

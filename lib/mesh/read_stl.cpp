@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <optional>
@@ -23,6 +24,19 @@ std::uint32_t count_of(std::string_view bytes) {
   std::uint32_t count;
   std::memcpy(&count, bytes.data() + header_bytes - sizeof count, sizeof count);
   return count;
+}
+
+/// Corners that are numbers a model may have, and three different ones.
+bool may_be_triangle(const char* at) {
+  constexpr float least = 1e-6F;  // mm, of what is not zero: text and counters make numbers far below and far above
+  float corners[9];
+  std::memcpy(corners, at, sizeof corners);
+  for (const float v : corners)
+    if (!placeable(double{v}) || (v != 0 && std::abs(v) < least)) return false;
+  const auto same = [&](std::size_t a, std::size_t b) {
+    return std::equal(corners + 3 * a, corners + 3 * a + 3, corners + 3 * b);
+  };
+  return !same(0, 1) && !same(1, 2) && !same(2, 0);
 }
 
 [[noreturn]] void refuse_corner(const std::string& path, double scale, std::size_t triangle,
@@ -118,6 +132,18 @@ bool is_binary_stl(std::string_view front, std::uint64_t size) {
   return front.size() >= header_bytes && size == header_bytes + std::uint64_t{count_of(front)} * triangle_bytes;
 }
 
+std::optional<std::size_t> bytes_behind_binary_stl(std::string_view bytes) {
+  constexpr std::uint64_t most_behind = 1024;
+  if (bytes.size() <= header_bytes) return std::nullopt;
+  const std::uint64_t promised = header_bytes + std::uint64_t{count_of(bytes)} * triangle_bytes;
+  if (count_of(bytes) == 0 || promised >= bytes.size() || bytes.size() - promised > most_behind) return std::nullopt;
+  const std::string_view behind = bytes.substr(promised);
+  // Triangles there tell that the count is wrong.
+  for (std::size_t at = 0; at + triangle_bytes <= behind.size(); at += triangle_bytes)
+    if (may_be_triangle(behind.data() + at + corners_offset)) return std::nullopt;
+  return behind.size();
+}
+
 std::optional<std::string> damage_of_binary_stl(std::string_view bytes) {
   if (bytes.size() < header_bytes) return std::nullopt;
   const std::uint32_t count = count_of(bytes);
@@ -139,7 +165,12 @@ Contents read_binary_stl(const Source& source) {
     rest.remove_prefix(bytes);
     return block;
   };
-  return Triangles(count, source.path, source.scale).read(next, {});
+  auto contents = Triangles(count, source.path, source.scale).read(next, {});
+  if (!rest.empty())
+    contents.notices.push_back(
+        {"mesh_bytes_behind",
+         fmt::format("{}: {} bytes behind the last of {} triangles were left out", source.path, rest.size(), count)});
+  return contents;
 }
 
 Contents read_binary_stl(InputFile& file, const std::string& path, double scale, const See& see) {

@@ -35,12 +35,27 @@ inline Um band(Um line_width, Um height) {
   return from_mm(spacing_mm(to_mm(line_width), to_mm(height)));
 }
 
+/// Distance between the centres of neighbours of that line width, to the micron; see spacing_mm.
+inline Um spacing(Um line_width, Um height, double overlap_factor) {
+  return from_mm(spacing_mm(to_mm(line_width), to_mm(height), overlap_factor));
+}
+
+/// How much narrower than their spacing the bands of neighbours are that overlap less than is dense.
+inline Um spread(Um height, double overlap_factor) {
+  return rounded(height * rounding * (1 - overlap_factor));
+}
+
 /// The line width of a band; the inverse of `band` up to the rounding to microns.
 inline Um line_width(Um band_width, Um height) {
   const double band_mm = to_mm(band_width), height_mm = to_mm(height);
   constexpr double half_micron = 0.0005;  // the band was rounded
   if (band_mm < height_mm * (1.0 - rounding) - half_micron) return band_width;
   return from_mm(band_mm + height_mm * rounding);
+}
+
+/// How far the widest point of a bead of that line width stands out beyond half the way to its neighbour, µm.
+inline double bulge_um(Um line_width, Um height, double overlap_factor) {
+  return (line_width - 1000 * spacing_mm(to_mm(line_width), to_mm(height), overlap_factor)) / 2;
 }
 
 /// Automatic width of outer walls: 1.05 × nozzle, narrow for a fine surface.

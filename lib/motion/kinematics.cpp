@@ -1,6 +1,7 @@
 #include "motion/kinematics.h"
 
 #include "core/stop.h"
+#include "model/moves.h"
 #include "motion/speeds.h"
 
 #include <algorithm>
@@ -141,10 +142,12 @@ std::vector<Move> moves_of(const Rules& rules, const LayerPlan& layer, std::opti
       [&](const Extrude& bead) {
         const double a = bead.acceleration_mm_s2 > 0 ? bead.acceleration_mm_s2 : unset;
         const bool varies = !bead.segment_speed_mm_s.empty();
-        for (std::size_t k = 0; k < bead.path.size(); ++k) {
-          const double v = varies && k > 0 ? static_cast<double>(bead.segment_speed_mm_s[k - 1]) : bead.speed_mm_s;
-          out.go(place_of(bead, k, layer.z), v, a, i, true);
-        }
+        if (bead.path.size() < 2) return;
+        out.go(place_of(bead, 0, layer.z), bead.speed_mm_s, a, i, true);
+        for_each_move(bead.path, to_mm(bead.height), [&](const BeadMove& move) {
+          const double v = varies ? static_cast<double>(bead.segment_speed_mm_s[move.piece - 1]) : bead.speed_mm_s;
+          out.go(place_of(bead, move.to, layer.z), v, a, i, true);
+        });
       },
       [&](const Travel& travel) {
         for (const Point3 to : travel.path)

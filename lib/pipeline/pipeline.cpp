@@ -181,7 +181,8 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
       plan_plate(job.settings, objects, by_layer(count_copies(objects)), std::move(layers), report);
   note_statistics(job.settings, statistics, report);
   report.layers = plan.layers.size();
-  for (const auto& layer : plan.layers) report.height_mm = std::max(report.height_mm, to_mm(layer.z));
+  for (const auto& layer : plan.layers)
+    report.height_mm = std::max(report.height_mm, to_mm(layer.z - job.settings.machine.z_offset));
   report.warnings.insert(report.warnings.end(), plan.notices.begin(), plan.notices.end());
   begin("G-code", 0.85);
   audit::Check check(job.settings.machine, job.settings.material, job.settings.audit, job.audit);

@@ -17,6 +17,7 @@ namespace weft {
 struct Placement {
   std::optional<Point> centre;  ///< of the models' common box; absent: the centre of the bed
   bool keep_position = false;   ///< the file's coordinates stay
+  bool drop = false;            ///< … but what floats or dips is put down on the bed
   double scale = 1.0;
   double rotate_deg = 0.0;  ///< about Z, counter-clockwise
   int copies = 1;

@@ -3,6 +3,7 @@
 #include "gcode/digest.h"
 #include "model/sequence.h"
 #include "motion/motion.h"
+#include "pipeline/check.h"
 #include "pipeline/codec.h"
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
@@ -183,6 +184,15 @@ std::vector<PackedLayer> plan_moves(const Settings& settings, std::vector<travel
   return packed;
 }
 
+/// How near the order of each layer is to the shortest.
+std::vector<Report::Tour> tours_of(const std::vector<travel::Prepared>& prepared,
+                                   const std::vector<travel::Ordered>& ordered) {
+  return tasks::parallel_map(prepared.size(), [&](std::size_t i) {
+    const auto gap = travel::gap_of(prepared[i], ordered[i], i > 0 ? ordered[i - 1].end : std::nullopt);
+    return Report::Tour{gap.way_um / 1000, gap.least_um / 1000};
+  });
+}
+
 }  // namespace
 
 PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects, const Sequence& sequence,
@@ -201,11 +211,12 @@ PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject
   add_adhesion_to_rises(settings, inputs, plan.notices);
   const double filament_mm = to_mm(settings.material.filament_diameter);
   for (auto& input : inputs) {
+    input.z += settings.machine.z_offset;
     input.room = room_at(settings.machine, input.z);
     input.filament_area_mm2 = std::numbers::pi / 4 * filament_mm * filament_mm;
     input.nozzle = settings.machine.nozzle_diameter;
   }
-  for (auto& notice : travel::check(settings.travel, settings.retraction)) plan.notices.push_back(std::move(notice));
+  for (auto& notice : check(settings)) plan.notices.push_back(std::move(notice));
 
   std::vector<travel::Prepared> prepared;
   prepared.reserve(count);
@@ -219,6 +230,7 @@ PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject
   const auto linked = linker.linked();
   auto ordered =
       tasks::parallel_map(count, [&](std::size_t i) { return travel::order(settings.travel, prepared[i], linked[i]); });
+  if (report.tours) *report.tours = tours_of(prepared, ordered);
   auto planned = plan_moves(settings, std::move(prepared), std::move(ordered), plan.notices);
   for (auto& layer : planned) {
     out.statistics.append(layer.statistics);

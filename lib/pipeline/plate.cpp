@@ -25,6 +25,7 @@ std::string name_of(const mesh::Loaded& model, std::size_t object) {
 
 void note_model(const mesh::Loaded& model, Report& report) {
   Report::Model out{model.path, model.sha256, 0, 0.0, {}};
+  report.warnings.insert(report.warnings.end(), model.notices.begin(), model.notices.end());
   for (std::size_t i = 0; i < model.objects.size(); ++i) {
     const auto& object = model.objects[i];
     out.triangles += object.mesh.triangles.size();
@@ -61,10 +62,11 @@ std::vector<PlacedObject> place_models(const Job& job, Report& report, StageCach
   }
 
   const auto& machine = job.settings.machine;
-  const mesh::Plate plate{print_surface(machine), machine.bed_exclude_areas, machine.machine_height};
+  const mesh::Plate plate{print_surface(machine), machine.bed_exclude_areas, height_of(machine)};
   auto placed = mesh::place(std::move(loaded),
                             {.rotate_deg = job.placement.rotate_deg,
                              .keep_position = job.placement.keep_position,
+                             .drop = job.placement.drop,
                              .center = job.placement.centre,
                              .copies = job.placement.copies,
                              .spacing = job.placement.spacing},

@@ -48,7 +48,8 @@ StageKey fill_key(const Settings& settings, const std::string& walls) {
       .with(settings.shells, shell_schema)
       .with(settings.infill, infill_schema)
       .with(settings.machine.nozzle_diameter)
-      .with(settings.walls.wall_line_width_x);
+      .with(settings.walls.wall_line_width_x)
+      .with(settings.walls.overlap_factor);
 }
 
 using Cuts = std::vector<slice::Cut>;
@@ -93,6 +94,7 @@ std::vector<infill::LayerAreas> find_areas(const Settings& settings, const Cuts&
   std::vector<infill::LayerAreas> areas;
   areas.reserve(cuts.size());
   for (auto& part : runs) std::move(part.begin(), part.end(), std::back_inserter(areas));
+  infill::combine_sparse(settings.infill, object, areas);
   return areas;
 }
 
@@ -110,6 +112,7 @@ Fills fill_object(const Settings& settings, const Settings& first, const Cuts& c
                                 .z = layer.z,
                                 .height = layer.height,
                                 .nozzle = settings.machine.nozzle_diameter,
+                                .overlap_factor = s.walls.overlap_factor,
                                 .wall_line_width = s.walls.wall_line_width_x.value_or(0),
                                 .origin = box.empty() ? Point{} : box.centre()});
     FilledLayer out{{}, {}, {}, std::move(filled.beads), std::move(filled.notices)};
@@ -118,6 +121,7 @@ Fills fill_object(const Settings& settings, const Settings& first, const Cuts& c
       std::move(part.solid.begin(), part.solid.end(), std::back_inserter(out.skin));
       std::move(part.top.begin(), part.top.end(), std::back_inserter(out.top));
       std::move(part.sparse.begin(), part.sparse.end(), std::back_inserter(out.sparse));
+      std::move(part.combined.begin(), part.combined.end(), std::back_inserter(out.sparse));
     }
     return out;
   });

@@ -22,6 +22,7 @@ std::string text_of(const Placement& p) {
   std::string out;
   if (p.centre) out += fmt::format(" center={},{}", p.centre->x, p.centre->y);  // microns
   if (p.keep_position) out += " keep-position=1";
+  if (p.drop) out += " drop=1";
   if (p.scale != usual.scale) out += fmt::format(" scale={}", p.scale);
   if (p.rotate_deg != usual.rotate_deg) out += fmt::format(" rotate={}", p.rotate_deg);
   if (p.copies != usual.copies) out += fmt::format(" copies={}", p.copies);
@@ -57,6 +58,8 @@ Placement placement_from(std::string_view text, const std::string& path) {
       p.centre = Point{number<Um>(x, path), number<Um>(value, path)};
     } else if (key == "keep-position") {
       p.keep_position = true;
+    } else if (key == "drop") {
+      p.drop = true;
     } else if (key == "scale") {
       p.scale = number<double>(value, path);
     } else if (key == "rotate") {

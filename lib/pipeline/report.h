@@ -74,6 +74,11 @@ struct Report {
   std::array<Feature, roles.size()> features{};
   std::vector<Tool> tools;  ///< by number, T0 first; empty where the plan names none
   Walls walls;
+  /// The travels of a layer in their order, and a bound that no order could go below.
+  struct Tour {
+    double mm = 0, least_mm = 0;
+  };
+  std::optional<std::vector<Tour>> tours;  ///< one a layer, where they are asked for: put an empty list there
   Travel travel;
   Audit audit;
   Notices warnings;

@@ -7,7 +7,9 @@
 #include "settings/catalogue.h"
 #include "settings/gcode_variables.h"
 #include "settings/ini.h"
+#include "settings/value.h"
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -43,6 +45,15 @@ Foreign chosen_of(const std::vector<IniEntry>& entries, const std::string& path,
   return out;
 }
 
+/// Line numbers below 0 are those of options.
+std::string place_of(const std::string& path, int line, const std::string& key) {
+  if (line == 0) return path + ", PrusaSlicer's default";
+  if (line > 0) return fmt::format("{}:{}", path, line);
+  std::string option = "--" + key;
+  std::replace(option.begin(), option.end(), '_', '-');
+  return option;
+}
+
 prusaslicer::Translation apply_foreign(Profile& profile, Foreign foreign, const std::string& path) {
   const auto translated = prusaslicer::translate(std::move(foreign.lines), path, foreign.complete);
   for (const auto& a : translated.assignments) {
@@ -51,8 +62,7 @@ prusaslicer::Translation apply_foreign(Profile& profile, Foreign foreign, const 
         if (e.line != a.line)
           profile.origins[a.key].push_back(
               {fmt::format("{}:{}", path, e.line), e.value, fmt::format("[{}] {} = {}", e.section, e.key, e.value)});
-    apply_value(profile, a.key, a.text,
-                a.line == 0 ? path + ", PrusaSlicer's default" : fmt::format("{}:{}", path, a.line));
+    apply_value(profile, a.key, a.text, place_of(path, a.line, a.theirs));
     profile.origins[a.key].back().source = a.source;
     if (a.key.starts_with("machine_reach"))
       profile.notices.push_back(
@@ -70,8 +80,9 @@ void note(Profile& profile, const char* code, const std::vector<prusaslicer::Rem
   if (remarks.empty()) return;
   std::string list;
   for (std::size_t i = 0; i < remarks.size() && i < most; ++i)
-    list += fmt::format("{}{} = {} (line {}{}{})", i == 0 ? "" : ", ", remarks[i].key, remarks[i].text.substr(0, 40),
-                        remarks[i].line, remarks[i].why.empty() ? "" : ": ", remarks[i].why);
+    list += fmt::format("{}{} = {} ({}{}{})", i == 0 ? "" : ", ", remarks[i].key, remarks[i].text.substr(0, 40),
+                        remarks[i].line < 0 ? "option" : fmt::format("line {}", remarks[i].line),
+                        remarks[i].why.empty() ? "" : ": ", remarks[i].why);
   if (remarks.size() > most)
     list += fmt::format(" and {} more, which `weft profile import` lists", remarks.size() - most);
   profile.notices.push_back({code, fmt::format("{}: {}: {}", path, what, list)});
@@ -99,12 +110,40 @@ void refuse_losses(const prusaslicer::Translation& translated, const std::string
     }
 }
 
+/// What was said beside the file holds instead of what it says.
+void take_in(Foreign& foreign, const ImportOptions& options) {
+  for (const auto& [key, text] : options.options) {
+    std::erase_if(foreign.lines, [&](const IniEntry& e) { return e.key == key; });
+    foreign.histories.erase(key);
+    foreign.lines.push_back({{}, key, text, -1});
+  }
+}
+
 /// The text as lines of PrusaSlicer's family, or nothing when it is weft's own.
 std::optional<Foreign> foreign_of(std::string_view text, const std::string& path, const std::vector<IniEntry>& entries,
                                   bool embedded, const ImportOptions& options) {
-  if (!embedded && prusaslicer::is_bundle(entries)) return chosen_of(entries, path, options);
-  if (!prusaslicer::recognises(embedded ? std::string_view() : text, entries)) return std::nullopt;
-  return Foreign{entries, {}, false, {}};
+  Foreign out;
+  if (!embedded && prusaslicer::is_bundle(entries))
+    out = chosen_of(entries, path, options);
+  else if (prusaslicer::recognises(embedded ? std::string_view() : text, entries))
+    out.lines = entries;
+  else
+    return std::nullopt;
+  take_in(out, options);
+  return out;
+}
+
+/// A value without the comment behind it: ` #` or ` ;` and what follows. Texts may hold both, and G-code has comments
+/// of its own; `;` also parts areas.
+std::string without_comment(const IniEntry& e) {
+  const auto* entry = find_setting(e.key);
+  if (!entry || entry->type == "text") return e.value;
+  for (std::size_t i = 0; i < e.value.size(); ++i) {
+    if (e.value[i] != '#' && (e.value[i] != ';' || entry->type == "polygons")) continue;
+    if (i == 0 || e.value[i - 1] == ' ' || e.value[i - 1] == '\t')
+      return std::string(value::trimmed(std::string_view(e.value).substr(0, i)));
+  }
+  return e.value;
 }
 
 void apply_text(Profile& profile, std::string_view text, const std::filesystem::path& path,
@@ -138,7 +177,7 @@ void apply_text(Profile& profile, std::string_view text, const std::filesystem::
     apply_text(profile, read_profile(parent), parent, options, chain);
   }
   for (const auto& e : entries)
-    if (e.key != "inherits") apply_value(profile, e.key, e.value, fmt::format("{}:{}", name, e.line));
+    if (e.key != "inherits") apply_value(profile, e.key, without_comment(e), fmt::format("{}:{}", name, e.line));
   chain.pop_back();
 }
 
@@ -157,6 +196,27 @@ void apply_text(Profile& profile, std::string_view text, const std::filesystem::
                 const ImportOptions& options) {
   std::vector<std::filesystem::path> chain;
   apply_text(profile, text, path, options, chain);
+}
+
+void apply_options(Profile& profile, const ImportOptions& options) {
+  if (options.options.empty()) return;
+  const auto taken = [&](const std::string& key) {
+    for (const auto& [ours, history] : profile.origins)
+      for (const auto& origin : history)
+        if (origin.where == place_of({}, -1, key)) return true;
+    return false;
+  };
+  ImportOptions rest = options;
+  std::erase_if(rest.options, [&](const auto& option) { return taken(option.first); });
+  if (rest.options.empty()) return;
+  const auto& s = profile.settings;
+  Foreign foreign;  // what shares are of
+  foreign.lines = {{{}, "nozzle_diameter", value::print(s.machine.nozzle_diameter, Unit::mm), 0},
+                   {{}, "layer_height", value::print(s.layers.layer_height, Unit::mm), 0}};
+  take_in(foreign, rest);
+  const auto translated = apply_foreign(profile, std::move(foreign), "the command line");
+  if (options.strict) refuse_losses(translated, "the command line");
+  note_losses(profile, translated, "the command line");
 }
 
 void apply_file(Profile& profile, const std::filesystem::path& path, const ImportOptions& options) {

@@ -30,9 +30,10 @@ struct Profile {
 
 /// How profiles of PrusaSlicer's family are read.
 struct ImportOptions {
-  prusaslicer::PresetChoice presets;  ///< which presets of a bundle are meant
-  bool strict = false;                ///< what would be lost is an error
-  ProfileFolders folders;             ///< where profiles are looked for by name
+  prusaslicer::PresetChoice presets;                         ///< which presets of a bundle are meant
+  bool strict = false;                                       ///< what would be lost is an error
+  ProfileFolders folders;                                    ///< where profiles are looked for by name
+  std::vector<std::pair<std::string, std::string>> options;  ///< PrusaSlicer's keys said beside profiles; they hold
 };
 
 /// Lays an ini file over `profile`. `inherits = other.ini` (relative to the file, else by name) is laid down before the
@@ -52,6 +53,11 @@ void apply_text(Profile& profile, std::string_view text, const std::filesystem::
 /// @throws as apply_file; Error{settings} as well when the text is not PrusaSlicer's
 prusaslicer::Translation import_prusaslicer(Profile& profile, std::string_view text, const std::filesystem::path& path,
                                             const ImportOptions& options = {});
+
+/// Lays options that PrusaSlicer's keys were given as over `profile`, where no configuration of that family has taken
+/// them in: shares are of the profile's own layer height and nozzle.
+/// @throws Error{settings} naming the option
+void apply_options(Profile& profile, const ImportOptions& options);
 
 /// The bytes of a profile. @throws Error{file}
 std::string read_profile(const std::filesystem::path& path);

@@ -170,14 +170,14 @@ class Doubts {
     if (reach.min.x > bed.min.x || reach.min.y > bed.min.y || reach.max.x < bed.max.x || reach.max.y < bed.max.y)
       doubt("profile_reach", "machine_reach",
             "does not hold the print surface: what is printed at its edge is refused");
-    if (reach_z_max(m) < m.machine_height)
+    if (m.machine_height > 0 && reach_z_max(m) < m.machine_height)
       doubt("profile_reach", "machine_reach_z_max", "is below machine_height: tall prints are refused");
     if (m.home_position && m.home_position->size() == 1) {
       const Point home = m.home_position->front();
       if (home.x < reach.min.x || home.y < reach.min.y || home.x > reach.max.x || home.y > reach.max.y)
         doubt("profile_reach", "home_position", "lies outside machine_reach");
     }
-    if (s_.layers.layer_height > m.machine_height) doubt("profile_reach", "machine_height", "holds no layer");
+    if (s_.layers.layer_height > height_of(m)) doubt("profile_reach", "machine_height", "holds no layer");
   }
 
   void custom() {

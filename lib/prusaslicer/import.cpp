@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -55,7 +56,7 @@ class Translator {
          fmt::format("{}{} = {}", e.section.empty() ? "" : "[" + e.section + "] ", e.key, e.value)});
   }
   void approximate(const IniEntry& e, std::string why) {
-    if (e.line > 0) out_.approximated.push_back({e.key, e.value, e.line, std::move(why)});
+    if (e.line != 0) out_.approximated.push_back({e.key, e.value, e.line, std::move(why)});
   }
   void unsupported(const IniEntry& e, std::string why) {
     out_.unsupported.push_back({e.key, e.value, e.line, std::move(why)});
@@ -132,14 +133,11 @@ class Translator {
     for_each_reckoned(Form::limit, [&](const Key& row) {
       if (const auto* e = lines_.find(row.name)) limit(std::string(row.ours), *e);
     });
-    if (const auto* e = lines_.look("nozzle_diameter"); e && e->line > 0)
+    if (const auto* e = lines_.look("nozzle_diameter"); e && e->line != 0)
       if (const auto n = elements_of(e->key, e->value).size(); n > 1)
         approximate(*e, fmt::format("weft prints with the first of {} extruders", n));
-    if (const auto* e = lines_.look("max_print_height"); e && lines_.figure(*e).v == 0) {
-      lines_.find("max_print_height");
-      done_.insert("max_print_height");
-      approximate(*e, "no limit: machine_height stays what it is");
-    }
+    if (const auto* e = lines_.look("gcode_flavor"))
+      set("write_extrusion", e->value == "no-extrusion" ? "false" : "true", *e);
   }
 
   /// A limit that no machine reaches is none: it is kept as the highest that weft takes.
@@ -167,8 +165,15 @@ class Translator {
     for_each_reckoned(Form::width, [&](const Key& row) {
       const auto* own = lines_.find(row.name);
       if (!own && !general) return;
-      set(row.ours, number(width_of(own, row.automatic), 3), own && (own->line > 0 || !general) ? *own : *general);
+      const auto& line = own && (own->line != 0 || !general) ? *own : *general;
+      set(row.ours, number(width_of(own, row.automatic), 3), line);
+      if (row.ours == "wall_line_width_0") set("wall_outline", "widest", line);  // as its widths are meant
     });
+    // In the classic generator, without thin_walls, what holds no wall gets none.
+    const auto* thin = lines_.find("thin_walls");
+    const auto* generator = lines_.look("perimeter_generator");
+    if (thin && !lines_.flag(*thin) && generator && generator->value == "classic")
+      set("min_feature_size", number(width_of(lines_.look("external_perimeter_extrusion_width"), 1.125), 3), *thin);
     solid_width_ = width_of(lines_.look("solid_infill_extrusion_width"), 1.125);
     if (const auto* e = lines_.find("first_layer_extrusion_width")) {
       const double first = lines_.figure(*e).of(first_height);
@@ -192,18 +197,51 @@ class Translator {
     done_.insert("min_skirt_length");
   }
 
+  /// The cross-section that a speed is for, mm².
+  double area_of(std::string_view speed) {
+    const auto width_of = [&](std::string_view key, double automatic) {
+      const auto* own = lines_.look(key);
+      const auto* general = lines_.look("extrusion_width");
+      double width = own ? lines_.figure(*own).of(height_) : 0;
+      if (width == 0 && general) width = lines_.figure(*general).of(height_);
+      return width == 0 ? automatic * nozzle_ : width;
+    };
+    const auto* key = speed == "speed_wall_0"      ? "external_perimeter_extrusion_width"
+                      : speed == "speed_wall_x"    ? "perimeter_extrusion_width"
+                      : speed == "speed_infill"    ? "infill_extrusion_width"
+                      : speed == "speed_topbottom" ? "solid_infill_extrusion_width"
+                      : speed == "speed_top_skin"  ? "top_infill_extrusion_width"
+                                                   : nullptr;
+    const double round = std::numbers::pi / 4;
+    if (!key) return round * nozzle_ * nozzle_;
+    const double width = width_of(key, speed == "speed_top_skin" ? 1.0 : 1.125);
+    return std::max(1e-3, height_ * (width - height_ * (1 - round)));
+  }
+
+  /// What automatic speeds make flow: the thinnest line that has one goes at the highest speed, others take as much,
+  /// up to max_volumetric_speed. Infinite where none is automatic.
+  double automatic_mm3_s(double fastest) {
+    double least = std::numeric_limits<double>::infinity();
+    for_each_reckoned(Form::speed, [&](const Key& row) {
+      const auto* e = lines_.look(row.name);
+      if (e && lines_.figure(*e).v == 0 && row.ours != "speed_travel") least = std::min(least, area_of(row.ours));
+    });
+    const double most = lines_.look("max_volumetric_speed") ? lines_.figure(*lines_.look("max_volumetric_speed")).v : 0;
+    return most > 0 ? std::min(most, fastest * least) : fastest * least;
+  }
+
   /// Speeds: a share is of another speed; 0 is PrusaSlicer's automatic speed, bounded by max_print_speed.
   void speeds() {
     const double fastest = lines_.number("max_print_speed", 80);
     std::map<std::string_view, double> known;
+    const double mm3_s = automatic_mm3_s(fastest);
     for_each_reckoned(Form::speed, [&](const Key& row) {
       const auto* e = lines_.find(row.name);
       if (!e) return;
       const auto base = known.find(row.of);
       double speed = lines_.figure(*e).of(base == known.end() ? fastest : base->second);
       if (speed == 0) {
-        speed = fastest;
-        approximate(*e, fmt::format("automatic speed becomes max_print_speed, {} mm/s", number(fastest)));
+        speed = std::max(0.1, std::min(fastest, mm3_s / area_of(row.ours)));
       }
       known[row.name] = speed;
       set(row.ours, number(speed), *e);
@@ -267,6 +305,10 @@ class Translator {
       set("infill_sparse_density", number(f.percent ? f.v : f.v * 100),
           *e);  // without % it is a fraction, as in old profiles
     }
+    if (const auto* e = lines_.find("infill_every_layers")) {
+      const double layers = lines_.figure(*e).v;
+      set("infill_sparse_thickness", layers > 1 ? number(std::min(layers * height_, 5.0), 3) : "auto", *e);
+    }
     if (const auto* e = lines_.find("bridge_angle"))
       set("bridge_angle", lines_.figure(*e).v == 0 ? "auto" : number(lines_.figure(*e).v), *e);
     if (const auto* e = lines_.find("elefant_foot_compensation"))
@@ -316,7 +358,7 @@ class Translator {
       const auto f = detour ? lines_.figure(*detour) : Figure{};
       set("retraction_combing_max_detour", f.v == 0 ? "auto" : number(f.v, 3) + (f.percent ? "%" : ""),
           detour ? *detour : *avoid);
-    } else if (avoid && avoid->line > 0) {
+    } else if (avoid && avoid->line != 0) {
       out_.not_needed.push_back({avoid->key, avoid->value, avoid->line,
                                  "travels stay inside the part where that is no long way round (retraction_combing)"});
     }
@@ -348,11 +390,14 @@ class Translator {
     if (const auto* e = lines_.look("filament_density"); e && lines_.figure(*e).v == 0) {
       lines_.find("filament_density");
       done_.insert("filament_density");
-      if (e->line > 0)
+      if (e->line != 0)
         out_.not_needed.push_back({e->key, e->value, e->line, "not known; the weight is reckoned with weft's density"});
     }
-    if (const auto* e = lines_.look("retract_length"))
-      set("retraction_enable", lines_.figure(*e).v > 0 ? "true" : "false", *e);
+    if (const auto* e = lines_.look("retract_length")) {
+      const auto* by_firmware = lines_.look("use_firmware_retraction");  // which knows a length of its own
+      set("retraction_enable", lines_.figure(*e).v > 0 || (by_firmware && lines_.flag(*by_firmware)) ? "true" : "false",
+          *e);
+    }
     if (const auto* e = lines_.find("max_volumetric_extrusion_rate_slope_positive"))
       set("max_extrusion_rate_slope", lines_.figure(*e).v > 0 ? number(lines_.figure(*e).v) : "auto", *e);
     // While wiping, PrusaSlicer draws back at the usual speed and moves at 0.8 × that of travels: that gives the
@@ -390,9 +435,9 @@ class Translator {
       if (!a && !b) return;
       const std::string x = a ? first_text(*a) : "", y = b ? first_text(*b) : "";
       set(ours, x + (x.empty() || y.empty() || x.ends_with("\\n") ? "" : "\\n") + y,
-          a && a->line > 0 ? *a
-          : b              ? *b
-                           : *a);
+          a && a->line != 0 ? *a
+          : b               ? *b
+                            : *a);
     };
     joined("machine_start_gcode", "start_gcode", "start_filament_gcode");
     joined("machine_end_gcode", "end_filament_gcode", "end_gcode");
@@ -400,11 +445,11 @@ class Translator {
 
   /// The reach that the custom G-code shows, and the values that it names.
   void custom() {
-    if (const auto* bed = lines_.look("bed_shape"); bed && bed->line > 0)
+    if (const auto* bed = lines_.look("bed_shape"); bed && bed->line != 0)
       for (const auto& reach : reach_of(lines_)) {
         const auto* height = lines_.look("max_print_height");
         set(reach.setting, reach.value,
-            reach.setting == "machine_reach_z_max" && height && height->line > 0 ? *height : *bed);
+            reach.setting == "machine_reach_z_max" && height && height->line != 0 ? *height : *bed);
         out_.assignments.back().source += fmt::format(", and {}", reach.why);
       }
     const auto variables = variables_of(lines_);

@@ -227,6 +227,12 @@ constexpr auto rows = std::to_array<Key>({
         .fate = "behind end_filament_gcode",
         .written = Written::text,
         .initial = "M104 S0 ; turn off temperature\\nG28 X0  ; home X axis\\nM84     ; disable motors\\n"},
+    Key{.name = "infill_every_layers", .form = Form::reckoned, .ours = "infill_sparse_thickness", .initial = "1"},
+    Key{.name = "thin_walls",
+        .form = Form::reckoned,
+        .fate = "with perimeter_generator = classic: parts thinner than a wall are left out",
+        .written = Written::flag,
+        .initial = "1"},
 });
 
 }  // namespace

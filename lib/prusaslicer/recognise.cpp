@@ -1,5 +1,6 @@
 #include "prusaslicer/import.h"
 #include "prusaslicer/keys.h"
+#include "settings/catalogue.h"
 #include "settings/value.h"
 
 #include <algorithm>
@@ -16,7 +17,11 @@ bool recognises(std::string_view text, const std::vector<IniEntry>& entries) {
     const auto* row = find_key(e.key);
     return row && row->telling;
   });
-  return found >= 2;
+  if (found >= 2) return true;
+  // A few lines that all are of that family, and not all of weft's.
+  return !entries.empty() &&
+         std::all_of(entries.begin(), entries.end(), [](const IniEntry& e) { return find_key(e.key) != nullptr; }) &&
+         std::any_of(entries.begin(), entries.end(), [](const IniEntry& e) { return find_setting(e.key) == nullptr; });
 }
 
 }  // namespace weft::prusaslicer

@@ -1,10 +1,12 @@
 #include "core/stop.h"
+#include "core/tolerances.h"
 #include "geometry/boolean.h"
 #include "geometry/simplify.h"
 #include "slice/slice.h"
 #include "slice/stitch.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace weft::slice {
 namespace {
@@ -64,6 +66,29 @@ Cutter::Cutter(const Mesh& mesh, std::vector<Plane> planes) : mesh_(&mesh), plan
   }
 }
 
+namespace {
+
+/// What rings enclose: those that run clockwise are holes in the others, and no more than that where they reach beyond
+/// them; those that meet no other are parts that are inside out.
+Regions solid_of(std::vector<Ring> rings) {
+  const auto hole = [](const Ring& ring) { return double_area(ring) < 0; };
+  Regions any = geometry::regions_from_rings(rings);
+  if (std::none_of(rings.begin(), rings.end(), hole)) return any;
+  Regions solid = geometry::regions_from_rings(rings, geometry::WindingRule::positive);
+  if (area_mm2(any) - area_mm2(solid) < 1e-6 * tolerances::sliver_area_um2) return any;
+  std::vector<Ring> outer;
+  std::copy_if(rings.begin(), rings.end(), std::back_inserter(outer), [&](const Ring& r) { return !hole(r); });
+  const Regions others = geometry::regions_from_rings(outer);
+  for (Ring& ring : rings) {
+    if (!hole(ring)) continue;
+    const Region part{{ring.rbegin(), ring.rend()}, {}};
+    if (geometry::intersect({part}, others).empty()) ring = part.outer;
+  }
+  return geometry::regions_from_rings(rings, geometry::WindingRule::positive);
+}
+
+}  // namespace
+
 Cut Cutter::cut(std::size_t i, Um resolution) const {
   const Plane& plane = planes_[i];
   Cut out{{plane.z, plane.height, {}}, {}, {}};
@@ -74,7 +99,7 @@ Cut Cutter::cut(std::size_t i, Um resolution) const {
     stop.step();
     ring = geometry::simplified(ring, resolution);
   }
-  out.layer.regions = geometry::regions_from_rings(chains.rings);
+  out.layer.regions = solid_of(std::move(chains.rings));
   return out;
 }
 

@@ -27,9 +27,12 @@ class BlockOrder {
     if (block_.object == Block::adhesion) return in_list_order(block_.fills, at);
     const std::size_t first = turns_.size();
     const auto from = at;
-    const auto walls = order_walls(settings_, layer_, linked_, index_, at, block_.fills.empty() ? then : std::nullopt);
+    const bool fills_first = settings_.infill_before_walls && !block_.walls.empty();
+    if (fills_first) at = fills(at, linked_.places[index_]);
+    const bool walls_last = fills_first || block_.fills.empty();
+    const auto walls = order_walls(settings_, layer_, linked_, index_, at, walls_last ? then : std::nullopt);
     for (const auto& turn : walls) at = append(turn);
-    at = fills(at, then);
+    if (!fills_first) at = fills(at, then);
     if (settings_.path_order == PathOrder::nearest) return at;
     fit_open_walls(beads_, std::span(turns_).subspan(first), {from, then});
     return turns_.size() > first ? std::optional(end_of(beads_[turns_.back().bead], turns_.back())) : at;
@@ -154,6 +157,17 @@ Ordered order(const TravelSettings& settings, const Prepared& layer, const Linke
   out.begin = begin_of(bead(out.turns.front()), out.turns.front());
   out.end = end_of(bead(out.turns.back()), out.turns.back());
   return out;
+}
+
+TourGap gap_of(const Prepared& layer, const Ordered& ordered, std::optional<Point> from) {
+  std::vector<Stop> stops;
+  std::vector<Visit> visits;
+  for (const Turn& turn : ordered.turns) {
+    const Bead& bead = beads_of(layer.input, layer.blocks[turn.block])[turn.bead];
+    visits.push_back({static_cast<std::uint32_t>(stops.size()), false});
+    stops.push_back({begin_of(bead, turn), end_of(bead, turn)});
+  }
+  return {way(stops, visits, {from, {}}), least_way(stops, {from, {}})};
 }
 
 }  // namespace weft::travel

@@ -3,6 +3,7 @@
 #include "geometry/offset.h"
 #include "travel/blocks.h"
 #include "travel/box_columns.h"
+#include "travel/comb_base.h"
 
 #include <algorithm>
 
@@ -74,16 +75,15 @@ void keep_off_outer_surfaces(Prepared& layer, const Regions& outline) {
   layer.narrows = less(std::move(outer), top);
 }
 
-Comb comb_boundary(const TravelSettings& settings, const LayerInput& input, const Regions& outline) {
+Comb comb_boundary(const TravelSettings& settings, const LayerInput& input) {
   if (settings.retraction_combing == Combing::off) return {};
   if (settings.retraction_combing == Combing::infill) return Comb(gathered(input, &ObjectLayer::sparse));
-  auto rings = outer_wall_rings(input);
-  if (settings.retraction_combing == Combing::all && settings.retraction_combing_offset == 0)
-    return rings.empty() ? Comb(outline) : Comb(std::move(rings));
-  const auto base = rings.empty() ? outline : geometry::regions_from_rings(rings, geometry::WindingRule::even_odd);
+  const bool all = settings.retraction_combing == Combing::all;
+  if (all && settings.retraction_combing_offset == 0 && all_closed(input)) return Comb(outer_wall_rings(input));
+  const auto base = comb_base(input, all ? settings.retraction_combing_offset : 0);
   if (settings.retraction_combing == Combing::noskin)
     return Comb(geometry::subtract(base, gathered(input, &ObjectLayer::skin)));
-  return Comb(geometry::offset(base, {.by = settings.retraction_combing_offset, .corner = geometry::Corner::round}));
+  return Comb(base);
 }
 
 /// Travels keep this far from the edges of the room, µm.
@@ -186,7 +186,7 @@ void prepare_ways(const TravelSettings& settings, Prepared& layer) {
   if (settings.retraction_combing == Combing::no_outer_surfaces)
     keep_off_outer_surfaces(layer, outline);
   else
-    layer.comb = comb_boundary(settings, layer.input, outline);
+    layer.comb = comb_boundary(settings, layer.input);
   const auto free = free_area(layer.input.room);
   layer.free = Comb(free);
   layer.around = Comb(area_around(settings, outline, layer.input.room, free));

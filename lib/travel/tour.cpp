@@ -282,6 +282,49 @@ class Search {
     exchange(low, gap < first ? first : last + 1, high);
   }
 
+  /// The position at which the stop of an endpoint stands, if that end is its entry (or exit) there.
+  std::optional<int> position_of(std::uint32_t end, bool entry) const {
+    const int j = position_[end / 2];
+    if (((end % 2 != 0) == places_[at(j)].reversed) != entry) return std::nullopt;
+    return j;
+  }
+  std::uint32_t end_at(int i, bool entry) const {
+    const Place& place = places_[at(i)];
+    return 2 * place.stop + (entry == place.reversed ? 1U : 0U);
+  }
+
+  /// Or-3opt: two neighbouring runs of any length change places, neither turned around. Begun with the joint of the
+  /// exit of position i with the entry of position j; what follows is looked for among the neighbours of what that
+  /// frees, while the sum of gains is positive. Source: Lin & Kernighan 1973; Or 1976.
+  bool try_exchange(int i, int j, double joint) {
+    const bool onward = j > i;
+    const double first_gain = edge_[at(i + 1)] - joint;
+    if (first_gain < least_gain_um - rounding_um || j == i + 1 || (!onward && j == 0 && !ends_.from)) return false;
+    // Onward, the runs are [i + 1, j) and [j, m): m − 1 comes before i + 1. Back, [j, m) and [m, i]: j − 1 before m.
+    const bool looks_for_exit = onward;
+    if (!onward && j == 0) return false;
+    const std::uint32_t freed = onward ? end_at(i + 1, true) : end_at(j - 1, false);
+    for (int k = 0; k < neighbour_count; ++k) {
+      const std::size_t neighbour = std::size_t{freed} * neighbour_count + static_cast<std::size_t>(k);
+      if (neighbours_[neighbour] == none) break;
+      const double gain = first_gain + edge_[at(j)] - apart_[neighbour];
+      if (gain < least_gain_um - rounding_um) break;
+      const auto found = position_of(neighbours_[neighbour], !looks_for_exit);
+      if (!found) continue;
+      const int m = onward ? *found + 1 : *found;
+      if (onward ? m <= j || m > n_ : m <= j || m > i) continue;
+      const int low = onward ? i + 1 : j, middle = onward ? j : m, high = onward ? m : i + 1;
+      if (high - low > longest_move_) continue;
+      const double closing = onward ? hop(i + 1 < j ? j - 1 : i, m) : hop(m - 1, i + 1);
+      if (gain + edge_[at(m)] - closing < least_gain_um) continue;
+      exchange(low, middle, high);
+      touch(low - 1), touch(low), touch(low + high - middle - 1), touch(low + high - middle), touch(high - 1),
+          touch(high);
+      return true;
+    }
+    return false;
+  }
+
   bool improve(std::uint32_t stop) {
     const int i = position_[stop];
     if (try_reverse(i, i)) return true;
@@ -304,6 +347,7 @@ class Search {
         if (from_exit) {
           if (!there_is_entry && try_reverse(std::min(i, j) + 1, std::max(i, j), true, joint.length)) return true;
           if (try_moves(joint, i + 1, true)) return true;
+          if (there_is_entry && try_exchange(i, j, joint.length)) return true;
         } else {
           if (there_is_entry && try_reverse(std::min(i, j), std::max(i, j) - 1, false, joint.length)) return true;
           if (try_moves(joint, i, false)) return true;

@@ -31,10 +31,16 @@ struct TourEnds {
 /// Post: for `optimized`, never longer than for `nearest`.
 /// Cost: O(n) local moves of bounded size: 20 000 stops take a fraction of a second.
 /// Source: Bentley 1992, "Fast algorithms for geometric traveling salesman problems" (2-opt and Or-opt with neighbour
-///         lists and don't-look bits).
+///         lists and don't-look bits); Or 1976, Lin & Kernighan 1973 (Or-3opt with positive sums of gains).
 std::vector<Visit> tour(PathOrder order, std::span<const Stop> stops, const TourEnds& ends);
 
 /// Length of the way between the stops, and from and to the ends, fractional microns.
 double way(std::span<const Stop> stops, std::span<const Visit> visits, const TourEnds& ends);
+
+/// No order of the stops has a shorter way, fractional microns: the least spanning tree over their ends, made dearer
+/// where it has more hops than a tour.
+/// Cost: O(n²), sixty times: for figures, not for prints.
+/// Source: Held & Karp 1970/71, "The traveling-salesman problem and minimum spanning trees" (1-trees).
+double least_way(std::span<const Stop> stops, const TourEnds& ends);
 
 }  // namespace weft::travel

@@ -176,6 +176,13 @@ std::vector<Linked> link(const TravelSettings& settings, std::span<const Prepare
 ///       shows: top skin, bridges and the first layer (all but top skin may have it turned around as a whole).
 Ordered order(const TravelSettings& settings, const Prepared& layer, const Linked& linked);
 
+/// How long the ways between the beads of a layer are in that order, and what no order could go below, µm: straight,
+/// from where the layer below ended. Cost: O(beads²), sixty times.
+struct TourGap {
+  double way_um = 0, least_um = 0;
+};
+TourGap gap_of(const Prepared& layer, const Ordered& ordered, std::optional<Point> from);
+
 /// The steps of the layer.
 /// Post: a travel that leaves the part is retracted, but for retraction_enable and retraction_count_max; otherwise it
 ///       stays inside the comb boundary, or is retracted. Travels stay in the room where their ends are in it and a way

@@ -22,15 +22,24 @@ double nominal_pairs(const Widths& w, int pairs) {
 
 Widths widths_of(const WallSettings& s, Um nozzle, Um height, std::size_t layer) {
   Widths w;
-  w.outer = flow::band(s.wall_line_width_0.value_or(flow::automatic_outer_width(nozzle)), height);
-  w.inner = flow::band(s.wall_line_width_x.value_or(flow::automatic_width(nozzle, height)), height);
-  const auto band_of = [&](const LengthOrShare& width) { return flow::band(width.of(nozzle), height); };
+  const Um outermost = s.wall_line_width_0.value_or(flow::automatic_outer_width(nozzle));
+  w.outer = flow::spacing(outermost, height, s.overlap_factor);
+  if (s.wall_outline == WallOutline::widest) w.bulge = rounded(flow::bulge_um(outermost, height, s.overlap_factor));
+  w.inner =
+      flow::spacing(s.wall_line_width_x.value_or(flow::automatic_width(nozzle, height)), height, s.overlap_factor);
+  const auto band_of = [&](const LengthOrShare& width) {
+    return flow::spacing(width.of(nozzle), height, s.overlap_factor);
+  };
   const double most = std::max<double>(band_of(s.max_wall_line_width), std::max(w.outer, w.inner));
   w.least_even = std::min<double>(band_of(s.min_even_wall_line_width.value_or(s.min_wall_line_width)), most / 2);
   w.least_odd = std::min<double>(band_of(s.min_odd_wall_line_width.value_or(s.min_wall_line_width)), 2 * w.least_even);
+  // A bead is not split in two that each were too thin to lie steadily, or to be laid at all.
+  const double stable = s.flow_compensation ? std::max<double>(s.min_output_width, w.outer / 4) : s.min_feature_size;
+  w.least_even = std::min(std::max(w.least_even, stable), most / 2);
+  w.least_odd = std::min(std::max(w.least_odd, stable), 2 * w.least_even);
   w.most = most;
   w.open = std::min(0.8 * w.inner, 2 * (most - w.inner) + w.inner / 2);
-  w.least_feature = std::max(0.0, s.min_feature_size - lattice_um);
+  w.least_feature = s.min_feature_size - 2.0 * w.bulge - lattice_um;
   w.walls = s.wall_line_count + (s.alternate_extra_wall && layer % 2 == 1 ? 1 : 0);
   w.shared = std::max(1, s.wall_distribution_count);
   return w;

@@ -6,13 +6,15 @@
 /// Private to walls: how many beads share a thickness, and how wide each is.
 namespace weft::walls {
 
-/// The settings of the beading, resolved to bands in fractional microns.
+/// The settings of the beading, resolved to what beads take of the thickness, in fractional microns: their bands where
+/// overlap_factor is 1, else more.
 struct Widths {
   double outer = 0, inner = 0;           ///< nominal
   double least_even = 0, least_odd = 0;  ///< a middle bead splits in two of, appears with, at least this
   double most = 0;                       ///< no bead is wider
   double open = 0;                       ///< narrowest gap that is left to infill
-  double least_feature = 0;              ///< thinner parts are left out
+  double least_feature = 0;              ///< thinner parts of what walls get are left out
+  Um bulge = 0;                          ///< so far inside the outline lies what walls get
   int walls = 0;                         ///< on each side
   int shared = 1;                        ///< innermost beads of a side that take up the difference
 };

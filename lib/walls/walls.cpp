@@ -1,10 +1,10 @@
 #include "walls/walls.h"
 
 #include "core/stop.h"
-#include "geometry/boolean.h"
-#include "geometry/offset.h"
+#include "model/flow.h"
 #include "walls/finish.h"
 #include "walls/kinds_of_parts.h"
+#include "walls/outline.h"
 #include "walls/part.h"
 
 #include <algorithm>
@@ -14,21 +14,6 @@
 
 namespace weft::walls {
 namespace {
-
-/// The regions with their outlines moved by the xy offsets.
-Regions offset_outlines(const WallSettings& settings, const Regions& regions, std::size_t layer) {
-  const Um by = settings.xy_offset + (layer == 0 ? settings.xy_offset_layer_0 : 0);
-  const Um holes_by = settings.hole_xy_offset - by;
-  if (by == 0 && holes_by == 0) return regions;
-  Regions solid, holes;
-  for (const Region& region : regions) {
-    solid.push_back({region.outer, {}});
-    for (const Ring& hole : region.holes) holes.push_back({Ring(hole.rbegin(), hole.rend()), {}});
-  }
-  if (by != 0) solid = geometry::offset(solid, {.by = by});
-  if (holes_by != 0) holes = geometry::offset(holes, {.by = holes_by});
-  return geometry::subtract(solid, holes);
-}
 
 bool inside(const Region& region, Point p) {
   return side_of(region.outer, p) == Side::inside &&
@@ -52,6 +37,46 @@ void steady_over_air(const Regions& over_air, const Widths& widths, Beads& beads
   for (Bead& bead : beads)
     for (Junction& j : bead.path)
       if (j.flow == 1.F && over(j.at)) j.width = rounded(bead.inset == 0 ? widths.outer : widths.inner);
+}
+
+/// Whatever evened out a part's volume: compensated beads have the flow that the settings allow.
+void keep_flow(const WallSettings& settings, Beads& beads) {
+  const auto least = static_cast<float>(settings.min_flow_ratio / 100),
+             most = std::max(least, static_cast<float>(settings.max_flow_ratio / 100));
+  for (Bead& bead : beads)
+    for (Junction& j : bead.path)
+      if (j.flow != 1.F) j.flow = std::clamp(j.flow, least, most);
+}
+
+/// The walls of a part whose outermost beads end where the settings say.
+Part whole_part(const WallSettings& settings, Widths widths, const Region& region, const WallInput& input,
+                std::uint32_t index) {
+  const Within room = within(region, widths.bulge);
+  Part out;
+  const auto add = [&](const Regions& pieces) {
+    for (const Region& piece : pieces) {
+      Part part = part_of(settings, widths, piece, input.nozzle_diameter, index);
+      std::move(part.beads.begin(), part.beads.end(), std::back_inserter(out.beads));
+      std::move(part.inside.begin(), part.inside.end(), std::back_inserter(out.inside));
+      out.dropped_mm += part.beads.empty() && part.inside.empty() ? perimeter_of(piece.outer) / 2000 : part.dropped_mm;
+      out.valid = out.valid && part.valid;
+    }
+  };
+  add(room.regions);
+  if (widths.bulge > 0) widen_thin(widths.bulge, input.layer.height, out.beads);
+  widths.least_feature += 2 * widths.bulge;
+  add(room.thin);
+  keep_flow(settings, out.beads);
+  return out;
+}
+
+/// Planned so far apart that they overlap less, beads are as wide as before.
+void spread_out(const WallSettings& settings, Um height, Beads& beads) {
+  const Um by = flow::spread(height, settings.overlap_factor);
+  if (by == 0) return;
+  for (Bead& bead : beads)
+    for (Junction& j : bead.path)
+      if (j.width > height) j.width = std::max(j.width - by, rounded(height * (1 - flow::rounding)));
 }
 
 PlacedNotice notice_of(const char* code, const WallInput& input, const Region& region, const std::string& what) {
@@ -83,7 +108,7 @@ WallLayer build(const WallSettings& settings, const WallInput& input) {
   for (std::uint32_t i = 0; i < regions.size(); ++i) {
     stop_if_asked();
     auto again = kinds.again(regions[i], i);
-    Part part = again ? *std::move(again) : part_of(settings, widths, regions[i], input.nozzle_diameter, i);
+    Part part = again ? *std::move(again) : whole_part(settings, widths, regions[i], input, i);
     if (!again) kinds.add(regions[i], part);
     put_in_order(part.beads, settings.wall_order);
     if (!part.valid)
@@ -100,6 +125,7 @@ WallLayer build(const WallSettings& settings, const WallInput& input) {
     std::move(part.inside.begin(), part.inside.end(), std::back_inserter(out.inside));
   }
   if (input.over_air != nullptr) steady_over_air(*input.over_air, widths, out.beads);
+  spread_out(settings, input.layer.height, out.beads);
   return out;
 }
 

@@ -24,4 +24,8 @@ struct WallInput {
 ///         deposition modeling"; widths are bands (model/flow.h).
 WallLayer build(const WallSettings& settings, const WallInput& input);
 
+/// What of the settings cannot have the effect the user may expect.
+/// @param height of the layers
+Notices check(const WallSettings& settings, Um nozzle_diameter, Um height);
+
 }  // namespace weft::walls

@@ -569,3 +569,29 @@ TEST_CASE("gcode: an empty plan is a file without layers") {
   sample.statistics = {};
   CHECK_THAT(sample.text(), Contains(";LAYER_COUNT:0\n") && Contains("; estimated printing time (normal mode) = 0s\n"));
 }
+
+TEST_CASE("gcode: widths and heights in comments are those of what is extruded") {
+  Sample sample;
+  Extrude strand = bead({{0, 0}, {10'000, 0}}, Role::bridge, 30, static_cast<float>(flow::bridge_flow(400, 200)));
+  sample.plan.layers[0].steps = {Step{strand}};
+  CHECK_THAT(sample.layer(0), Contains(";HEIGHT:0.4\n;WIDTH:0.4\n"));  // a round strand of the nozzle's diameter
+  sample.plan.layers[0].steps = {Step{bead({{0, 0}, {10'000, 0}}, Role::outer_wall, 30, 0.25F)}};
+  CHECK_THAT(sample.layer(0), Contains(";WIDTH:0.1\n"));  // a quarter of the band: narrower than high, not rounded
+  sample.plan.layers[0].steps = {Step{bead({{0, 0}, {10'000, 0}}, Role::infill, 30, 2.F)}};
+  CHECK_THAT(sample.layer(0), Contains(";HEIGHT:0.4\n;WIDTH:0.486\n"));  // of two layers at once
+}
+
+TEST_CASE("gcode: E is in mm³ or left out when asked") {
+  Sample sample;
+  const double in_mm = [&] {
+    const auto text = sample.layer(0);
+    return std::stod(text.substr(text.find(" E") + 2));
+  }();
+  sample.settings.gcode.volumetric_extrusion = true;
+  const auto text = sample.layer(0);
+  CHECK(std::stod(text.substr(text.find(" E") + 2)) ==
+        Approx(in_mm * std::numbers::pi / 4 * 1.75 * 1.75).epsilon(1e-3));
+  CHECK_THAT(text, Contains("G1 E-1.924"));  // 0.8 mm of filament
+  sample.settings.gcode.write_extrusion = false;
+  CHECK_THAT(sample.layer(0) + Writer(sample.job()).head(), !Contains(" E") && !Contains("M83"));
+}

@@ -1,6 +1,6 @@
+#include "core/file_bytes.h"
 #include "core/hash.h"
 #include "corpus.h"
-#include "core/file_bytes.h"
 #include "mesh/fixtures.h"
 #include "mesh/formats.h"
 #include "mesh/weld.h"
@@ -135,6 +135,20 @@ TEST_CASE("mesh: a binary STL with a wrong count is refused with both counts", "
   CHECK_THAT(refusal(bytes), Contains("5 triangles are 334 bytes, but it has 684, room for 12 triangles"));
   bytes[80] = 0;
   CHECK_THAT(refusal(bytes), Contains("0 triangles are 84 bytes, but it has 684"));
+}
+
+TEST_CASE("mesh: a binary STL with bytes behind its triangles is read, and they are told", "[mesh]") {
+  const std::string behind =
+      GENERATE(std::string(1, '\0'), std::string(100, '\0'), std::string("exported by a program"),
+               std::string(300, 'x'), std::string(200, '\xff'));
+  const auto loaded = read(binary_stl(cube) + behind);
+  CHECK(loaded.objects[0].mesh.triangles.size() == 12);
+  REQUIRE(loaded.notices.size() == 1);
+  CHECK(loaded.notices[0].code == "mesh_bytes_behind");
+  CHECK_THAT(loaded.notices[0].message,
+             Contains(std::to_string(behind.size()) + " bytes behind the last of 12 triangles"));
+  // More is another file than its header says.
+  CHECK_THAT(refusal(binary_stl(cube) + std::string(5000, '\0')), Contains("wrong count"));
 }
 
 TEST_CASE("mesh: a coordinate that is no place is refused with its triangle and byte", "[mesh]") {

@@ -171,6 +171,23 @@ TEST_CASE("mesh: a part that is inside out beside one that is not is turned roun
   }
 }
 
+TEST_CASE("mesh: a shell that is inside out is a hole where it cuts through another, and a part where it does not",
+          "[mesh][repair]") {
+  const Facets bar = box({5, 5, -5}, {10, 10, 25}), beside = box({20, 0, 0}, {30, 10, 10}),
+               corner = box({19, 19, 30}, {25, 25, 40});
+  for (const auto& hole : {bar, box({-5, 8, 8}, {25, 12, 12}), box({15, 15, 15}, {30, 30, 30})}) {
+    const auto [volume, repairs] = repaired(cube + reversed(hole));
+    CHECK(repairs.inverted_shells == 0);
+    CHECK(volume < 8000);
+  }
+  for (const auto& part : {beside, corner, box({2, 2, 20}, {8, 8, 30})}) {  // faces and edges that only touch
+    const auto [volume, repairs] = repaired(cube + reversed(part));
+    CHECK(repairs.inverted_shells == 1);
+    CHECK(volume > 8000);
+  }
+  CHECK(repaired(reversed(bar)).volume_mm3 == Approx(750));  // alone
+}
+
 TEST_CASE("mesh: among thousands of parts one that is inside out is turned round, and a void stays one",
           "[mesh][repair]") {
   Facets facets = cube + reversed(box({5, 5, 5}, {15, 15, 15}));

@@ -478,3 +478,15 @@ TEST_CASE("motion: filament is drawn back while wiping as far as the extruder ke
   CHECK(retract.wipe_speed_mm_s == 100);
   CHECK(retract.before_wipe == Approx(0.6));
 }
+
+TEST_CASE("motion: the moves that are timed are those that are written") {
+  // Steps of width that the writer joins with what goes straight on, and a bend that it does not.
+  LayerPlan layer =
+      layer_of({line({{0, 450}, {10'000, 450}, {10'010, 350}, {20'000, 350}, {20'012, 420}, {30'000, 420}})});
+  std::get<Extrude>(layer.steps[0]).speed_mm_s = 50;
+  const auto moves = moves_of(plain_rules(), layer, Point3{0, 0, 400});
+  CHECK(moves.size() == 3);
+  double length = 0;
+  for (const auto& move : moves) length += move.length_mm;
+  CHECK(length == Approx(30));
+}

@@ -2,6 +2,7 @@
 
 #include "corpus.h"
 #include "geometry/spatial_index.h"
+#include "mesh/fixtures.h"
 #include "mesh/read.h"
 #include "solids.h"
 
@@ -289,4 +290,20 @@ TEST_CASE("slice: an open scan comes out whole", "[corpus]") {
   }
   CHECK(gaps > 0);
   CHECK(notices_of(cuts, "bunny").size() >= 1);
+}
+
+TEST_CASE("slice: a shell that is inside out and cuts through another takes away, and adds nothing beyond it") {
+  using namespace fixtures;
+  const Facets block = box({0, 0, 0}, {20, 20, 20}), through = reversed(box({5, -5, -5}, {10, 25, 25})),
+               stick = reversed(box({15, 5, 5}, {30, 10, 10})), alone = reversed(box({40, 0, 0}, {50, 10, 20}));
+  const auto sliced = [](const Facets& facets) {
+    auto mesh = mesh::read(binary_stl(facets), "part", {}).objects.at(0).mesh;
+    Um lowest = 0;
+    for (const Point3& p : mesh.vertices) lowest = std::min(lowest, p.z);
+    for (Point3& p : mesh.vertices) p.z -= lowest;
+    return volume_mm3(cut_all(mesh));
+  };
+  CHECK(sliced(block + through) == Approx(8000 - 5 * 20 * 20).epsilon(1e-3));
+  CHECK(sliced(block + stick) == Approx(8000 - 5 * 5 * 5).epsilon(1e-3));
+  CHECK(sliced(block + alone) == Approx(8000 + 10 * 10 * 20).epsilon(1e-3));
 }

@@ -284,3 +284,38 @@ TEST_CASE("travel: retractions within a length of filament are counted, and more
       route(settings, retraction, prepared[0], order({}, prepared[0], link({}, prepared)[0]), std::nullopt);
   CHECK(out.departures.unretracted.count == 1);  // to the island
 }
+
+TEST_CASE("travel: combing goes by the outline of parts without walls alone, and counts open outer walls", "[travel]") {
+  using namespace sample;
+  using namespace weft::literals;
+  const Region walled = rectangle(0, 0, 20_mm, 20_mm), bare = rectangle(30_mm, 0, 50_mm, 20_mm),
+               rib = rectangle(60_mm, 0, 60.4_mm, 20_mm);
+  LayerInput input;
+  input.height = 200;
+  ObjectLayer& object = input.objects.emplace_back();
+  object.outline = {walled, bare, rib};
+  const Regions centreline = geometry::offset({walled}, {.by = -width / 2});
+  object.beads.push_back(closed_bead(centreline[0].outer, Role::outer_wall, 0, 0));
+  hatch(bare, 4000, 1, 0, object.beads);
+  for (Bead& bead : object.beads)
+    if (bead.part == 1) bead.path.back().at.x += 150;  // infill reaches over the outline
+  Bead single;
+  single.path = {{{60'200, 100}, width, 1.F}, {{60'200, 19'900}, width, 1.F}};
+  single.role = Role::outer_wall, single.part = 2;
+  object.beads.push_back(single);
+
+  TravelSettings settings;
+  settings.retraction_combing = GENERATE(Combing::all, Combing::noskin);
+  const auto inside = [](const Comb& comb, Um x, Um y) { return comb.part_of({x, y}) != Comb::outside; };
+  const auto as_it_is = prepare(settings, input).comb;
+  CHECK(inside(as_it_is, 10_mm, 10_mm));
+  CHECK(inside(as_it_is, 40_mm, 10_mm));
+  CHECK(inside(as_it_is, 50'140, 10_mm));
+  CHECK(inside(as_it_is, 60'200, 10_mm));
+  CHECK_FALSE(inside(as_it_is, 25_mm, 10_mm));
+  settings.retraction_combing = Combing::all;
+  settings.retraction_combing_offset = -1_mm;
+  const auto drawn_in = prepare(settings, input).comb;
+  CHECK_FALSE(inside(drawn_in, 1_mm, 10_mm));
+  CHECK(inside(drawn_in, 30'100, 10_mm));  // walls are moved, outlines are not
+}

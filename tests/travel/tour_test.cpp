@@ -75,6 +75,22 @@ TEST_CASE("travel: small tours are as short as any", "[travel]") {
   CHECK(best > 25);
 }
 
+TEST_CASE("travel: no tour is shorter than the bound, and good ones are near it", "[travel][law]") {
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    const TourEnds ends = seed % 2 == 0 ? TourEnds{Point{0, 0}, Point{200000, 200000}} : TourEnds{};
+    for (const std::size_t n : {std::size_t{1}, std::size_t{7}, std::size_t{150}}) {
+      const auto stops = random_stops(n, seed, false);
+      const double least = least_way(stops, ends);
+      const double made = way(stops, tour(PathOrder::optimized, stops, ends), ends);
+      CHECK(least <= made + 1);
+      if (n > 1) CHECK(made < (n < 10 ? 1.6 : 1.25) * least);
+      CHECK(least <= way(stops, tour(PathOrder::nearest, stops, ends), ends) + 1);
+    }
+  }
+  const Stop line{{0, 0}, {1000, 0}};
+  CHECK(least_way(std::vector{line}, {Point{-500, 0}, Point{3000, 0}}) == Approx(2500));
+}
+
 TEST_CASE("travel: moving all stops by whole microns does not change a tour", "[travel][law]") {
   auto stops = random_stops(300, 7, true);
   const auto before = tour(PathOrder::optimized, stops, {Point{0, 0}, Point{9, 9}});

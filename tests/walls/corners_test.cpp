@@ -14,7 +14,7 @@ namespace {
 constexpr Um usual_wall = 0.45_mm;
 
 WallLayer walls_with(double corner_width, const Region& region, Um outer = usual_wall) {
-  WallSettings settings;
+  WallSettings settings = by_volume();
   settings.wall_line_width_0 = outer;
   settings.wall_line_width_x = 0.45_mm;
   settings.wall_corner_width = corner_width;

@@ -13,7 +13,7 @@ using namespace weft::test;
 namespace {
 
 WallLayer filled(const Regions& regions) {
-  WallSettings settings;
+  WallSettings settings = by_volume();
   settings.wall_line_count = 100;
   settings.wall_corner_width = 75;  // what is bare is bare at ends, not in corners
   settings.wall_line_width_0 = settings.wall_line_width_x = 0.45_mm;
@@ -247,7 +247,7 @@ TEST_CASE("walls: a rib just as thick as min_feature_size is printed wherever th
     Ring ring;
     for (const Point p : rectangle(0, 0, 8_mm, 50).outer)
       ring.push_back({rounded(p.x * c - p.y * s), rounded(p.x * s + p.y * c)});
-    WallSettings settings;
+    WallSettings settings = by_volume();
     settings.min_feature_size = 50;
     CAPTURE(degrees);
     CHECK_FALSE(built({{ring, {}}}, settings).beads.empty());

@@ -16,7 +16,7 @@ using namespace weft::test;
 namespace {
 
 WallLayer walls_of(const Regions& regions) {
-  WallSettings settings;
+  WallSettings settings = by_volume();
   settings.wall_line_count = 4;
   settings.min_feature_size = 0.001_mm;
   settings.min_wall_length = 0;
@@ -188,7 +188,7 @@ TEST_CASE("walls: the mirror image of a part gets the mirror image of its beads"
 }
 
 TEST_CASE("walls: a rib of 0.4 mm is printed alike in every layer", "[walls][law]") {
-  WallSettings settings;
+  WallSettings settings = by_volume();
   const SlicedLayer layer = layer_of({rectangle(0, 0, 20_mm, 0.4_mm)});
   const auto first = walls::build(settings, {.layer = layer, .index = 1});
   REQUIRE(first.beads.size() == 1);

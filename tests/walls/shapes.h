@@ -39,8 +39,15 @@ inline SlicedLayer layer_of(Regions regions) {
 /// By name: clang 14 takes no consteval literal as a default argument.
 constexpr Um usual_nozzle = 0.4_mm;
 
+/// Bands that end on the outline: what is laid can be held against the part's area.
+inline WallSettings by_volume() {
+  WallSettings settings;
+  settings.wall_outline = WallOutline::volume;
+  return settings;
+}
+
 /// Walls of one layer, the second of an object.
-inline WallLayer built(const Regions& regions, const WallSettings& settings = {}, Um nozzle = usual_nozzle) {
+inline WallLayer built(const Regions& regions, const WallSettings& settings = by_volume(), Um nozzle = usual_nozzle) {
   const SlicedLayer layer = layer_of(regions);
   tests::look_at(regions);
   WallLayer walls = walls::build(settings, {.layer = layer, .index = 1, .nozzle_diameter = nozzle});

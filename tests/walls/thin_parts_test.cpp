@@ -28,7 +28,7 @@ Regions bands_of(const Beads& beads) {
 
 TEST_CASE("walls: a triangle hardly larger than a bead keeps its volume and little of it lies beside it", "[walls]") {
   // 2.2 % on average; one bead as wide as the triangle on both sides together laid 5.1 % beside it.
-  WallSettings settings;
+  WallSettings settings = by_volume();
   settings.flow_compensation = false;
   double beside = 0;
   int count = 0;
@@ -48,7 +48,7 @@ TEST_CASE("walls: a triangle hardly larger than a bead keeps its volume and litt
 
 TEST_CASE("walls: a part smaller than a dab gets one bead of its volume in few pieces", "[walls]") {
   // In pieces as wide as the part is, 16 junctions of them, each would swell over those before it.
-  WallSettings settings;
+  WallSettings settings = by_volume();
   settings.wall_line_width_0 = settings.wall_line_width_x = 0.45_mm;
   const Regions part{{circle({0, 0}, 180, 24), {}}};
   const auto walls = built(part, settings);
@@ -59,7 +59,7 @@ TEST_CASE("walls: a part smaller than a dab gets one bead of its volume in few p
 
 TEST_CASE("walls: where no bead is too short, corners of a thin part get beads of their own", "[walls]") {
   // A bead along a triangle and one in the corner that it does not reach.
-  WallSettings settings;
+  WallSettings settings = by_volume();
   settings.flow_compensation = false;
   settings.min_feature_size = 1;
   settings.min_wall_length = 0;

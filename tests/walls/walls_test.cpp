@@ -29,7 +29,7 @@ TEST_CASE("walls: flow compensation plans a thin rib at a stable width with less
   };
   const auto row = GENERATE(Row{50, 200, 0.25}, Row{100, 200, 0.5}, Row{200, 200, 1.0}, Row{400, 400, 1.0});
   CAPTURE(row.rib);
-  const auto walls = built({rectangle(0, 0, 10_mm, row.rib)}, {}, 0.8_mm);
+  const auto walls = built({rectangle(0, 0, 10_mm, row.rib)}, by_volume(), 0.8_mm);
   REQUIRE(walls.beads.size() == 1);
   for (const Junction& j : walls.beads[0].path) {
     CHECK(j.width == Approx(row.width).margin(2));
@@ -84,19 +84,19 @@ TEST_CASE("walls: among many parts each gets the walls that it has alone", "[wal
 }
 
 TEST_CASE("walls: the order setting decides which wall comes first", "[walls]") {
-  WallSettings settings;
+  WallSettings settings = by_volume();
   settings.wall_order = WallOrder::outside_in;
   CHECK(built({rectangle(0, 0, 20_mm, 20_mm)}, settings).beads[0].inset == 0);
 }
 
 TEST_CASE("walls: alternate_extra_wall adds a wall on odd layers", "[walls]") {
-  WallSettings settings;
+  WallSettings settings = by_volume();
   settings.alternate_extra_wall = true;
   CHECK(built({rectangle(0, 0, 20_mm, 20_mm)}, settings).beads.size() == 4);
 }
 
 TEST_CASE("walls: xy offsets move outlines and holes", "[walls]") {
-  WallSettings settings;
+  WallSettings settings = by_volume();
   settings.xy_offset = 0.1_mm;
   settings.hole_xy_offset = 0.3_mm;
   const Ring hole = circle({10_mm, 10_mm}, 3_mm, 60, true);
@@ -114,7 +114,7 @@ TEST_CASE("walls: no bead is wider than max_wall_line_width allows", "[walls]") 
 
 TEST_CASE("walls: a wedge is filled to its tip", "[walls]") {
   const Regions wedge{{{{0, 0}, {60_mm, 1.5_mm}, {0, 3_mm}}, {}}};
-  WallSettings settings;
+  WallSettings settings = by_volume();
   settings.wall_line_count = 10;
   const auto walls = built(wedge, settings);
   CHECK(bead_area_mm2(walls) == Approx(area_mm2(wedge)).epsilon(0.01));
@@ -136,7 +136,7 @@ TEST_CASE("walls: a part that is all corners is filled to its thickest place", "
     const double a = std::numbers::pi * i / 8 + 0.1, r = i % 2 == 0 ? 10'000 : 6'500;
     star.push_back({rounded(r * std::cos(a)), rounded(r * std::sin(a))});
   }
-  WallSettings settings;
+  WallSettings settings = by_volume();
   settings.wall_line_count = 100;
   const Regions regions{{star, {}}};
   const auto walls = built(regions, settings);
@@ -169,7 +169,7 @@ TEST_CASE("walls: where two thin ribs cross, one bead goes through and nothing c
 TEST_CASE("walls: over air a bead keeps the nozzle's own strand", "[walls]") {
   const Regions strip{{{{0, 0}, {20_mm, 0}, {20_mm, 1.3_mm}, {0, 1_mm}}, {}}};
   const Regions air{rectangle(5_mm, -1_mm, 15_mm, 3_mm)};
-  WallSettings settings;
+  WallSettings settings = by_volume();
   settings.wall_line_width_0 = 0.45_mm;
   settings.wall_line_width_x = 0.45_mm;
   const SlicedLayer layer = layer_of(strip);
@@ -186,7 +186,7 @@ TEST_CASE("walls: over air a bead keeps the nozzle's own strand", "[walls]") {
 }
 
 TEST_CASE("walls: a speck is left out without a word, a small part with its size", "[walls]") {
-  WallSettings settings;
+  WallSettings settings = by_volume();
   settings.min_feature_size = 0.3_mm;
   CHECK(built({rectangle(0, 0, 0.05_mm, 0.05_mm)}, settings).notices.empty());
   const auto walls = built({rectangle(0, 0, 0.25_mm, 0.2_mm)}, settings);
@@ -199,7 +199,7 @@ TEST_CASE("walls: with every nozzle a thin rib gets the plastic of its own thick
   const Um nozzle = GENERATE(0.25_mm, 0.4_mm, 0.8_mm);
   const Um rib = GENERATE(50, 100, 200, 300);
   CAPTURE(nozzle, rib);
-  const auto walls = built({rectangle(0, 0, 10_mm, rib)}, {}, nozzle);
+  const auto walls = built({rectangle(0, 0, 10_mm, rib)}, by_volume(), nozzle);
   REQUIRE(walls.beads.size() == 1);
   CHECK(bead_area_mm2(walls) == Approx(10 * to_mm(rib)).epsilon(0.01));
   for (const Junction& j : walls.beads[0].path) {
@@ -225,5 +225,66 @@ TEST_CASE("walls: on a comb no rib is lost down to min_feature_size", "[walls]")
     CAPTURE(i);
     CHECK(high > 10.9_mm);
     CHECK(low < 3.3_mm);
+  }
+}
+
+TEST_CASE("walls: flow ratios of compensated beads stay within their limits", "[walls]") {
+  WallSettings settings = by_volume();
+  const Ring fin{{0, 0}, {8_mm, 0}, {8_mm, 2_mm}, {16_mm, 2_mm}, {16_mm, 2080}, {8_mm, 2080}, {8_mm, 4_mm}, {0, 4_mm}};
+  for (const auto& [least, most] : {std::pair{60.0, 100.0}, {5.0, 30.0}, {45.0, 50.0}}) {
+    settings.min_flow_ratio = least, settings.max_flow_ratio = most;
+    for (const Ring& ring : {fin, Ring{{0, 0}, {10_mm, 0}, {10_mm, 90}, {0, 90}}}) {
+      std::size_t compensated = 0;
+      for (const Bead& bead : built({{ring, {}}}, settings).beads)
+        for (const Junction& j : bead.path) {
+          if (j.flow == 1.F) continue;
+          ++compensated;
+          CHECK(static_cast<double>(j.flow) >= least / 100 - 1e-6);
+          CHECK(static_cast<double>(j.flow) <= most / 100 + 1e-6);
+        }
+      CHECK(compensated > 0);
+    }
+  }
+}
+
+TEST_CASE("walls: a lower min_wall_line_width loses no rib and splits none into strands too thin to lie", "[walls]") {
+  const Um nozzle = GENERATE(0.4_mm, 0.8_mm);
+  const bool compensate = GENERATE(true, false);
+  WallSettings settings = by_volume();
+  settings.flow_compensation = compensate;
+  for (const Um rib : {60, 100, 150, 200, 300, 390}) {
+    double before = 0;
+    for (const Um least : {340, 200, 100, 50, 20, 5}) {
+      CAPTURE(nozzle, compensate, rib, least);
+      settings.min_wall_line_width = length(least);
+      const auto walls = built({rectangle(0, 0, 10_mm, rib)}, settings, nozzle);
+      CHECK(bead_area_mm2(walls) >= 0.98 * before);
+      before = bead_area_mm2(walls);
+      if (rib <= 200 && compensate) CHECK(walls.beads.size() == 1);
+    }
+    CHECK(before > 0);
+  }
+  settings.min_wall_line_width = length(50);
+  CHECK(walls::check(settings, nozzle, 0.2_mm).size() == 1);
+  settings.min_wall_line_width = length(nozzle / 2);
+  CHECK(walls::check(settings, nozzle, 0.2_mm).empty());
+}
+
+TEST_CASE("walls: the overlap factor moves beads together, and does not change their width", "[walls]") {
+  WallSettings settings;
+  settings.wall_line_width_0 = settings.wall_line_width_x = 0.5_mm;
+  settings.wall_corner_width = 100;
+  for (const double factor : {1.0, 0.5, 0.0}) {
+    settings.overlap_factor = factor;
+    const auto walls = built({rectangle(0, 0, 20_mm, 20_mm)}, settings);
+    REQUIRE(walls.beads.size() == 3);
+    std::array<Um, 3> right{};
+    for (const Bead& bead : walls.beads) {
+      right[bead.inset] = box_of(bead).max.x;
+      for (const Junction& j : bead.path) CHECK(flow::line_width(j.width, 0.2_mm) == Approx(500).margin(2));
+    }
+    CHECK(right[0] == Approx(19'750).margin(1.5));  // its widest point is on the outline
+    CHECK(right[0] - right[1] == Approx(500 - 200 * flow::rounding * factor).margin(2));
+    CHECK(right[1] - right[2] == Approx(500 - 200 * flow::rounding * factor).margin(2));
   }
 }

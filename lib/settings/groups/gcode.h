@@ -24,6 +24,8 @@ constexpr auto choices_of(CommentDialect) {
 /// What the file holds besides moves.
 struct GcodeSettings {
   bool relative_extrusion = true;
+  bool volumetric_extrusion = false;
+  bool write_extrusion = true;
   std::string machine_start_gcode = "G28";
   std::string machine_end_gcode = "M104 S0\nM140 S0\nM84";
   std::string before_layer_gcode;
@@ -37,11 +39,17 @@ struct GcodeSettings {
   bool gcode_machine_limits = false;
   bool gcode_flow_comments = false;
   PictureSizes thumbnails = {{32, 32}, {300, 300}};
+  std::string output_filename_format = "{input_filename_base}.gcode";
 };
 
 inline constexpr std::tuple gcode_schema{
     setting("relative_extrusion", Scope::plate, &GcodeSettings::relative_extrusion,
             "E is relative (M83); off: absolute (M82), from zero in each layer."),
+    setting("volumetric_extrusion", Scope::plate, &GcodeSettings::volumetric_extrusion,
+            "E is in mm³, not in mm of filament, retractions too: the firmware knows the diameter (M200)."),
+    setting(
+        "write_extrusion", Scope::plate, &GcodeSettings::write_extrusion,
+        "E is written; off: moves alone, without E and retractions, for dry runs and machines without an extruder."),
     setting("machine_start_gcode", Scope::plate, &GcodeSettings::machine_start_gcode,
             "G-code before the print, with placeholders such as {material_print_temperature_layer_0}. Temperatures "
             "that it neither sets nor "
@@ -75,6 +83,8 @@ inline constexpr std::tuple gcode_schema{
             "Moves of beads with flow compensation carry their ratio as a comment."),
     setting("thumbnails", Scope::plate, &GcodeSettings::thumbnails,
             "Sizes of the pictures of the plate in the head of the file, PNG; empty: none."),
+    setting("output_filename_format", Scope::plate, &GcodeSettings::output_filename_format,
+            "Name of the file where no -o says one, with placeholders such as {layer_height}."),
 };
 static_assert(complete<GcodeSettings>(gcode_schema));
 

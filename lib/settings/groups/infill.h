@@ -24,6 +24,7 @@ struct InfillSettings {
   double infill_angle = 45;
   LengthOrShare infill_overlap = share(15);
   bool infill_connect_lines = true;
+  std::optional<Um> infill_sparse_thickness;
 };
 
 inline constexpr std::tuple infill_schema{
@@ -40,6 +41,9 @@ inline constexpr std::tuple infill_schema{
     setting(
         "infill_connect_lines", Scope::region, &InfillSettings::infill_connect_lines,
         "Neighbouring lines, solid ones too, are joined along the wall instead of travelling from one to the next."),
+    setting("infill_sparse_thickness", Scope::object, &InfillSettings::infill_sparse_thickness, Unit::mm, 0.02_mm, 5_mm,
+            "Height of sparse infill, printed every so many layers at once: as many as it holds; auto is layer_height. "
+            "No more than nozzle_diameter."),
 };
 static_assert(complete<InfillSettings>(infill_schema));
 

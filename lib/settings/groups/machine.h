@@ -29,7 +29,7 @@ struct MachineSettings {
   BedShape bed_shape = BedShape::rectangle;
   Um machine_width = 220_mm;
   Um machine_depth = 220_mm;
-  Um machine_height = 250_mm;
+  Um machine_height = 250_mm;  ///< 0: no limit; see height_of
   bool machine_center_is_zero = false;
   Ring bed_polygon;
   std::vector<Ring> bed_exclude_areas;
@@ -42,6 +42,7 @@ struct MachineSettings {
   std::optional<Ring> macro_position;
   std::optional<Um> macro_z;
   Ring nozzle_offsets;
+  Um z_offset = 0_mm;
   Um nozzle_diameter = 0.4_mm;
   Firmware firmware = Firmware::marlin2;
   double machine_max_speed_x = 300;
@@ -67,8 +68,8 @@ inline constexpr std::tuple machine_schema{
             "Extent of the print surface along X."),
     setting("machine_depth", Scope::machine, &MachineSettings::machine_depth, Unit::mm, 1_mm, 10000_mm,
             "Extent of the print surface along Y."),
-    setting("machine_height", Scope::machine, &MachineSettings::machine_height, Unit::mm, 1_mm, 10000_mm,
-            "Highest Z that may be printed at."),
+    setting("machine_height", Scope::machine, &MachineSettings::machine_height, Unit::mm, 0_mm, 10000_mm,
+            "Highest Z that may be printed at; 0: unlimited."),
     setting("machine_center_is_zero", Scope::machine, &MachineSettings::machine_center_is_zero,
             "The origin is the centre of the print surface, not its front left corner."),
     setting("bed_polygon", Scope::machine, &MachineSettings::bed_polygon,
@@ -95,6 +96,8 @@ inline constexpr std::tuple machine_schema{
     setting(
         "nozzle_offsets", Scope::tool, &MachineSettings::nozzle_offsets,
         "Where each nozzle stands from the first, in order of tool number, when the firmware does not allow for it."),
+    setting("z_offset", Scope::machine, &MachineSettings::z_offset, Unit::mm, -10_mm, 10_mm,
+            "Added to every Z that is written: positive lifts the nozzle, where the end stop lets it sit too low."),
     setting("nozzle_diameter", Scope::tool, &MachineSettings::nozzle_diameter, Unit::mm, 0.05_mm, 5_mm,
             "Diameter of the nozzle's opening."),
     setting("firmware", Scope::machine, &MachineSettings::firmware,
@@ -129,12 +132,17 @@ Ring print_surface(const MachineSettings& machine);
 /// The area that the nozzle can go to, counter-clockwise: machine_reach, or the print surface where that is empty.
 Ring reach_area(const MachineSettings& machine);
 
+/// Highest Z that may be printed at.
+inline Um height_of(const MachineSettings& machine) {
+  return machine.machine_height == 0 ? max_coord : machine.machine_height;
+}
+
 /// Highest Z that the nozzle can go to, and Z up to which bed_exclude_areas hold.
 inline Um reach_z_max(const MachineSettings& machine) {
-  return machine.machine_reach_z_max.value_or(machine.machine_height);
+  return machine.machine_reach_z_max.value_or(height_of(machine));
 }
 inline Um exclude_height(const MachineSettings& machine) {
-  return machine.exclude_height.value_or(machine.machine_height);
+  return machine.exclude_height.value_or(height_of(machine));
 }
 
 /// Do no two edges of the ring cross, touch or overlap, but for neighbours at their common corner? Exact. O(n²).

@@ -1,8 +1,24 @@
 #pragma once
 #include "settings/schema.h"
 
+#include <array>
+
 namespace weft {
 using namespace weft::literals;
+
+/// How the lines of a solid layer are laid.
+enum class SkinPattern {
+  monotonic,        ///< joined at their ends, each printed after its neighbour on one and the same side
+  monotonic_lines,  ///< the same, not joined
+  lines,            ///< joined, in whatever order is shortest
+  aligned_lines,    ///< the same, in one direction in all layers
+};
+constexpr auto choices_of(SkinPattern) {
+  return std::array{Choice<SkinPattern>{SkinPattern::monotonic, "monotonic"},
+                    Choice<SkinPattern>{SkinPattern::monotonic_lines, "monotonic_lines"},
+                    Choice<SkinPattern>{SkinPattern::lines, "lines"},
+                    Choice<SkinPattern>{SkinPattern::aligned_lines, "aligned_lines"}};
+}
 
 /// What closes the part above and below: solid layers, and bridges where they hang over air.
 struct ShellSettings {
@@ -13,6 +29,9 @@ struct ShellSettings {
   std::optional<Um> skin_line_width;
   std::optional<Um> top_skin_line_width;
   std::optional<double> skin_angle;
+  SkinPattern top_pattern = SkinPattern::monotonic;
+  SkinPattern bottom_pattern = SkinPattern::monotonic;
+  std::optional<int> infill_solid_every_layers;
   double infill_solid_below_area = 20;
   bool bridges = true;
   std::optional<double> bridge_angle;
@@ -37,6 +56,13 @@ inline constexpr std::tuple shell_schema{
             "Direction of the lines of solid layers, against X; every second layer is turned by 90°. auto runs along "
             "straight "
             "walls, where lines at a slant would leave gaps at their ends, and at 45° in areas without."),
+    setting("top_pattern", Scope::region, &ShellSettings::top_pattern,
+            "How the lines of top surfaces lie: monotonic, each beside the one before; monotonic_lines, not joined at "
+            "their ends; lines, in the shortest order; aligned_lines, in one direction in all layers."),
+    setting("bottom_pattern", Scope::region, &ShellSettings::bottom_pattern,
+            "The same for bottoms and for solid layers inside."),
+    setting("infill_solid_every_layers", Scope::region, &ShellSettings::infill_solid_every_layers, Unit::layers, 1,
+            100000, "Every so many layers sparse infill is solid; auto: never."),
     setting("infill_solid_below_area", Scope::region, &ShellSettings::infill_solid_below_area, Unit::mm2, 0, 1000000,
             "A patch of sparse infill smaller than this is made solid."),
     setting("bridges", Scope::region, &ShellSettings::bridges,

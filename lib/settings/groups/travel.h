@@ -43,6 +43,7 @@ constexpr auto choices_of(Combing) {
 /// Order of paths, seams, and the way between them.
 struct TravelSettings {
   PathOrder path_order = PathOrder::optimized;
+  bool infill_before_walls = false;
   SeamType z_seam_type = SeamType::aligned;
   SeamCorner z_seam_corner = SeamCorner::weighted;
   double z_seam_visibility_weight = 0.2;
@@ -70,6 +71,8 @@ inline constexpr std::tuple travel_schema{
     setting("path_order", Scope::layer, &TravelSettings::path_order,
             "Order of the paths of a layer: nearest takes the nearest next one, optimized improves that order by local "
             "search."),
+    setting("infill_before_walls", Scope::plate, &TravelSettings::infill_before_walls,
+            "The fills of a part are printed before its walls: walls then lie on what infill pressed out."),
     setting("z_seam_type", Scope::object, &TravelSettings::z_seam_type, "Where outer walls begin and end."),
     setting("z_seam_corner", Scope::object, &TravelSettings::z_seam_corner,
             "Which corners attract a seam; weighted prefers inner ones to outer ones."),

@@ -14,6 +14,17 @@ constexpr auto choices_of(WallOrder) {
                     Choice<WallOrder>{WallOrder::outer_inner_outer, "outer_inner_outer"}};
 }
 
+/// What of the outermost bead lies on the outline.
+enum class WallOutline {
+  widest,  ///< the widest point of its rounded side: the part measures by calliper what its model does
+  volume,  ///< the side of the rectangle that holds its plastic: what rounded sides bulge out, they lack above and
+           ///< below
+};
+constexpr auto choices_of(WallOutline) {
+  return std::array{Choice<WallOutline>{WallOutline::widest, "widest"},
+                    Choice<WallOutline>{WallOutline::volume, "volume"}};
+}
+
 /// Beads along the outlines.
 struct WallSettings {
   int wall_line_count = 3;
@@ -34,6 +45,8 @@ struct WallSettings {
   Um min_output_width = 0.2_mm;
   double min_flow_ratio = 5;
   double max_flow_ratio = 100;
+  WallOutline wall_outline = WallOutline::widest;
+  double overlap_factor = 1;
   WallOrder wall_order = WallOrder::inside_out;
   bool alternate_extra_wall = false;
   Um xy_offset = 0_mm;
@@ -82,6 +95,14 @@ inline constexpr std::tuple wall_schema{
             "Least flow of a compensated wall."),
     setting("max_flow_ratio", Scope::region, &WallSettings::max_flow_ratio, Unit::percent, 1, 200,
             "Most flow of a compensated wall."),
+    setting(
+        "wall_outline", Scope::region, &WallSettings::wall_outline,
+        "What lies on the outline: widest, the widest point of the outermost bead's rounded side, so that callipers "
+        "measure the model's size and pins fit its holes; volume, the side of a rectangle of the bead's height and "
+        "volume, which bulges 0.11 × its height outside."),
+    setting("overlap_factor", Scope::object, &WallSettings::overlap_factor, Unit::none, 0, 1,
+            "How far neighbouring beads are moved together for the gaps that their rounded sides leave: at 1 they fill "
+            "them, at 0 they only touch."),
     setting("wall_order", Scope::region, &WallSettings::wall_order, "Which wall of a part is printed first."),
     setting("alternate_extra_wall", Scope::region, &WallSettings::alternate_extra_wall,
             "One more wall on every second layer."),

@@ -6,11 +6,11 @@
 #include <cstddef>
 #include <vector>
 
-/// Private to gcode: which moves a bead is printed with.
-namespace weft::gcode {
+/// Which moves a bead is printed with: what the writer writes, and what the estimate of time counts.
+namespace weft {
 
 /// A move to junction `to`, from where the last one ended, printed as the piece that ends at junction `piece` is.
-struct Move {
+struct BeadMove {
   std::size_t piece, to;
   double volume_mm3;  ///< of all pieces since the last move
 };
@@ -51,7 +51,7 @@ void for_each_move(const std::vector<Junction>& path, double height_mm, F f) {
       ahead = to < last ? length(to + 1) : 0;
     }
     if (path[from].at != path[to].at) {
-      f(Move{i, to, volume});
+      f(BeadMove{i, to, volume});
       volume = 0;
     }
     here = ahead;
@@ -59,4 +59,4 @@ void for_each_move(const std::vector<Junction>& path, double height_mm, F f) {
   }
 }
 
-}  // namespace weft::gcode
+}  // namespace weft

@@ -1,4 +1,4 @@
-#include "gcode/moves.h"
+#include "model/moves.h"
 
 #include <numeric>
 #include <random>
@@ -6,15 +6,14 @@
 #include <catch2/catch.hpp>
 
 using namespace weft;
-using namespace weft::gcode;
 
 namespace {
 
 constexpr double height_mm = 0.2;
 
-std::vector<Move> moves_of(const std::vector<Junction>& path) {
-  std::vector<Move> out;
-  for_each_move(path, height_mm, [&](const Move& move) { out.push_back(move); });
+std::vector<BeadMove> moves_of(const std::vector<Junction>& path) {
+  std::vector<BeadMove> out;
+  for_each_move(path, height_mm, [&](const BeadMove& move) { out.push_back(move); });
   return out;
 }
 
@@ -27,7 +26,7 @@ double volume_mm3(const std::vector<Junction>& path) {
 
 }  // namespace
 
-TEST_CASE("gcode: a step in width is no move of its own, whichever side of it lies straight on") {
+TEST_CASE("model: a step in width is no move of its own, whichever side of it lies straight on") {
   // 10 mm at 0.45, a step over 10 µm, 0.2 mm at 0.35, and the other way round.
   const std::vector<Junction> path{{{0, 0}, 450},         {{10'000, 0}, 450},   {{10'010, 0}, 350},
                                    {{10'200, 0}, 350},    {{10'200, 200}, 350}, {{10'200, 210}, 450},
@@ -41,7 +40,7 @@ TEST_CASE("gcode: a step in width is no move of its own, whichever side of it li
   CHECK(moves[3].piece == 6);
 }
 
-TEST_CASE("gcode: a step that only goes straight on from the move before is part of that") {
+TEST_CASE("model: a step that only goes straight on from the move before is part of that") {
   const std::vector<Junction> path{{{0, 0}, 450}, {{10'000, 0}, 450}, {{10'010, 0}, 350}, {{10'010, 5'000}, 350}};
   const auto moves = moves_of(path);
   REQUIRE(moves.size() == 2);
@@ -50,7 +49,7 @@ TEST_CASE("gcode: a step that only goes straight on from the move before is part
   CHECK(moves[1].to == 3);
 }
 
-TEST_CASE("gcode: what is short but tells of a bend, a way back or an end is a move") {
+TEST_CASE("model: what is short but tells of a bend, a way back or an end is a move") {
   const auto count = [](const std::vector<Point>& places) {
     std::vector<Junction> path;
     for (const Point p : places) path.push_back({p, 400});
@@ -61,7 +60,7 @@ TEST_CASE("gcode: what is short but tells of a bend, a way back or an end is a m
   CHECK(count({{0, 0}, {8, 0}}) == 1);                                  // all there is
 }
 
-TEST_CASE("gcode: moves end where paths end, keep to them and lay all their volume") {
+TEST_CASE("model: moves end where paths end, keep to them and lay all their volume") {
   std::mt19937 random(5);
   for (int n = 0; n < 300; ++n) {
     std::vector<Junction> path{{{0, 0}, 400}};
@@ -76,10 +75,10 @@ TEST_CASE("gcode: moves end where paths end, keep to them and lay all their volu
     CHECK(moves.back().to >= path.size() - 2);  // all but what does not move
     CHECK(path[moves.back().to].at == path.back().at);
     const double laid = std::accumulate(moves.begin(), moves.end(), 0.0,
-                                        [](double sum, const Move& move) { return sum + move.volume_mm3; });
+                                        [](double sum, const BeadMove& move) { return sum + move.volume_mm3; });
     CHECK(laid == Approx(volume_mm3(path)).epsilon(1e-9));
     std::size_t from = 0;
-    for (const Move& move : moves) {
+    for (const BeadMove& move : moves) {
       const Point a = path[from].at, b = path[move.to].at;
       for (std::size_t i = from; i <= move.to; ++i) {
         const double d2 = static_cast<double>(distance2(a, b));

@@ -1,0 +1,17 @@
+#include "pipeline/check.h"
+
+#include "travel/travel.h"
+#include "walls/walls.h"
+
+#include <iterator>
+
+namespace weft::pipeline {
+
+Notices check(const Settings& settings) {
+  Notices out = walls::check(settings.walls, settings.machine.nozzle_diameter, settings.layers.layer_height);
+  auto of_travel = travel::check(settings.travel, settings.retraction);
+  std::move(of_travel.begin(), of_travel.end(), std::back_inserter(out));
+  return out;
+}
+
+}  // namespace weft::pipeline
