@@ -50,8 +50,10 @@ struct Copy {
 };
 std::vector<Copy> copies_of(const std::vector<PlacedObject>& objects) {
   std::vector<Copy> out;
-  for (std::size_t o = 0; o < objects.size(); ++o)
-    for (const Point by : objects[o].offsets) out.push_back({o, by, &by == &objects[o].offsets.back()});
+  for (std::size_t o = 0; o < objects.size(); ++o) {
+    for (const Point by : objects[o].offsets) out.push_back({o, by, false});
+    if (!objects[o].offsets.empty()) out.back().last = true;
+  }
   return out;
 }
 
