@@ -35,7 +35,7 @@ TEST_CASE("prusaslicer: every key has one row, and every setting that a row name
     if (!row.of.empty()) CHECK(seen.count(row.of) == 1);  // reckoned before it
     CHECK((row.automatic > 0) == (row.form == ps::Form::width));
   }
-  CHECK(seen.size() > 380);
+  CHECK(seen.size() > 370);
   CHECK(ps::find_key("wall_line_count") == nullptr);
 }
 
