@@ -176,8 +176,9 @@ Command parse_command(const std::vector<std::string>& words, const po::options_d
   po::options_description all, hidden;
   hidden.add_options()("input", po::value<std::vector<std::string>>());
   const auto settings = setting_options();
+  const auto foreign = prusaslicer_options();
   po::options_description theirs;  // what the verb itself understands means that
-  for (const auto& option : prusaslicer_options().options())
+  for (const auto& option : foreign.options())
     if (!verb_options.find_nothrow(option->long_name(), false)) theirs.add(option);
   all.add(common_options()).add(verb_options).add(hidden).add(settings).add(theirs);
   po::positional_options_description positional;
