@@ -80,7 +80,9 @@ TEST_CASE("codec: results of stages come back as they were") {
     }
     std::vector<PlacedNotice> placed;
     for (auto& notice : notices(dice))
-      placed.push_back({std::move(notice), {dice(-max_coord, max_coord), dice(-max_coord, max_coord)}});
+      placed.push_back({std::move(notice.code),
+                        std::move(notice.message),
+                        {dice(-max_coord, max_coord), dice(-max_coord, max_coord)}});
     const std::vector<WallLayer> walls{{beads(dice), regions(dice), placed}, {beads(dice), {}, {}}};
     const auto walls2 = there_and_back(walls);
     CHECK(walls2[0].beads == walls[0].beads);
