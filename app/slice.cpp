@@ -184,16 +184,18 @@ void refuse_nonsense(const Command& command) {
   if (const auto preview = preview_of(command); !preview.empty()) (void)preview_kind(preview);
 }
 
+std::string help(const po::options_description& options) {
+  std::ostringstream out;
+  out << "weft slice MODEL... -p PROFILE [-s KEY=VALUE]... -o OUT.gcode\n\n" << options << "\n" << common_help();
+  return out.str();
+}
+
 }  // namespace
 
 int slice(const Words& words) {
   const auto options = slice_options();
   const auto command = parse_command(words, options);
-  if (command.help) {
-    std::ostringstream out;
-    out << "weft slice MODEL... -p PROFILE [-s KEY=VALUE]... -o OUT.gcode\n\n" << options << "\n" << common_help();
-    return write_output("-", out.str()), 0;
-  }
+  if (command.help) return write_output("-", help(options)), 0;
   if (command.options["info"].as<bool>()) return inspect(command.inputs);
   refuse_nonsense(command);
   const auto preview = preview_of(command);

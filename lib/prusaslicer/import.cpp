@@ -22,12 +22,6 @@ namespace {
 
 using value::number;
 
-/// The first of a list of texts; of a text that is no list, all of it.
-std::string first_text(const IniEntry& e) {
-  const auto all = elements_of(e.key, e.value);
-  return all.empty() ? std::string() : all.front();
-}
-
 /// The arithmetic between the lines of a configuration.
 class Translator {
  public:
@@ -39,6 +33,7 @@ class Translator {
     speeds();
     accelerations();
     fills();
+    seams();
     extrusion();
     cooling();
     texts();
@@ -57,9 +52,6 @@ class Translator {
   }
   void approximate(const IniEntry& e, std::string why) {
     if (e.line != 0) out_.approximated.push_back({e.key, e.value, e.line, std::move(why)});
-  }
-  void unsupported(const IniEntry& e, std::string why) {
-    out_.unsupported.push_back({e.key, e.value, e.line, std::move(why)});
   }
 
   void copy(const Key& row) {
@@ -335,6 +327,10 @@ class Translator {
     } else {
       lines_.find("thick_bridges");
     }
+  }
+
+  /// Seams, the ways between beads, and pictures.
+  void seams() {
     if (const auto* e = lines_.find("seam_gap_distance")) {
       const auto gap = lines_.figure(*e);
       set("seam_gap_distance", number(gap.v, 3) + (gap.percent ? "%" : ""), *e);
@@ -471,7 +467,7 @@ class Translator {
         out_.unknown.push_back(remark);
       else if (!row->neutral)
         out_.not_needed.push_back(remark);
-      else if (neutral(*row, *e))
+      else if (says_one_of(*row->neutral, e->key, e->value))
         out_.not_needed.push_back({e->key, e->value, e->line, "changes nothing at that value"});
       else
         out_.unsupported.push_back(remark);
@@ -479,30 +475,6 @@ class Translator {
     const auto by_line = [](const Remark& a, const Remark& b) { return a.line < b.line; };
     for (auto* list : {&out_.not_needed, &out_.approximated, &out_.unsupported, &out_.unknown})
       std::stable_sort(list->begin(), list->end(), by_line);
-  }
-
-  /// Does each element of the value say one of the neutral things? `0` and `0.0` and `0%` do.
-  static bool neutral(const Key& row, const IniEntry& e) {
-    const auto canonical = [](std::string_view t) {
-      if (!t.empty() && t.back() == '%') t.remove_suffix(1);
-      double v = 0;
-      try {
-        value::parse(t, Unit::none, v);
-      } catch (const std::invalid_argument&) {
-        return std::string(t);
-      }
-      return number(v);
-    };
-    const auto is_one = [&](const std::string& element) {
-      for (std::string_view rest = *row.neutral;;) {
-        const auto bar = rest.find('|');
-        if (canonical(element) == canonical(rest.substr(0, bar))) return true;
-        if (bar == std::string_view::npos) return false;
-        rest.remove_prefix(bar + 1);
-      }
-    };
-    const auto elements = elements_of(e.key, e.value);
-    return std::all_of(elements.begin(), elements.end(), is_one);
   }
 
   Lines lines_;

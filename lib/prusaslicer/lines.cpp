@@ -75,6 +75,11 @@ void modernise(IniEntry& e) {
 
 }  // namespace
 
+std::string first_text(const IniEntry& e) {
+  const auto all = elements_of(e.key, e.value);
+  return all.empty() ? std::string() : all.front();
+}
+
 Lines::Lines(std::vector<IniEntry> entries, const std::string& path) : path_(path) {
   for (auto& e : entries) {
     cut_comment(e);

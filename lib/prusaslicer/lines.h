@@ -19,6 +19,9 @@ struct Figure {
   double of(double base) const { return percent ? v / 100 * base : v; }
 };
 
+/// The first of a list of texts; of a text that is no list, all of it.
+std::string first_text(const IniEntry& e);
+
 /// The lines of a config.ini by key, in today's spelling, and which of them have been asked for.
 class Lines {
  public:

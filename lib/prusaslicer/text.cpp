@@ -6,6 +6,7 @@
 #include "settings/value.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace weft::prusaslicer {
 namespace {
@@ -89,6 +90,29 @@ std::string in_macro_words(std::string_view key, std::string_view text) {
     }
   }
   return joined(elements);
+}
+
+bool says_one_of(std::string_view things, std::string_view key, std::string_view text) {
+  const auto canonical = [](std::string_view t) {
+    if (!t.empty() && t.back() == '%') t.remove_suffix(1);
+    double v = 0;
+    try {
+      value::parse(t, Unit::none, v);
+    } catch (const std::invalid_argument&) {
+      return std::string(t);
+    }
+    return value::number(v);
+  };
+  const auto is_one = [&](const std::string& element) {
+    for (std::string_view rest = things;;) {
+      const auto bar = rest.find('|');
+      if (canonical(element) == canonical(rest.substr(0, bar))) return true;
+      if (bar == std::string_view::npos) return false;
+      rest.remove_prefix(bar + 1);
+    }
+  };
+  const auto elements = elements_of(key, text);
+  return std::all_of(elements.begin(), elements.end(), is_one);
 }
 
 }  // namespace weft::prusaslicer

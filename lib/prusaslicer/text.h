@@ -26,4 +26,7 @@ std::vector<std::string> texts_of(std::string_view list);
 /// The elements of the key's value, whatever it is a list of; a value that is no list is its own only element.
 std::vector<std::string> elements_of(std::string_view key, std::string_view text);
 
+/// Does each element of the key's value say one of the things between `|`? `0`, `0.0` and `0%` are the same.
+bool says_one_of(std::string_view things, std::string_view key, std::string_view text);
+
 }  // namespace weft::prusaslicer
