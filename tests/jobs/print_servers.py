@@ -39,8 +39,8 @@ class Server(http.server.BaseHTTPRequestHandler):
         self.end_headers()
 
     def keep(self, server, path, data):
-        if "busy" in path and path not in refused:
-            refused.add(path)
+        if "busy" in path and (server, path) not in refused:
+            refused.add((server, path))
             return self.answer(503)
         place = folder / server / path
         place.parent.mkdir(parents=True, exist_ok=True)

@@ -53,5 +53,5 @@ expect "of each job" "$(grep -c 'exec_failed' <(cat out-wrong.log; grep -o '"exe
 OCTOPRINT_KEY=right-key
 expect "and is made good by the next run, without slicing" "$(upload octoprint out-wrong)" 0
 expect "the files are there then" "$(find taken/octoprint -type f | wc -l)" 3
-[ $failed = 0 ] || tail -5 out-*.log >&2
+[ $failed = 0 ] || tail -n 5 out-*.log >&2
 exit $failed
