@@ -69,8 +69,8 @@ void check_passes(const Sliced& s) {
   CHECK_THAT(s.gcode, Contains("\n; weft_audit = pass, ") && Contains(" moves checked\n"));
 }
 
-/// A box sliced with start G-code that leaves the machine on `line`: refused, and annotated there. A motion back from
-/// outside is found as well, so `moves` of them stand outside.
+/// A box sliced with start G-code that leaves the machine on `line`: refused, and annotated there. The motions up and
+/// back from outside are found as well, so `moves` of them stand outside.
 void check_start_code_found(const std::vector<std::string>& settings, const std::string& start,
                             const std::string& annotation, const std::string& line, std::size_t moves) {
   CAPTURE(start);
@@ -203,10 +203,10 @@ TEST_CASE("audit T10: relative moves, shifted origins and inches are judged in m
     CHECK(audit(scratch, start + moves).status == 0);
   }
   check_start_code_found({}, "G1 X60 Y5\\nG91\\nG1 X140.1\\nG90", "outside +x 0.100 mm, custom, travel", "G1 X140.1",
-                         2);
+                         3);
   check_start_code_found({}, "G1 X100 Y5\\nG92 X0\\nG1 X100.1\\nG92 X200.1", "outside +x 0.100 mm, custom, travel",
-                         "G1 X100.1", 2);
-  check_start_code_found({}, "G20\\nG1 X7.88\\nG21", "outside +x 0.152 mm, custom, travel", "G1 X7.88", 2);
+                         "G1 X100.1", 3);
+  check_start_code_found({}, "G20\\nG1 X7.88\\nG21", "outside +x 0.152 mm, custom, travel", "G1 X7.88", 3);
 }
 
 TEST_CASE("audit: a fleet of printers is told apart, for people, programs and CI servers") {
@@ -252,10 +252,10 @@ TEST_CASE("audit: files that cannot be read are status 6, and do not keep others
 }
 
 TEST_CASE("audit: a job whose frame is moved is refused with the line, the reason and the number of moves") {
-  Scratch scratch;
-  scratch.write("part.stl", box_stl(10, 10, 0.4F));
   for (const auto* moved : {"M206 X500", "G10 L2 P1 X500", "G68 R45", "G55", "SET_GCODE_OFFSET X=nan", "M428"}) {
     CAPTURE(moved);
+    Scratch scratch;
+    scratch.write("part.stl", box_stl(10, 10, 0.4F));
     const auto s = slice(scratch, "part.stl", {"-s", std::string("machine_start_gcode=G28\\nG90\\n") + moved});
     CHECK(s.rejected.status == 5);
     CHECK_FALSE(s.file_after_rejection);
@@ -263,6 +263,8 @@ TEST_CASE("audit: a job whose frame is moved is refused with the line, the reaso
     CHECK(s.annotated.status == 0);
     CHECK_THAT(s.annotated.err, Contains("warning") && Contains(" not audited"));
   }
+  Scratch scratch;
+  scratch.write("part.stl", box_stl(10, 10, 0.4F));
   const auto s = slice(scratch, "part.stl", {"-s", "machine_start_gcode=PRINT_START\\nG28\\nG29"});
   CHECK(s.rejected.status == 0);
   CHECK_THAT(s.gcode, Contains(" moves checked; opaque: PRINT_START, G29\n"));
