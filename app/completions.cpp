@@ -69,6 +69,7 @@ _weft_profiles() { weft profile list 2> /dev/null | sed -n 's/^\([^#[:space:]]*\
 _weft_keys='@KEYS@'
 # The values of an option that begin like a word; status 1 when it takes none.
 _weft_values() {
+  local IFS=$' \t\n'
   case $1 in
 @CASES@    *) return 1;;
   esac

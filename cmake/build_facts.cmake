@@ -19,6 +19,11 @@ function(weft_build_facts target)
   add_custom_target(weft_commit BYPRODUCTS ${folder}/built_commit.h VERBATIM
     COMMAND ${CMAKE_COMMAND} -DSOURCE=${PROJECT_SOURCE_DIR} -DOUT=${folder}/built_commit.h -P ${PROJECT_SOURCE_DIR}/cmake/build_facts.cmake)
   add_dependencies(${target} weft_commit)
+  find_file(clipper clipper.hpp PATHS ${polyclipping_INCLUDE_DIRS} PATH_SUFFIXES polyclipping)
+  if(NOT polyclipping_VERSION AND clipper)  # its .pc file says none
+    file(STRINGS ${clipper} line REGEX "define CLIPPER_VERSION")
+    string(REGEX MATCH "[0-9][0-9.]*" polyclipping_VERSION "${line}")
+  endif()
   set(libraries "Boost ${Boost_VERSION_STRING}, CGAL ${CGAL_VERSION}, Clipper ${polyclipping_VERSION}, Eigen ${Eigen3_VERSION}, expat ${expat_VERSION}, fmt ${fmt_VERSION}, libpng ${libpng_VERSION}, minizip ${minizip_VERSION}, nettle ${nettle_VERSION}, nlohmann_json ${nlohmann_json_VERSION}, TBB ${TBB_VERSION}")
   file(CONFIGURE OUTPUT ${folder}/built_with.h CONTENT "#pragma once\n#include <string_view>\n\ninline constexpr std::string_view built_with = \"${libraries}\";\n")
   target_include_directories(${target} PRIVATE ${folder})
