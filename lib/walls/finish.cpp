@@ -131,8 +131,6 @@ void finish(Line line, const FinishOptions& o, std::vector<Line>& out, double& d
     const double length = length_of(stretch);
     if (length < o.least_length || stretch.size() < 2) continue;
     kept += length;
-    // A dab costs two travels: what is shorter than wide the walls around it take up.
-    if (line.inset > 0 && length * length < area_of(stretch)) continue;
     bool first_meets = line.first_meets && distance(stretch.front().at, line.path.front().at) < 1;
     bool last_meets = line.last_meets && distance(stretch.back().at, line.path.back().at) < 1;
     // A bead begins at its thin end: what swells behind the nozzle there is least.

@@ -147,11 +147,14 @@ Part part_of(const WallSettings& settings, const Widths& widths, const Region& r
       stop_if_asked();
       finish(std::move(line), finishing, finished, out.dropped_mm);
     }
+  stop_if_asked();
   out.inside = rest_of(skeleton, laying, axis.origin);
+  stop_if_asked();
   Room room(region, axis.origin);
   if (!dab) keep_inside(region, room, finishing, finished);
   for (const Line& line : finished) append_bead(line, finishing, out.beads);
   const double wanted = area_mm2(region) - area_mm2(out.inside);
+  stop_if_asked();
   fit(room, finishing, widths, wanted, dab, out.beads);
   return out;
 }

@@ -76,12 +76,12 @@ Region crossing(double width, double turn, const std::vector<double>& degrees) {
 }  // namespace
 
 TEST_CASE("walls: a bead on the axis reaches the wall that crosses in front of it", "[walls]") {
-  // In every arm of a star a bead runs towards the walls of the middle. 0.36 to 0.48 % are bare; were the ends 0.2 mm
+  // In every arm of a star a bead runs towards the walls of the middle. 0.5 to 0.75 % are bare; were the ends 0.2 mm
   // short, 1.0 to 1.4 %.
   for (const int arms : {4, 7, 12}) {
     CAPTURE(arms);
     const Region region = star(arms, 0.25);
-    CHECK(bare_share(region, filled({region}), box_of(region.outer), 41) < 0.007);
+    CHECK(bare_share(region, filled({region}), box_of(region.outer), 41) < 0.0085);
   }
 }
 
