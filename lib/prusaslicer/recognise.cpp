@@ -1,6 +1,5 @@
 #include "prusaslicer/import.h"
 #include "prusaslicer/keys.h"
-#include "settings/catalogue.h"
 #include "settings/value.h"
 
 #include <algorithm>
@@ -18,10 +17,10 @@ bool recognises(std::string_view text, const std::vector<IniEntry>& entries) {
     return row && row->telling;
   });
   if (found >= 2) return true;
-  // A few lines that all are of that family, and not all of weft's.
-  return !entries.empty() &&
-         std::all_of(entries.begin(), entries.end(), [](const IniEntry& e) { return find_key(e.key) != nullptr; }) &&
-         std::any_of(entries.begin(), entries.end(), [](const IniEntry& e) { return find_setting(e.key) == nullptr; });
+  // A few lines, each of that family's, one of them of no other. Profiles of weft's inherit by the same word.
+  return found == 1 && entries.size() >= 3 && std::all_of(entries.begin(), entries.end(), [](const IniEntry& e) {
+           return e.key != "inherits" && find_key(e.key) != nullptr;
+         });
 }
 
 }  // namespace weft::prusaslicer
