@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 namespace weft::mesh {
 namespace {
@@ -21,12 +22,17 @@ double six_volumes(Point3 a, Point3 b, Point3 c, Point3 d) {
   return u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0]) + u[2] * (v[0] * w[1] - v[1] * w[0]);
 }
 
-/// Whether a segment passes through the inside of a triangle.
-bool passes(Point3 p, Point3 q, Point3 a, Point3 b, Point3 c) {
+enum class Crossing { none, inside, on_edge };
+
+/// Where a segment crosses a triangle's plane, with an end on either side of it: inside the triangle, or on an edge.
+Crossing crossing(Point3 p, Point3 q, Point3 a, Point3 b, Point3 c) {
   const double before = six_volumes(a, b, c, p), behind = six_volumes(a, b, c, q);
-  if (before == 0 || behind == 0 || (before > 0) == (behind > 0)) return false;
-  const double x = six_volumes(p, q, a, b), y = six_volumes(p, q, b, c), z = six_volumes(p, q, c, a);
-  return (x > 0 && y > 0 && z > 0) || (x < 0 && y < 0 && z < 0);
+  if (before == 0 || behind == 0 || (before > 0) == (behind > 0)) return Crossing::none;
+  const double turns[] = {six_volumes(p, q, a, b), six_volumes(p, q, b, c), six_volumes(p, q, c, a)};
+  const auto count = [&](auto is) { return std::count_if(std::begin(turns), std::end(turns), is); };
+  const auto left = count([](double t) { return t > 0; }), right = count([](double t) { return t < 0; });
+  if (left > 0 && right > 0) return Crossing::none;
+  return left + right == 3 ? Crossing::inside : left + right == 2 ? Crossing::on_edge : Crossing::none;
 }
 
 struct Facet {
@@ -56,10 +62,46 @@ std::vector<Facet> facets_in(const Mesh& mesh, const std::vector<std::uint32_t>&
   return out;
 }
 
-bool edges_pass(const Mesh& mesh, std::uint32_t edges_of, std::uint32_t through) {
-  const auto at = [&](std::uint32_t t, std::size_t k) { return mesh.vertices[mesh.triangles[t][k % 3]]; };
+bool in_one_plane(const Mesh& mesh, std::uint32_t t, std::uint32_t u) {
+  const auto at = [&](std::uint32_t triangle, std::size_t k) { return mesh.vertices[mesh.triangles[triangle][k]]; };
   for (std::size_t k = 0; k < 3; ++k)
-    if (passes(at(edges_of, k), at(edges_of, k + 1), at(through, 0), at(through, 1), at(through, 2))) return true;
+    if (six_volumes(at(t, 0), at(t, 1), at(t, 2), at(u, k)) != 0) return false;
+  return true;
+}
+
+/// Whether an edge of a triangle passes through the surface that others are of: inside one of them, or between two that
+/// lie in one plane. On any other edge bodies may merely touch.
+bool edges_pass(const Mesh& mesh, std::uint32_t edges_of, const std::vector<std::uint32_t>& others) {
+  const auto at = [&](std::uint32_t t, std::size_t k) { return mesh.vertices[mesh.triangles[t][k % 3]]; };
+  std::vector<std::uint32_t> on_edge;
+  for (std::size_t k = 0; k < 3; ++k, on_edge.clear())
+    for (const std::uint32_t t : others) {
+      const Crossing here = crossing(at(edges_of, k), at(edges_of, k + 1), at(t, 0), at(t, 1), at(t, 2));
+      if (here == Crossing::inside) return true;
+      if (here == Crossing::none) continue;
+      for (const std::uint32_t other : on_edge)
+        if (in_one_plane(mesh, other, t)) return true;
+      on_edge.push_back(t);
+    }
+  return false;
+}
+
+/// Whether edges of `edges` pass through `surface`; both sorted by their least X.
+bool any_edge_passes(const Mesh& mesh, const std::vector<Facet>& edges, const std::vector<Facet>& surface) {
+  Um widest = 0;  // along X
+  for (const Facet& f : surface) widest = std::max(widest, f.box.max.x - f.box.min.x);
+  StopNowAndThen stop(1024);
+  std::vector<std::uint32_t> near;
+  std::size_t first = 0;
+  for (const Facet& f : edges) {
+    while (first < surface.size() && surface[first].box.min.x + widest < f.box.min.x) ++first;
+    near.clear();
+    for (std::size_t i = first; i < surface.size() && surface[i].box.min.x <= f.box.max.x; ++i) {
+      stop.step();
+      if (!apart(f.box, surface[i].box)) near.push_back(surface[i].triangle);
+    }
+    if (edges_pass(mesh, f.triangle, near)) return true;
+  }
   return false;
 }
 
@@ -71,20 +113,7 @@ bool cut_each_other(const Mesh& mesh, const std::vector<std::uint32_t>& a, const
   for (const std::uint32_t t : b) of_b.add(box_of(mesh, t));
   if (of_a.empty() || of_b.empty() || apart(of_a, of_b)) return false;
   const auto ours = facets_in(mesh, a, of_b), theirs = facets_in(mesh, b, of_a);
-  StopNowAndThen stop(1024);
-  std::size_t first = 0;
-  Um widest = 0;  // along X, of theirs
-  for (const Facet& f : theirs) widest = std::max(widest, f.box.max.x - f.box.min.x);
-  for (const Facet& f : ours) {
-    while (first < theirs.size() && theirs[first].box.min.x + widest < f.box.min.x) ++first;
-    for (std::size_t i = first; i < theirs.size() && theirs[i].box.min.x <= f.box.max.x; ++i) {
-      stop.step();
-      if (apart(f.box, theirs[i].box)) continue;
-      if (edges_pass(mesh, f.triangle, theirs[i].triangle) || edges_pass(mesh, theirs[i].triangle, f.triangle))
-        return true;
-    }
-  }
-  return false;
+  return any_edge_passes(mesh, ours, theirs) || any_edge_passes(mesh, theirs, ours);
 }
 
 }  // namespace weft::mesh
