@@ -18,6 +18,14 @@ constexpr Known lesser(Known a, Known b) {
 
 }  // namespace
 
+/// Start G-code raises the nozzle before it homes, off whatever it stands on. Where the last job left it no file can
+/// say; a raise by as much as people write there is taken for what it is.
+bool Reader::raises_before_homing(const Words& w, double by_mm) {
+  constexpr double highest_mm = 20;
+  if (state_.cause[z] != 0 || w.has('X') || w.has('Y') || by_mm < 0) return false;
+  return (raised_mm_ += by_mm) <= highest_mm;
+}
+
 /// Where the words lead; false when no axis is named.
 bool Reader::target(const Words& w, std::array<double, 3>& to, std::array<Known, 3>& known,
                     std::array<std::int16_t, 3>& cause) {
@@ -45,7 +53,7 @@ bool Reader::target(const Words& w, std::array<double, 3>& to, std::array<Known,
         unknown(lost_[scaled][i]);
       else if (!frame_known_[i] && lost_[turned][i] >= 0)
         unknown(lost_[turned][i]);
-      else if (known[i] == Known::in_reach)
+      else if (known[i] == Known::in_reach && !(i == z && raises_before_homing(w, v)))
         known[i] = Known::no;  // it may have stood at the edge
     } else if (!frame_known_[i]) {
       unknown(frame_lost(i));

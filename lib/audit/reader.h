@@ -187,6 +187,7 @@ class Reader {
               const std::array<std::int16_t, 3>& cause);
   void move_straight_to(const std::array<double, 3>& to, const std::array<Known, 3>& known,
                         const std::array<std::int16_t, 3>& cause);
+  bool raises_before_homing(const Words& w, double by_mm);
   double filament(const Words& w);
   void arc(const Words& w, Motion& m, Vec from, Vec to);
   std::optional<Vec> centre_by_radius(double radius_mm, Vec from, Vec to);
@@ -277,6 +278,7 @@ class Reader {
   int motion_mode_ = -1;                             ///< G0 … G3, for lines that are only words
   int plane_ = 17, tool_ = 0;
   std::int16_t mode_cause_ = -1;      ///< G90 or G91 is not known, because of
+  double raised_mm_ = 0;              ///< before it was homed
   double retract_lift_mm_ = 0;        ///< of M207
   bool retracted_ = false;            ///< by G10
   bool machine_coordinates_ = false;  ///< G53 on this line

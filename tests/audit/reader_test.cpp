@@ -45,6 +45,19 @@ TEST_CASE("audit: a bead, an arc or a relative move from an unknown place is not
   CHECK(bench.moves("PRINT_START\nG91\nG1 Z10\nG90\nG1 X5 Y5 Z5\n").unaudited_moves == 1);
 }
 
+TEST_CASE("audit: a raise off the bed before homing is what it is; a high one, and one after homing, are not audited",
+          "[audit]") {
+  const Bench bench;
+  CHECK(bench("G91\nG1 Z5 F600\nG90\nG28\nG1 X10 Y10 Z5\n").clean());
+  CHECK(bench("G91\nG1 Z21 F600\nG90\nG28\nG1 X10 Y10 Z5\n").verdict == Verdict::unaudited);
+  CHECK(bench("G91\nG1 Z15\nG1 Z15\nG90\nG28\nG1 X10 Y10 Z5\n").unaudited_moves == 1);
+  CHECK(bench("G91\nG1 Z-5\nG90\nG28\nG1 X10 Y10 Z5\n").verdict == Verdict::unaudited);
+  CHECK(bench("G28\nG91\nG1 Z5\nG90\nG1 X10 Y10 Z5\n").verdict == Verdict::unaudited);
+  Bench low;
+  low.machine.home_z = 0;
+  CHECK(low("G28\nG91\nG1 Z5\nG90\nG1 X10 Y10 Z5\n").clean());
+}
+
 TEST_CASE("audit: where only one coordinate is known, what lies beyond the reach altogether is found", "[audit]") {
   const Bench bench;
   const auto report = bench.moves("G29\nG1 Y-3\n");
