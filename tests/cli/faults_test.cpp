@@ -191,7 +191,7 @@ TEST_CASE("faults: sizes at both ends of what can be printed") {
   Scratch scratch;
   scratch.write("bed.ini", "machine_width = 3000\nmachine_depth = 3000\nmachine_height = 3000\n");
   scratch.write("huge.stl", box_stl(2000, 2000, 1));
-  scratch.write("tiny.stl", box_stl(0.1F, 0.1F, 0.3F));
+  scratch.write("tiny.stl", box_stl(0.2F, 0.2F, 0.3F));
   scratch.write("tall.stl", box_stl(2, 2, 100));
   const auto done = [&](const std::vector<std::string>& more) {
     std::vector<std::string> words{"slice", "-p", "bed.ini", "-o", "out.gcode", "--report", "r.json"};
@@ -236,9 +236,12 @@ TEST_CASE("faults: a model far from the origin is put on the bed, or told where 
     return text.substr(begin, text.rfind(";LAYER_CHANGE") - begin);
   };
   CHECK((body("far.stl") == body("near.stl")));
-  const auto kept = weft({"slice", "far.stl", "--keep-position", "-o", "no.gcode"}, scratch.path());
+  const auto kept = weft({"slice", "far.stl", "--keep-position", "--drop", "-o", "no.gcode"}, scratch.path());
   CHECK(kept.status == 5);
   CHECK_THAT(kept.err, Contains("far.stl: does not fit") && Contains("mm outside"));
+  const auto above = weft({"slice", "far.stl", "--keep-position", "-o", "no.gcode"}, scratch.path());
+  CHECK(above.status == 4);
+  CHECK_THAT(above.err, Contains("stands 9000.000 mm above the bed"));
   const auto beyond = weft({"slice", "beyond.stl", "-o", "no.gcode"}, scratch.path());
   CHECK(beyond.status == 4);
   CHECK_THAT(beyond.err, Contains("beyond ±16 m"));

@@ -26,10 +26,8 @@ TEST_CASE("command line: wrong use is status 2 and one line that names the optio
     std::string said;
   };
   const std::vector<Case> cases{
-      {{}, "no verb"},
       {{"slize", "part.stl"}, "'slize'"},
       {{"slice"}, "no model was given"},
-      {{"slice", "part.stl"}, "-o OUT.gcode"},
       {{"slice", "part.stl", "-o", "x", "--layer-heigth", "0.2"}, "did you mean --layer-height?"},
       {{"slice", "part.stl", "-o", "x", "--audit", "off"}, "cannot be turned off"},
       {{"slice", "part.stl", "-o", "x", "--center", "1"}, "X,Y"},
@@ -49,6 +47,13 @@ TEST_CASE("command line: wrong use is status 2 and one line that names the optio
     CHECK_THAT(run.err, StartsWith("weft: error: ") && Contains(c.said));
     CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
   }
+}
+
+TEST_CASE("command line: weft alone tells its verbs on standard error, and that it was wrong use") {
+  const auto run = weft({});
+  CHECK(run.status == 2);
+  CHECK(run.out.empty());
+  CHECK_THAT(run.err, StartsWith("weft: ") && Contains("weft slice") && Contains("--help"));
 }
 
 TEST_CASE("command line: every setting is listed with type, range and meaning") {

@@ -82,12 +82,14 @@ TEST_CASE("placement: a center is the middle of the box of everything", "[mesh][
   CHECK(all_of(footprints(several)).centre() == Point{30'000, 40'000});
 }
 
-TEST_CASE("placement: a kept position keeps x and y, and drops z", "[mesh][placement]") {
-  const auto models =
-      placed({box_model(20, 10, 5, {-3, 70, -12}), box_model(20, 10, 5, {50, 60, 9})}, {.keep_position = true});
+TEST_CASE("placement: a kept position keeps x and y, and z where it is told not to drop", "[mesh][placement]") {
+  const auto models = placed({box_model(20, 10, 5, {-3, 70, -12}), box_model(20, 10, 5, {50, 60, 9})},
+                             {.keep_position = true, .drop = true});
   CHECK(footprints(models)[0] == Box{{-3'000, 70'000}, {17'000, 80'000}});
   CHECK(footprints(models)[1] == Box{{50'000, 60'000}, {70'000, 70'000}});
   CHECK(models[1].box.min.z == 0);
+  CHECK_THROWS_AS(placed({box_model(20, 10, 5, {-3, 70, -12})}, {.keep_position = true}), Error);
+  CHECK_THROWS_AS(placed({box_model(20, 10, 5, {50, 60, 9})}, {.keep_position = true}), Error);
   CHECK_THROWS_AS(placed({box_model(1, 1, 1)}, {.keep_position = true, .copies = 2}), Error);
 }
 

@@ -108,8 +108,7 @@ TEST_CASE("prusaslicer: zero means automatic, unlimited or never, and is said so
   CHECK(value_of(t, "retraction_enable") == "false");
   CHECK(value_of(t, "material_max_volumetric_speed") == "500");
   CHECK(value_of(t, "speed_wall_x") == "70");
-  REQUIRE(t.approximated.size() == 1);
-  CHECK(t.approximated[0].key == "perimeter_speed");
+  CHECK(t.approximated.empty());  // at most max_print_speed, as PrusaSlicer's automatic speed without a limit of flow
 }
 
 TEST_CASE("prusaslicer: of vectors the first value holds, and beds of any shape are kept") {

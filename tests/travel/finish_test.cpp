@@ -109,7 +109,8 @@ TEST_CASE("travel: a wipe runs over what was printed, and the travel begins wher
         double um = 0;
         Point at = e->path.back().at;
         for (const Point q : r->wipe) um += distance(at, q), at = q;
-        CHECK(um == Approx(1000).margin(3));
+        CHECK(um > 997);
+        CHECK(um < 1000 + 0.15 * 400 + 3);  // a loop's begins by crossing the gap of 15 % of the nozzle at its end
       }
   CHECK(wipes > 5);
 }
