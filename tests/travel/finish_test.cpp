@@ -99,6 +99,7 @@ TEST_CASE("travel: a wipe runs over what was printed, and the travel begins wher
   retraction.wipe = true;
   TravelSettings off;
   off.retraction_combing = Combing::off;
+  off.seam_gap_distance = length(0);  // a wipe runs over the gap as well, before what was printed
   int wipes = 0;
   for (const auto& p : plan(off, retraction, stack(1)))
     for (std::size_t i = 1; i < p.steps.size(); ++i)
