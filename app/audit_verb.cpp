@@ -1,5 +1,6 @@
 #include "audit_report.h"
 #include "command.h"
+#include "limited.h"
 #include "pipeline/profile_file.h"
 #include "verbs.h"
 
@@ -76,6 +77,7 @@ int audit_verb(const Words& words) {
   options.add_options()("against", po::value<std::vector<std::string>>()->multitoken()->value_name("FILE..."),
                         "printer profiles: says of each whether the files may run there")(
       "format", po::value<std::string>()->value_name("json|junit")->default_value("json"), "form of the report");
+  add_limit_options(options);
   const auto command = parse_command(words, options);
   if (command.help) {
     std::ostringstream out;
@@ -99,7 +101,8 @@ int audit_verb(const Words& words) {
       jobs.push_back({file, &printer.settings});
       entries.push_back({file, printer.name, {}});
     }
-  auto outcomes = audit_files(jobs, command.threads);
+  std::vector<AuditOutcome> outcomes;
+  within_limits(command, [&] { outcomes = audit_files(jobs, command.threads); });
   for (std::size_t i = 0; i < entries.size(); ++i) {
     entries[i].outcome = std::move(outcomes[i]);
     tell(console, entries[i], printers.size() > 1);

@@ -1,4 +1,5 @@
 #include "command.h"
+#include "limited.h"
 #include "mesh/read.h"
 #include "verbs.h"
 
@@ -62,6 +63,7 @@ int inspect(const Words& words) {
   po::options_description none("Options of weft inspect");
   none.add_options()("format", po::value<std::string>()->value_name("text|json")->default_value("text"),
                      "form of the facts");
+  add_limit_options(none);
   const auto command = parse_command(words, none);
   if (command.help) {
     std::ostringstream out;
@@ -73,7 +75,9 @@ int inspect(const Words& words) {
   if (format != "text" && format != "json")
     throw Error{Error::Kind::usage, fmt::format("'{}' is not one of text, json", format), "--format"};
   Json models = Json::array();
-  for (const auto& path : command.inputs) models.push_back(facts_of(mesh::read_file(path)));
+  within_limits(command, [&] {
+    for (const auto& path : command.inputs) models.push_back(facts_of(mesh::read_file(path)));
+  });
   std::string out;
   if (format == "json")
     out = models.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -149,6 +149,7 @@ void refuse_nonsense(const Command& command) {
   if (!command.output)
     throw Error{Error::Kind::usage, "where should the G-code go?", "weft slice",
                 "add -o OUT.gcode, or -o - for standard output"};
+  check_writable(*command.output);
   if (command.output == "-" && command.report == "-")
     throw Error{Error::Kind::usage, "G-code and report cannot both go to standard output", "--report",
                 "name a file for one of them"};

@@ -59,7 +59,7 @@ std::string picture_of(const std::filesystem::path& gcode, const Settings& setti
         std::min(paths.layers.size() - 1, static_cast<std::size_t>(share * static_cast<double>(paths.layers.size())));
     const auto png = preview::png(paths, view);
     return {png.begin(), png.end()};
-  } catch (const Error&) {
+  } catch (const std::exception&) {  // the G-code is there, and that is what counts
     return {};
   }
 }

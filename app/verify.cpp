@@ -1,8 +1,9 @@
 #include "command.h"
 #include "core/file_bytes.h"
 #include "core/hash.h"
+#include "core/stop.h"
 #include "core/version.h"
-#include "limits.h"
+#include "limited.h"
 #include "pipeline/provenance.h"
 #include "verbs.h"
 
@@ -50,21 +51,8 @@ std::string first_difference(std::string_view made, std::string_view found) {
                      a == made.end() ? "" : line_at(made, std::min(at, made.size() - 1)));
 }
 
-}  // namespace
-
-int verify(const Words& words) {
-  const po::options_description none("Options of weft verify");
-  const auto command = parse_command(words, none);
-  if (command.help)
-    return write_output("-",
-                        "weft verify FILE.gcode [MODEL...]\n\nSlices again from the settings, the placement and the "
-                        "model that the file names, and compares every byte.\n\n" +
-                            common_help()),
-           0;
-  if (command.inputs.empty())
-    throw Error{Error::Kind::usage, "no G-code was given", "weft verify", "as in weft verify part.gcode part.stl"};
-  Console console(command.console);
-  const Limits limits(0, 0);
+/// Slices again and compares. @throws Error
+void compare(const Command& command, Console& console) {
   const auto& path = command.inputs.front();
   const FileBytes file(path);
   auto made_of = provenance_of(file.view(), path);
@@ -82,7 +70,7 @@ int verify(const Words& words) {
   Report report;
   Watch watch;
   watch.progress = [&](std::string_view stage, double share) { console.progress(stage, share); };
-  watch.cancelled = [&] { return limits.reached(); };
+  watch.cancelled = *StopWhen::current();
   const auto again = run(job, watch, report);
   if (!again) throw Error{Error::Kind::audit, report.error, path};
   if (again->gcode() != file.view())
@@ -90,6 +78,26 @@ int verify(const Words& words) {
                 "is not what weft makes of its model and settings; " + first_difference(again->gcode(), file.view()),
                 path, "it was changed after it was made"};
   console.info(fmt::format("{}: byte for byte what weft {} makes of {}", path, version, job.models.front()));
+}
+
+}  // namespace
+
+int verify(const Words& words) {
+  po::options_description none("Options of weft verify");
+  add_limit_options(none);
+  const auto command = parse_command(words, none);
+  std::ostringstream help;
+  help << none;
+  if (command.help)
+    return write_output("-",
+                        "weft verify FILE.gcode [MODEL...]\n\nSlices again from the settings, the placement and the "
+                        "model that the file names, and compares every byte.\n\n" +
+                            help.str() + "\n" + common_help()),
+           0;
+  if (command.inputs.empty())
+    throw Error{Error::Kind::usage, "no G-code was given", "weft verify", "as in weft verify part.gcode part.stl"};
+  Console console(command.console);
+  within_limits(command, [&] { compare(command, console); });
   return 0;
 }
 

@@ -1,8 +1,9 @@
 #include "mesh/read.h"
 
 #include "core/error.h"
-#include "core/hash.h"
 #include "core/file_bytes.h"
+#include "core/hash.h"
+#include "core/stop.h"
 #include "mesh/formats.h"
 #include "tasks/tasks.h"
 
@@ -78,6 +79,7 @@ Loaded loaded_from(Contents contents, Format format, const std::string& path_as_
   loaded.unit = std::move(contents.unit);
   loaded.notices = std::move(contents.notices);
   for (Body& body : contents.bodies) {
+    stop_if_asked();
     loaded.triangles_in_file += body.mesh.triangles.size();
     Repaired repaired = repair(std::move(body.mesh));
     if (!repaired.mesh.triangles.empty())
