@@ -16,8 +16,8 @@ namespace weft::walls {
 namespace {
 
 /// The regions with their outlines moved by the xy offsets.
-Regions offset_outlines(const WallSettings& settings, const Regions& regions, std::size_t layer) {
-  const Um by = settings.xy_offset + (layer == 0 ? settings.xy_offset_layer_0 : 0);
+Regions offset_outlines(const WallSettings& settings, const Regions& regions) {
+  const Um by = settings.xy_offset;
   const Um holes_by = settings.hole_xy_offset - by;
   if (by == 0 && holes_by == 0) return regions;
   Regions solid, holes;
@@ -75,7 +75,7 @@ WallLayer build(const WallSettings& settings, const WallInput& input) {
   constexpr double worth_a_notice_mm = 0.5;  // the last bit of every tip is thinner than any bead
   WallLayer out;
   const Widths widths = widths_of(settings, input.nozzle_diameter, input.layer.height, input.index);
-  const Regions regions = offset_outlines(settings, input.layer.regions, input.index);
+  const Regions regions = offset_outlines(settings, input.layer.regions);
   if (widths.walls == 0) {
     out.inside = regions;
     return out;

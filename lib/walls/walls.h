@@ -9,7 +9,7 @@ namespace weft::walls {
 /// What walls are built from, besides their settings.
 struct WallInput {
   const SlicedLayer& layer;
-  std::size_t index = 0;        ///< of the layer; 0 lies on the bed
+  std::size_t index = 0;        ///< of the layer in its object: extra walls alternate by it
   Um nozzle_diameter = 0.4_mm;  ///< what automatic widths and shares are measured against
   const Regions* over_air =
       nullptr;  ///< where nothing lies below, if the caller knows; there beads keep the nozzle's own strand
