@@ -1,5 +1,6 @@
 #pragma once
 #include "infill/mask.h"
+#include "infill/sparse.h"
 
 #include <optional>
 
@@ -10,5 +11,9 @@ namespace weft::infill {
 /// @param below  the layer that the strands can rest on
 /// Cost: 36 directions, each a scan of the gap.
 std::optional<double> bridge_angle_rad(const Region& gap, const Mask& below);
+
+/// The direction in which strands over the sparse infill below `area` span the shortest free ways from line to line;
+/// what is around the area holds them too. Cost: the infill of the area, and 18 scans of it.
+double internal_bridge_angle_rad(const Region& area, const SparseStyle& below);
 
 }  // namespace weft::infill
