@@ -1,8 +1,12 @@
 #pragma once
 #include "core/build_id.h"
 #include "core/hash.h"
+#include "core/stop.h"
 #include "pipeline/codec.h"
+#include "pipeline/pipeline.h"
 #include "pipeline/stage_cache.h"
+#include "pipeline/stage_table.h"
+#include "pipeline/stopwatch.h"
 #include "settings/exact.h"
 
 #include <memory>
@@ -26,7 +30,8 @@ class Result {
   std::shared_ptr<const T> kept_;
 };
 
-/// What a stage reads, as bytes: its name and version, then every input. A stage's result is a function of them.
+/// What a stage reads, as bytes: its name and version, what it reads of the settings, then every other input. A stage's
+/// result is a function of them.
 class StageKey {
  public:
   StageKey(std::string_view stage, int version) : stage_(stage) {
@@ -34,6 +39,10 @@ class StageKey {
     exact::add(bytes_, codec_version);
     exact::add(bytes_, std::string(stage));
     exact::add(bytes_, version);
+  }
+  template <class Row>
+  StageKey(const Row& row, const Settings& settings) : StageKey(row.name, row.version) {
+    if (row.reads) row.reads(bytes_, settings);
   }
   template <class T>
   StageKey& with(const T& v) {
@@ -53,6 +62,11 @@ class StageKey {
   std::string bytes_;
 };
 
+template <Stage stage>
+StageKey key_of(const Settings& settings) {
+  return {row_of<stage>(), settings};
+}
+
 /// The result of a stage: made, or what the cache has of that key. Without a cache neither key nor copy is made.
 /// @param key  returns a StageKey  @param make returns the result
 template <class Key, class Make>
@@ -71,6 +85,30 @@ auto cached(StageCache* cache, Key key, Make make) -> Result<std::invoke_result_
   const StageKey k = key();
   return Result<T>(std::static_pointer_cast<const T>(cache->get(
       k.stage(), k.hash(), kind, [&]() -> std::shared_ptr<const void> { return std::make_shared<const T>(make()); })));
+}
+
+/// A job on its way through the stages.
+struct Running {
+  const Settings& settings;
+  const Watch& watch;
+  Report& report;
+  StageCache* cache;  ///< may be null
+};
+
+/// Says that a stage begins. @throws Stopped
+template <Stage stage>
+void begin(const Watch& watch) {
+  stop_if_asked();
+  constexpr const auto& row = row_of<stage>();
+  if (!row.says.empty()) watch.progress(row.says, row.share);
+}
+
+/// One stage of a job: announced, timed, and taken from the cache where that has it.
+template <Stage stage, class Key, class Make>
+Result<ResultOf<stage>> run_stage(const Running& job, Key key, Make make) {
+  begin<stage>(job.watch);
+  const Stopwatch stopwatch(job.report.timings_ms[stage]);
+  return cached(job.cache, key, make);
 }
 
 }  // namespace weft::pipeline

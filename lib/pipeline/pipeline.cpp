@@ -5,7 +5,7 @@
 #include "core/stop.h"
 #include "gcode/digest.h"
 #include "gcode/writer.h"
-#include "pipeline/codec.h"
+#include "pipeline/cached.h"
 #include "pipeline/give_back.h"
 #include "pipeline/plate.h"
 #include "pipeline/provenance.h"
@@ -37,7 +37,7 @@ std::size_t room_for(const std::vector<gcode::LayerDigest>& layers) {
 /// text are never both there as a whole.
 void write_gcode(const gcode::Job& job, PrintPlan& plan, std::vector<std::string> packed, audit::Check& check,
                  Report& report) {
-  const Stopwatch stopwatch(report.timings_ms.gcode);
+  const Stopwatch stopwatch(report.timings_ms[Stage::gcode]);
   const gcode::Writer writer(job);
   check.reserve(room_for(job.digests));
   check.add(writer.head());
@@ -52,7 +52,7 @@ void write_gcode(const gcode::Job& job, PrintPlan& plan, std::vector<std::string
   };
   tasks::parallel_in_order(plan.layers.size(), write, [&](std::size_t i, const std::string& block) {
     if (i % layers_between_giving_back == 0) give_back_memory();
-    const Stopwatch audit(report.timings_ms.audit);
+    const Stopwatch audit(report.timings_ms[Stage::audit]);
     check.add(block);
   });
   check.add(tail);
@@ -114,7 +114,7 @@ void name_custom_code(const GcodeSettings& g, audit::Check& check) {
 }
 
 std::optional<audit::Passed> verdict_of(audit::Check& check, const Job& job, Report& report) {
-  const Stopwatch stopwatch(report.timings_ms.audit);
+  const Stopwatch stopwatch(report.timings_ms[Stage::audit]);
   try {
     auto passed = check.passed();
     note_audit(passed.report(), report);
@@ -153,41 +153,36 @@ std::size_t count_copies(const std::vector<PlacedObject>& objects) {
 /// The program.
 std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Report& report, StageCache* cache) {
   const Stopwatch stopwatch(report.timings_ms.total);
-  const auto begin = [&](std::string_view stage, double share) {
-    stop_if_asked();
-    watch.progress(stage, share);
-  };
   report.settings_sha256 = sha256(as_text(job.settings));
   gcode::check_custom_code(job.settings);  // a typo in the start G-code is told before an hour of slicing
   auto objects = place_models(job, report, cache);
   std::vector<gcode::Thumbnail> thumbnails;
   // Pictures are drawn while the model is sliced.
   tasks::Beside beside([&] { thumbnails = thumbnails_of(job.settings, objects); });
-  begin("slicing", 0.05);
   std::vector<PrintedLayers> layers;
   Box3 box;
   for (auto& object : objects) {
     box.add(box_of(object.mesh));
-    layers.push_back(print_object(job.settings, object, watch, report, cache));
+    layers.push_back(print_object({job.settings, watch, report, cache}, object));
   }
   beside.wait();
   for (auto& object : objects) object.mesh = {};
   refuse_emptiness(job, box, layers);
   give_back_memory();
-  begin("travel", 0.65);
+  begin<Stage::travel>(watch);
   auto [plan, packed, digests, statistics] =
       plan_plate(job.settings, objects, by_layer(count_copies(objects)), std::move(layers), report);
   note_statistics(statistics, report);
   report.layers = plan.layers.size();
   for (const auto& layer : plan.layers) report.height_mm = std::max(report.height_mm, to_mm(layer.z));
   report.warnings.insert(report.warnings.end(), plan.notices.begin(), plan.notices.end());
-  begin("G-code", 0.85);
+  begin<Stage::gcode>(watch);
   audit::Check check(job.settings.machine, job.settings.material, job.settings.audit, job.audit);
   name_custom_code(job.settings.gcode, check);
   write_gcode({job.settings, plan, statistics, std::filesystem::path(job.models.front()).stem().string(),
                std::move(thumbnails), provenance_lines(report.models, job.placement), std::move(digests)},
               plan, std::move(packed), check, report);
-  begin("audit", 0.95);
+  begin<Stage::audit>(watch);
   auto passed = verdict_of(check, job, report);
   watch.progress("done", 1.0);
   return passed;

@@ -187,7 +187,7 @@ std::vector<PackedLayer> plan_moves(const Settings& settings, std::vector<travel
 
 PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects, const Sequence& sequence,
                         std::vector<PrintedLayers> layers, Report& report) {
-  const Stopwatch stopwatch(report.timings_ms.travel);
+  const Stopwatch stopwatch(report.timings_ms[Stage::travel]);
   const auto copies = copies_of(objects);
   const auto timeline = timeline_of(sequence, stacks_of(copies, layers));
   const std::size_t count = timeline.size();

@@ -38,12 +38,13 @@ void note_model(const mesh::Loaded& model, Report& report) {
 }
 
 /// A model, welded and repaired. Messages name it as it was typed, so that name is part of the key.
-mesh::Loaded read_model(const std::string& path, double scale, StageCache* cache) {
+mesh::Loaded read_model(const Job& job, const std::string& path, StageCache* cache) {
+  const double scale = job.placement.scale;
   if (!cache) return mesh::read_file(path, {.scale = scale});
   const FileBytes file(path);
   const auto hash = sha256(file.view());
   return cached(
-             cache, [&] { return StageKey("read", 1).with(path).with(hash).with(scale); },
+             cache, [&] { return key_of<Stage::read>(job.settings).with(path).with(hash).with(scale); },
              [&] { return mesh::read(file.view(), path, {.scale = scale, .sha256 = hash}); })
       .take();
 }
@@ -51,9 +52,9 @@ mesh::Loaded read_model(const std::string& path, double scale, StageCache* cache
 }  // namespace
 
 std::vector<PlacedObject> place_models(const Job& job, Report& report, StageCache* cache) {
-  const Stopwatch stopwatch(report.timings_ms.read);
-  auto loaded = tasks::parallel_map(
-      job.models.size(), [&](std::size_t i) { return read_model(job.models[i], job.placement.scale, cache); });
+  const Stopwatch stopwatch(report.timings_ms[Stage::read]);
+  auto loaded =
+      tasks::parallel_map(job.models.size(), [&](std::size_t i) { return read_model(job, job.models[i], cache); });
   std::vector<PlacedObject> out;
   for (const auto& model : loaded) {
     note_model(model, report);

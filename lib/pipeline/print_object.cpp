@@ -3,14 +3,12 @@
 #include "infill/shells.h"
 #include "pipeline/cached.h"
 #include "pipeline/stages.h"
-#include "pipeline/stopwatch.h"
 #include "slice/slice.h"
 #include "tasks/parallel.h"
 #include "walls/walls.h"
 
 #include <algorithm>
 #include <iterator>
-#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -28,32 +26,17 @@ void append(Notices& to, std::vector<PlacedNotice> from, Point offset) {
   }
 }
 
-// Versions of stages: a change of what a stage makes of the same input needs no new one, because keys hold the build of
-// weft; a change of what its key holds does.
-StageKey slice_key(const Settings& settings, const Mesh& mesh) {
+/// Of a mesh.
+std::string hash_of(const Mesh& mesh) {
   const auto bytes = [](const auto& items) {
     return std::string_view(reinterpret_cast<const char*>(items.data()), items.size() * sizeof(items[0]));
   };
-  return StageKey("slice", 1)
-      .with(sha256(bytes(mesh.vertices)))
-      .with(sha256(bytes(mesh.triangles)))
-      .with(settings.layers, layer_schema);
-}
-StageKey walls_key(const Settings& settings, const std::string& slice) {
-  return StageKey("walls", 1).with(slice).with(settings.walls, wall_schema).with(settings.machine.nozzle_diameter);
-}
-StageKey fill_key(const Settings& settings, const std::string& walls) {
-  return StageKey("infill", 1)
-      .with(walls)
-      .with(settings.shells, shell_schema)
-      .with(settings.infill, infill_schema)
-      .with(settings.machine.nozzle_diameter)
-      .with(settings.walls.wall_line_width_x);
+  return sha256(bytes(mesh.vertices)) + sha256(bytes(mesh.triangles));
 }
 
-using Cuts = std::vector<slice::Cut>;
-using Walls = std::vector<WallLayer>;
-using Fills = std::vector<FilledLayer>;
+using Cuts = ResultOf<Stage::slice>;
+using Walls = ResultOf<Stage::walls>;
+using Fills = ResultOf<Stage::infill>;
 
 Cuts slice_object(const Settings& settings, const PlacedObject& object) {
   const slice::Cutter cutter(object.mesh, slice::planes(settings.layers, box_of(object.mesh).max.z));
@@ -125,25 +108,21 @@ Fills fill_object(const Settings& settings, const Settings& first, const Cuts& c
 
 }  // namespace
 
-PrintedLayers print_object(const Settings& settings, const PlacedObject& object, const Watch& watch, Report& report,
-                           StageCache* cache) {
-  std::optional<Stopwatch> stopwatch(std::in_place, report.timings_ms.slice);
-  const auto sliced_by = [&] { return slice_key(settings, object.mesh); };
-  auto sliced = cached(cache, sliced_by, [&] { return slice_object(settings, object); });
+PrintedLayers print_object(const Running& job, const PlacedObject& object) {
+  const auto& settings = job.settings;
+  auto& report = job.report;
+  const auto sliced_by = [&] { return key_of<Stage::slice>(settings).with(hash_of(object.mesh)); };
+  auto sliced = run_stage<Stage::slice>(job, sliced_by, [&] { return slice_object(settings, object); });
   append(report.warnings, slice::notices_of(*sliced, object.name), object.offsets.front());
 
-  watch.progress("walls", 0.15);
-  stopwatch.emplace(report.timings_ms.walls);
-  const auto walls_by = [&] { return walls_key(settings, sliced_by().hash()); };
+  const auto walled_by = [&] { return key_of<Stage::walls>(settings).with(sliced_by().hash()); };
   const auto first =
       of_first_layer(settings);  // a function of what the keys hold: all of layers, walls, shells and infill
-  auto walled = cached(cache, walls_by, [&] { return build_walls(settings, first, *sliced); });
+  auto walled = run_stage<Stage::walls>(job, walled_by, [&] { return build_walls(settings, first, *sliced); });
 
-  watch.progress("infill", 0.5);
-  stopwatch.emplace(report.timings_ms.infill);
-  auto filled = cached(
-      cache, [&] { return fill_key(settings, walls_by().hash()); },
-      [&] { return fill_object(settings, first, *sliced, *walled); });
+  const auto filled_by = [&] { return key_of<Stage::infill>(settings).with(walled_by().hash()); };
+  auto filled =
+      run_stage<Stage::infill>(job, filled_by, [&] { return fill_object(settings, first, *sliced, *walled); });
 
   auto cuts = std::move(sliced).take();
   auto walls = std::move(walled).take();

@@ -13,6 +13,8 @@
 /// The stages run over all layers of a plate, side by side.
 namespace weft::pipeline {
 
+struct Running;
+
 /// A model on the bed: sliced once, printed at each offset.
 struct PlacedObject {
   std::string name;
@@ -33,9 +35,7 @@ struct PrintedLayer {
 using PrintedLayers = std::vector<PrintedLayer>;
 
 /// Slice, walls, shells and infill of one object.
-/// @param cache may be null
-PrintedLayers print_object(const Settings& settings, const PlacedObject& object, const Watch& watch, Report& report,
-                           StageCache* cache);
+PrintedLayers print_object(const Running& job, const PlacedObject& object);
 
 /// A plan of which each layer's steps wait as bytes (codec.h), which take a third of the memory.
 struct PlannedPlate {
