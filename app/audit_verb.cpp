@@ -71,11 +71,16 @@ void tell(Console& console, const AuditEntry& entry, bool name_printer) {
 
 }  // namespace
 
-int audit_verb(const Words& words) {
-  po::options_description options("Options of weft audit");
-  options.add_options()("against", po::value<std::vector<std::string>>()->multitoken()->value_name("FILE..."),
-                        "printer profiles: says of each whether the files may run there")(
+po::options_description audit_options() {
+  po::options_description out("Options of weft audit");
+  out.add_options()("against", po::value<std::vector<std::string>>()->multitoken()->value_name("FILE..."),
+                    "printer profiles: says of each whether the files may run there")(
       "format", po::value<std::string>()->value_name("json|junit")->default_value("json"), "form of the report");
+  return out;
+}
+
+int audit_verb(const Words& words) {
+  const auto options = audit_options();
   const auto command = parse_command(words, options);
   if (command.help) {
     std::ostringstream out;

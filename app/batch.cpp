@@ -1,6 +1,9 @@
 #include "batch_run.h"
+#include "jobs/work.h"
 #include "verbs.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <sstream>
 
@@ -9,7 +12,6 @@
 namespace po = boost::program_options;
 
 namespace weft::app {
-namespace {
 
 po::options_description batch_options() {
   po::options_description out("Options of weft batch");
@@ -17,10 +19,17 @@ po::options_description batch_options() {
                     "run the I-th of N shares (from 1). Slurm arrays, AWS Batch arrays, GitLab and Buildkite parallel "
                     "jobs and indexed Kubernetes Jobs need not say it; "
                     "auto/N gives only the count; 1/1 runs everything")(
+      "keep-going", po::bool_switch(),
+      "run the others when a model of the list is not there or cannot be opened; its job counts as failed")(
+      "name", po::value<std::string>()->value_name("NAME"),
+      "of the list, where several share a folder: reports are report-NAME.jsonl and so on, outputs lie in NAME/ where "
+      "the list does not say; auto is the name of the list's file")(
       "collect", po::bool_switch(), "run nothing: merge what shares have left in the folder into one report");
   out.add(running_options());
   return out;
 }
+
+namespace {
 
 std::optional<std::string> environment(const char* name) {
   const char* v = std::getenv(name);
@@ -46,9 +55,35 @@ jobs::Shard shard_of(const Command& command, Console& console) {
   return found->shard;
 }
 
-int collect_only(Console& console, const std::vector<jobs::Prepared>& jobs, const std::filesystem::path& folder) {
-  const auto collected = jobs::collect(jobs, folder);
-  jobs::write_summaries(collected, folder, {});
+/// The jobs of one share. Of all lists alike: every machine has to see the same list and the same models.
+std::vector<jobs::Prepared> share_of(std::vector<jobs::Prepared> jobs, const jobs::Shard& shard) {
+  std::vector<jobs::Dealt> all;
+  for (const auto& job : jobs) all.push_back({job.line.id, jobs::estimated_work(job.job)});
+  const auto shares = jobs::deal(all, shard.count);
+  std::vector<jobs::Prepared> out;
+  for (std::size_t i = 0; i < jobs.size(); ++i)
+    if (shares[i] == shard.index) out.push_back(std::move(jobs[i]));
+  return out;
+}
+
+/// What --name calls the list; empty: nothing. @throws Error{usage}
+std::string list_name(const Command& command) {
+  if (!command.options.count("name")) return {};
+  auto name = command.options["name"].as<std::string>();
+  if (name == "auto") name = std::filesystem::path(command.inputs.front()).stem().string();
+  const auto fits = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.';
+  };
+  if (name.empty() || name.size() > 100 || name.front() == '.' || !std::all_of(name.begin(), name.end(), fits))
+    throw Error{Error::Kind::usage, fmt::format("'{}' is no name for a file", name), "--name",
+                "letters, digits, '-', '_' and '.'"};
+  return name;
+}
+
+int collect_only(Console& console, const std::vector<jobs::Prepared>& jobs, const jobs::BatchOptions& options,
+                 const std::string& suffix) {
+  const auto collected = jobs::collect(jobs, options.folder, options.check_full);
+  jobs::write_summaries(collected, options.folder, suffix);
   for (const auto& entry : collected.entries) {
     if (!entry.record)
       console.warning({"job_missing", fmt::format("{} ({}): was not run", entry.line.id, entry.line.where)});
@@ -64,7 +99,7 @@ int collect_only(Console& console, const std::vector<jobs::Prepared>& jobs, cons
 }  // namespace
 
 int batch(const Words& words) {
-  const auto options = batch_options();
+  const auto options = app::batch_options();
   const auto command = parse_command(words, options);
   if (command.help) {
     std::ostringstream out;
@@ -84,11 +119,13 @@ int batch(const Words& words) {
   StageCache cache(cache_options_of(command));
   batch_options.cache = &cache;
   Console console(command.console);
-  auto jobs = prepare_all(console, jobs::read_jobs(command.inputs), command);
-  if (command.options["collect"].as<bool>()) return collect_only(console, jobs, batch_options.folder);
+  const auto name = list_name(command);
+  auto jobs = prepare_all(console, jobs::read_jobs(command.inputs, name), command);
+  const auto named = name.empty() ? name : "-" + name;
+  if (command.options["collect"].as<bool>()) return collect_only(console, jobs, batch_options, named);
   const auto shard = shard_of(command, console);
-  std::erase_if(jobs, [&](const jobs::Prepared& job) { return !jobs::belongs(shard, job.line.id); });
-  const auto suffix = shard.count > 1 ? fmt::format("-{}-of-{}", shard.index + 1, shard.count) : std::string();
+  jobs = share_of(std::move(jobs), shard);
+  const auto suffix = named + (shard.count > 1 ? fmt::format("-{}-of-{}", shard.index + 1, shard.count) : "");
   return conclude(console, run_jobs(console, jobs, batch_options, suffix), cache, command);
 }
 

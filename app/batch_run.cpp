@@ -75,6 +75,14 @@ void check_files(const std::vector<jobs::Prepared>& jobs, const Command& command
     noted(job, [&] { files.writes((fs::path(*command.output) / job.line.output).string(), "output"); });
 }
 
+void tell_hook(Console& console, const jobs::JobLine& line, const jobs::Outcome& outcome) {
+  if (!outcome.hook || outcome.hook->ok()) return;
+  console.warning(
+      {"exec_failed", fmt::format("{} ({}): --exec ended with status {} ({} runs); the next run of the batch "
+                                  "tries it again",
+                                  line.id, line.where, outcome.hook->status, outcome.hook->attempts)});
+}
+
 std::uint64_t bytes_from(const std::string& text, const std::string& option) {
   std::size_t end = 0;
   double v = 0;
@@ -104,7 +112,17 @@ po::options_description running_options() {
       "job-timeout", po::value<double>()->value_name("SECONDS"),
       "a job that takes longer is stopped and counts as failed")(
       "resume", po::bool_switch(),
-      "go on where a run ended: what was refused for its settings, model or moves is not tried again");
+      "go on where a run ended: what was refused for its settings, model or moves is not tried again")(
+      "retries", po::value<unsigned>()->value_name("N")->default_value(0),
+      "begin a job again, up to N times, that could not read or write (status 6) or was stopped (130)")(
+      "check", po::value<std::string>()->value_name("quick|full")->default_value("quick"),
+      "how files are known to be unchanged: by size, times and place, or by reading all of them")(
+      "exec", po::value<std::string>()->value_name("COMMAND"),
+      "run that program when a job has ended, with what became of it in the environment (WEFT_OUTPUT, WEFT_STATUS …) "
+      "and its report on standard input; no shell is in between")(
+      "exec-retries", po::value<unsigned>()->value_name("N")->default_value(2),
+      "run it again, up to N times, when it fails")(
+      "exec-timeout", po::value<double>()->value_name("SECONDS")->default_value(600), "end it when it takes longer");
   add_cache_options(out);
   return out;
 }
@@ -134,6 +152,33 @@ std::string told(const StageCache& cache) {
   return out;
 }
 
+namespace {
+
+unsigned count_of(const po::variables_map& options, const char* name) {
+  const auto count = options[name].as<unsigned>();
+  if (count > 1000) throw Error{Error::Kind::usage, "must be 0 … 1000", fmt::format("--{}", name)};
+  return count;
+}
+
+jobs::Hook hook_of(const po::variables_map& options) {
+  jobs::Hook out;
+  if (options.count("exec")) out.words = jobs::hook_words(options["exec"].as<std::string>());
+  out.retries = count_of(options, "exec-retries");
+  out.timeout_s = options["exec-timeout"].as<double>();
+  if (!(out.timeout_s > 0 && out.timeout_s <= 1e9))
+    throw Error{Error::Kind::usage, "must be a number of seconds above 0", "--exec-timeout"};
+  return out;
+}
+
+bool check_full(const Command& command) {
+  const auto how = command.options["check"].as<std::string>();
+  if (how != "quick" && how != "full")
+    throw Error{Error::Kind::usage, fmt::format("'{}' is not one of quick, full", how), "--check"};
+  return how == "full";
+}
+
+}  // namespace
+
 jobs::BatchOptions batch_options_of(const Command& command) {
   jobs::BatchOptions out;
   const auto& o = command.options;
@@ -142,6 +187,9 @@ jobs::BatchOptions batch_options_of(const Command& command) {
   out.folder = *command.output;
   out.threads = command.threads;
   out.resume = o["resume"].as<bool>();
+  out.retries = count_of(o, "retries");
+  out.check_full = check_full(command);
+  out.hook = hook_of(o);
   if (o.count("max-memory")) out.max_memory = bytes_from(o["max-memory"].as<std::string>(), "--max-memory");
   if (o.count("job-timeout")) {
     out.timeout_s = o["job-timeout"].as<double>();
@@ -152,7 +200,9 @@ jobs::BatchOptions batch_options_of(const Command& command) {
 }
 
 std::vector<jobs::Prepared> prepare_all(Console& console, jobs::JobList list, const Command& command) {
-  auto jobs = jobs::prepare(std::move(list.jobs), {command.profiles, command.settings, command.import}, list.errors);
+  const bool keep_going = command.options.count("keep-going") && command.options["keep-going"].as<bool>();
+  auto jobs = jobs::prepare(std::move(list.jobs), {command.profiles, command.settings, command.import, keep_going},
+                            list.errors);
   if (list.errors.empty()) check_files(jobs, command, list.errors);
   if (list.errors.empty()) return jobs;
   constexpr std::size_t most = 20;  // a list with a wrong column has an error on every line
@@ -173,10 +223,11 @@ Finished run_jobs(Console& console, const std::vector<jobs::Prepared>& jobs, con
   watch.progress = [&](const jobs::Progress& p) { show(console, p); };
   watch.ended = [&](const jobs::JobLine& line, jobs::Fate fate, const jobs::Outcome& outcome) {
     tell(console, line, fate, outcome);
+    tell_hook(console, line, outcome);
   };
   Finished out;
   out.result = jobs::run_batch(jobs, options, watch);
-  out.collected = jobs::collect(jobs, options.folder);
+  out.collected = jobs::collect(jobs, options.folder, options.check_full);
   jobs::write_summaries(out.collected, options.folder, suffix);
   return out;
 }
@@ -184,7 +235,7 @@ Finished run_jobs(Console& console, const std::vector<jobs::Prepared>& jobs, con
 int conclude(Console& console, const Finished& finished, const StageCache& cache, const Command& command) {
   const auto& [result, collected] = finished;
   const auto& p = result.progress;
-  const int status = result.interrupted ? 130 : collected.failed + collected.missing > 0 ? 7 : 0;
+  const int status = result.interrupted ? 130 : collected.failed + collected.missing + result.hooks_failed > 0 ? 7 : 0;
   const auto text = fmt::format(
       "{} jobs: {} made, {} unchanged, {} failed{}; {} layers in {}, {:.0f} layers/s, {:.2f} jobs/s, peak {:.0f} MB",
       p.jobs, p.made, p.unchanged, p.failed, collected.missing ? fmt::format(", {} not run", collected.missing) : "",
@@ -211,6 +262,8 @@ int conclude(Console& console, const Finished& finished, const StageCache& cache
                       {"failed", collected.failed},
                       {"not_run", collected.missing},
                       {"put_back", result.put_back},
+                      {"retried", result.retried},
+                      {"exec_failed", result.hooks_failed},
                       {"layers", p.layers},
                       {"seconds", rounded3(p.seconds)},
                       {"layers_per_s", rounded3(p.layers_per_s)},

@@ -2,6 +2,7 @@
 
 #include "pipeline/profile_file.h"
 #include "pipeline/write_file.h"
+#include "profile_folders.h"
 #include "settings/catalogue.h"
 #include "settings/value.h"
 
@@ -19,12 +20,12 @@
 namespace po = boost::program_options;
 
 namespace weft::app {
-namespace {
 
 po::options_description common_options() {
   po::options_description out("Options of every verb");
-  out.add_options()("profile,p", po::value<std::vector<std::string>>()->value_name("FILE"),
-                    "an ini profile; repeatable, a later one overrides an earlier one")(
+  out.add_options()(
+      "profile,p", po::value<std::vector<std::string>>()->value_name("FILE"),
+      "an ini profile, by path or by name (`weft profile list`); repeatable, a later one overrides an earlier one")(
       "load", po::value<std::vector<std::string>>()->value_name("FILE"), "the same")(
       "preset", po::value<std::vector<std::string>>()->value_name("KIND=NAME"),
       "which preset of a PrusaSlicer bundle: print=NAME, filament=NAME, printer=NAME; repeatable")(
@@ -42,6 +43,8 @@ po::options_description common_options() {
       "auto: a bar on a terminal, nothing in a pipe")("help,h", po::bool_switch(), "this text");
   return out;
 }
+
+namespace {
 
 std::string dashed(std::string_view key) {
   std::string out(key);
@@ -174,6 +177,7 @@ Command parse_command(const std::vector<std::string>& words, const po::options_d
     if (command.threads == 0 || command.threads > 1024)
       throw Error{Error::Kind::usage, "must be 1 … 1024", "--threads"};
   }
+  command.import.folders = profile_folders();
   command.import.strict = o["strict"].as<bool>();
   if (o.count("preset"))
     for (const auto& text : o["preset"].as<std::vector<std::string>>()) take_preset(command.import.presets, text);

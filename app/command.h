@@ -37,6 +37,9 @@ Command parse_command(const std::vector<std::string>& words,
                       const boost::program_options::options_description& verb_options,
                       Result result = Result::never_a_profile);
 
+/// The table of options that every verb understands.
+boost::program_options::options_description common_options();
+
 /// The help text of the options that every verb understands.
 std::string common_help();
 

@@ -58,14 +58,19 @@ std::string as_text(const Json& model) {
 
 }  // namespace
 
+po::options_description inspect_options() {
+  po::options_description out("Options of weft inspect");
+  out.add_options()("format", po::value<std::string>()->value_name("text|json")->default_value("text"),
+                    "form of the facts");
+  return out;
+}
+
 int inspect(const Words& words) {
-  po::options_description none("Options of weft inspect");
-  none.add_options()("format", po::value<std::string>()->value_name("text|json")->default_value("text"),
-                     "form of the facts");
-  const auto command = parse_command(words, none);
+  const auto options = inspect_options();
+  const auto command = parse_command(words, options);
   if (command.help) {
     std::ostringstream out;
-    out << "weft inspect MODEL...: mesh facts and what a repair would do\n\n" << none << "\n" << common_help();
+    out << "weft inspect MODEL...: mesh facts and what a repair would do\n\n" << options << "\n" << common_help();
     return write_output("-", out.str()), 0;
   }
   if (command.inputs.empty()) throw Error{Error::Kind::usage, "no model was given", "weft inspect"};

@@ -1,3 +1,5 @@
+#include "built_commit.h"
+#include "built_with.h"
 #include "command.h"
 #include "core/version.h"
 #include "limits.h"
@@ -17,9 +19,16 @@ using namespace weft::app;
 std::string overview() {
   std::string out = "weft: turns triangle meshes and ini profiles into audited G-code\n\n";
   for (const auto& verb : verbs)
-    out += fmt::format("  weft {:<9} {}\n{:17}{}\n", verb.name, verb.usage, "", verb.purpose);
+    out += fmt::format("  weft {:<11} {}\n{:19}{}\n", verb.name, verb.usage, "", verb.purpose);
   return out + "\n" + common_help() +
          "\nEvery setting is an option too, as in --layer-height 0.2; `weft settings` lists them.\n";
+}
+
+/// The version, alone on the first line; then what this build was made of.
+std::string version_text() {
+  std::string out = fmt::format("weft {}\n", version);
+  if (!built_commit.empty()) out += fmt::format("commit {}\n", built_commit);
+  return out + fmt::format("with {}\n", built_with);
 }
 
 const Verb* find_verb(const std::string& name) {
@@ -29,7 +38,7 @@ const Verb* find_verb(const std::string& name) {
 
 int run(Words words) {
   if (words.empty()) throw Error{Error::Kind::usage, "no verb was given", {}, "see weft --help"};
-  if (words[0] == "--version" || words[0] == "-V") return write_output("-", fmt::format("weft {}\n", version)), 0;
+  if (words[0] == "--version" || words[0] == "-V") return write_output("-", version_text()), 0;
   if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") return write_output("-", overview()), 0;
   if (const auto* verb = find_verb(words[0])) return verb->run({words.begin() + 1, words.end()});
   // Hands used to PrusaSlicer: `weft -g part.stl` is `weft slice part.stl`.

@@ -14,7 +14,6 @@
 namespace po = boost::program_options;
 
 namespace weft::app {
-namespace {
 
 po::options_description preview_options() {
   po::options_description out("Options of weft preview");
@@ -31,6 +30,8 @@ po::options_description preview_options() {
       "show the machine of the profile, its no-go areas and reach, and in red every move that the audit finds outside");
   return out;
 }
+
+namespace {
 
 preview::Colour colour_of(const std::string& name) {
   using preview::Colour;

@@ -1,6 +1,7 @@
 #include "command.h"
 #include "pipeline/profile_file.h"
 #include "profile/rules.h"
+#include "profile_folders.h"
 #include "prusaslicer/export.h"
 #include "settings/catalogue.h"
 #include "settings/near.h"
@@ -132,13 +133,18 @@ std::string as_prusaslicer(const Profile& profile) {
 
 }  // namespace
 
-int profile(const Words& words) {
-  po::options_description options("Options of weft profile");
-  options.add_options()(
+po::options_description profile_options() {
+  po::options_description out("Options of weft profile");
+  out.add_options()(
       "explain", po::value<std::vector<std::string>>()->value_name("KEY"),
       "show: where the value of KEY comes from, and what it shadows; all: of every setting that a profile sets")(
       "format", po::value<std::string>()->value_name("weft|prusaslicer")->default_value("weft"),
       "show: in whose words");
+  return out;
+}
+
+int profile(const Words& words) {
+  const auto options = profile_options();
   auto command = parse_command(words, options, Result::profile);
   if (command.help || words.empty()) {
     std::ostringstream out;
@@ -147,6 +153,9 @@ int profile(const Words& words) {
            "bundle, .gcode, .3mf), and say what becomes of each line\n"
            "weft profile show FILE...    print every setting as resolved\n"
            "weft profile diff A B        what is not the same in two profiles, and where it comes from\n"
+           "weft profile list            the profiles that -p finds by name, in the folders of WEFT_PROFILES and "
+           "beside "
+           "the program\n"
            "weft profile list BUNDLE     the presets of a PrusaSlicer bundle; with --preset printer=NAME those that "
            "fit it\n\n"
         << options << "\n"
@@ -161,11 +170,13 @@ int profile(const Words& words) {
   if (what != "check" && what != "import" && what != "list" && what != "diff" && what != "show")
     throw Error{Error::Kind::usage, fmt::format("'{}' is not one of check, diff, import, list, show", what),
                 "weft profile"};
+  if (what == "list" && command.profiles.empty())
+    return write_output(command.output.value_or("-"), list_of_profiles(command.import.folders)), 0;
   if (command.profiles.empty()) throw Error{Error::Kind::usage, "no profile was given", "weft profile " + what};
 
   if (what == "import" || what == "list") {
     if (command.profiles.size() != 1) throw Error{Error::Kind::usage, "takes one file", "weft profile " + what};
-    const auto& file = command.profiles.front();
+    const auto file = profile_file(command.profiles.front(), {}, command.import.folders);
     return write_output(command.output.value_or("-"),
                         what == "import" ? imported(file, command.import) : listed(file, command.import.presets)),
            0;

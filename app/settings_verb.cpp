@@ -68,11 +68,16 @@ std::string as_plain(const std::vector<const CatalogueEntry*>& entries, const La
 
 }  // namespace
 
+po::options_description settings_options() {
+  po::options_description out("Options of weft settings");
+  out.add_options()("format", po::value<std::string>()->value_name("text|json|markdown")->default_value("text"),
+                    "form of the list")("lang", po::value<std::string>()->value_name("LANGUAGE"),
+                                        "names settings in en, fr, ja, zh_CN or zh_TW");
+  return out;
+}
+
 int settings(const Words& words) {
-  po::options_description options("Options of weft settings");
-  options.add_options()("format", po::value<std::string>()->value_name("text|json|markdown")->default_value("text"),
-                        "form of the list")("lang", po::value<std::string>()->value_name("LANGUAGE"),
-                                            "names settings in en, fr, ja, zh_CN or zh_TW");
+  const auto options = settings_options();
   const auto command = parse_command(words, options);
   if (command.help) {
     std::ostringstream out;

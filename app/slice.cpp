@@ -6,6 +6,7 @@
 #include "pipeline/pipeline.h"
 #include "pipeline/write_file.h"
 #include "preview_file.h"
+#include "slice_job.h"
 #include "verbs.h"
 
 #include <cmath>
@@ -19,7 +20,6 @@
 namespace po = boost::program_options;
 
 namespace weft::app {
-namespace {
 
 po::options_description slice_options() {
   po::options_description out("Options of weft slice");
@@ -41,6 +41,8 @@ po::options_description slice_options() {
   add_cache_options(out);
   return out;
 }
+
+namespace {
 
 double parse_scale(std::string text) {
   const bool percent = !text.empty() && text.back() == '%';
@@ -78,6 +80,8 @@ Placement placement_of(const po::variables_map& o) {
   return p;
 }
 
+}  // namespace
+
 Job job_of(const Command& command, const Settings& settings) {
   Job job;
   job.models = command.inputs;
@@ -92,6 +96,8 @@ Job job_of(const Command& command, const Settings& settings) {
   job.audit = mode == "reject" ? audit::Mode::reject : audit::Mode::annotate;
   return job;
 }
+
+namespace {
 
 /// What a job that is ended from outside leaves: the error, and the report of what was known.
 void say_last(const Command& command, const Error& error, Report known) {
@@ -109,7 +115,8 @@ void say_last(const Command& command, const Error& error, Report known) {
   }
 }
 
-/// The value of an option that limits something. @throws Error{usage}
+}  // namespace
+
 double limit_of(const po::variables_map& options, const std::string& name) {
   const double value = options[name].as<double>();
   if (!(value >= 0 && value <= 1e9))
@@ -117,8 +124,6 @@ double limit_of(const po::variables_map& options, const std::string& name) {
   return value;
 }
 
-/// The first `most` of each kind, and how many more there are: thousands of layers must not bury what matters. The
-/// report has them all.
 void warn(Console& console, const Notices& notices, std::size_t most) {
   std::map<std::string, std::size_t> said;
   for (const auto& notice : notices)
@@ -129,10 +134,17 @@ void warn(Console& console, const Notices& notices, std::size_t most) {
           {code, fmt::format("{} more of the kind {}; -v shows them, --report lists them", count - most, code)});
 }
 
+std::string price(double amount, const std::string& currency) {
+  return fmt::format("{:.2f}{}{}", amount, currency.empty() ? "" : " ", currency);
+}
+
+namespace {
+
 std::string summary(const Report& r) {
+  const auto cost = r.cost ? ", " + price(r.cost->total(), r.currency) : std::string();
   return fmt::format(
-      "{} layers, {:.2f} mm high, {} to print, {:.2f} m of filament ({:.1f} g); audit: {}, {} moves checked", r.layers,
-      r.height_mm, short_duration(r.print_time_s), r.filament_mm / 1000, r.filament_g, r.audit.verdict,
+      "{} layers, {:.2f} mm high, {} to print, {:.2f} m of filament ({:.1f} g){}; audit: {}, {} moves checked",
+      r.layers, r.height_mm, short_duration(r.print_time_s), r.filament_mm / 1000, r.filament_g, cost, r.audit.verdict,
       r.audit.checked_moves);
 }
 

@@ -14,7 +14,6 @@
 namespace po = boost::program_options;
 
 namespace weft::app {
-namespace {
 
 po::options_description sweep_options() {
   po::options_description out("Options of weft sweep");
@@ -30,6 +29,8 @@ po::options_description sweep_options() {
   out.add(running_options());
   return out;
 }
+
+namespace {
 
 jobs::SweepOptions combine_of(const Command& command) {
   const auto& o = command.options;
@@ -50,12 +51,12 @@ jobs::SweepOptions combine_of(const Command& command) {
 std::string picture_of(const std::filesystem::path& gcode, const Settings& settings, double share) {
   try {
     const FileBytes file(gcode.string());
-    const auto paths = preview::read(file.view(), settings.material.filament_diameter);
+    const auto paths = preview::read_layer(file.view(), settings.material.filament_diameter, share);
     if (paths.layers.empty()) return {};
     preview::View view;
     view.size = 420;
-    view.layer =
-        std::min(paths.layers.size() - 1, static_cast<std::size_t>(share * static_cast<double>(paths.layers.size())));
+    view.layer = 0;
+    view.legend = false;
     const auto png = preview::png(paths, view);
     return {png.begin(), png.end()};
   } catch (const Error&) {
@@ -79,10 +80,12 @@ void write_page(const std::vector<jobs::Prepared>& jobs, const Finished& finishe
     t.time_s = entry.record->print_time_s;
     t.material_g = entry.record->filament_g;
     t.layers = entry.record->layers;
+    t.cost = entry.record->cost;
+    t.currency = entry.record->currency;
     t.strength = jobs::strength_estimate(*entry.record, jobs[i].job.settings);
     t.picture = picture_of(options.folder / entry.line.output, jobs[i].job.settings, picture_share);
   };
-  tasks::run_crew(
+  (void)tasks::run_crew(  // who fails to draw its picture has none
       options.threads,
       [&]() -> std::optional<std::size_t> { return begun < jobs.size() ? std::optional(begun++) : std::nullopt; },
       fill);

@@ -52,9 +52,12 @@ std::string first_difference(std::string_view made, std::string_view found) {
 
 }  // namespace
 
+po::options_description verify_options() {
+  return po::options_description("Options of weft verify");
+}
+
 int verify(const Words& words) {
-  const po::options_description none("Options of weft verify");
-  const auto command = parse_command(words, none);
+  const auto command = parse_command(words, verify_options());
   if (command.help)
     return write_output("-",
                         "weft verify FILE.gcode [MODEL...]\n\nSlices again from the settings, the placement and the "

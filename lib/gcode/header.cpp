@@ -3,6 +3,7 @@
 #include "core/base64.h"
 #include "core/version.h"
 #include "settings/catalogue.h"
+#include "settings/cost.h"
 #include "settings/gcode_variables.h"
 #include "settings/value.h"
 
@@ -177,8 +178,13 @@ std::string bottom_comments(const Job& job) {
   std::string out = orca ? "; EXECUTABLE_BLOCK_END\n\n" : "";
   out += fmt::format("; filament used [mm] = {:.2f}\n; filament used [cm3] = {:.2f}\n; filament used [g] = {:.2f}\n",
                      t.filament_mm, t.filament_mm3 / 1000, t.filament_g);
-  out += fmt::format("; total filament used [g] = {:.2f}\n; total layers count = {}\n", t.filament_g,
-                     job.plan.layers.size());
+  const auto cost = cost_of(s.machine, s.material, t.filament_g, t.print_time_s);
+  if (cost) out += fmt::format("; filament cost = {:.2f}\n", cost->filament);
+  out += fmt::format("; total filament used [g] = {:.2f}\n", t.filament_g);
+  if (cost)  // PrusaSlicer's word for the first; it knows no price of the machine
+    out += fmt::format("; total filament cost = {:.2f}\n; machine cost = {:.2f}\n; total cost = {:.2f}\n",
+                       cost->filament, cost->machine, cost->total());
+  out += fmt::format("; total layers count = {}\n", job.plan.layers.size());
   out += fmt::format("; estimated printing time (normal mode) = {}\n", duration(t.print_time_s));
   if (!t.layer_s.empty())
     out += fmt::format("; estimated first layer printing time (normal mode) = {}\n", duration(t.layer_s[0]));

@@ -2,6 +2,7 @@
 
 #include "core/build_id.h"
 #include "core/stop.h"
+#include "jobs/hook_environment.h"
 #include "jobs/memory.h"
 #include "jobs/memory_gate.h"
 #include "jobs/workplace.h"
@@ -12,6 +13,7 @@
 #include <chrono>
 #include <deque>
 #include <mutex>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -52,6 +54,7 @@ class Run {
       : jobs_(jobs),
         options_(options),
         watch_(watch),
+        attempts_(jobs.size()),
         running_(jobs.size()),
         gate_(limit_of(options), resident_bytes()) {
     result_.fates.assign(jobs.size(), Fate::not_run);
@@ -94,7 +97,12 @@ class Run {
     const std::function<bool()> whether = [&] {
       return look_around(i), running.stop != Stop::no || watch_.interrupted();
     };
+    if (attempts_[i] > 0) {
+      pause(attempts_[i]);
+      running.begin = Clock::now();
+    }
     Outcome outcome;
+    outcome.attempts = ++attempts_[i];
     Fate fate = Fate::failed;
     bool known = false;
     try {
@@ -103,10 +111,45 @@ class Run {
       known = before.has_value();
       fate = known ? *before : make(i, whether, outcome);
     } catch (...) {
-      fate = after_error(running, outcome);
+      fate = after_error(i, outcome);
     }
     if (!known && fate != Fate::not_run) conclude(i, outcome);
-    end(i, fate, outcome, fate == Fate::not_run && running.stop == Stop::put_back && !watch_.interrupted());
+    if (fate == Fate::not_run)
+      return end(i, fate, outcome,
+                 running.stop == Stop::put_back && !watch_.interrupted() ? Again::put_back : Again::no);
+    if (!known && fails_for_now(outcome) && attempts_[i] <= options_.retries && !watch_.interrupted())
+      return end(i, Fate::not_run, outcome, Again::retry);
+    if (!options_.hook.words.empty()) hand_over(i, outcome);
+    end(i, fate, outcome, Again::no);
+  }
+
+  enum class Again : std::uint8_t { no, put_back, retry };
+
+  /// A disk or a network may be back, and a machine less busy; what is wrong with a model or a setting stays.
+  static bool fails_for_now(const Outcome& outcome) {
+    return outcome.exit_status == exit_status(Error::Kind::file) ||
+           outcome.exit_status == exit_status(Error::Kind::interrupted);
+  }
+
+  /// Before a job is begun again: 1, 2, 4, 8 s.
+  void pause(unsigned attempts) const {
+    const auto end = Clock::now() + std::chrono::seconds(1 << std::min(attempts - 1, 3U));
+    while (Clock::now() < end && !watch_.interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+
+  /// Runs the hook for a job that has ended, unless it was and went well, and notes what it did.
+  void hand_over(std::size_t i, Outcome& outcome) {
+    try {
+      const auto record = read_record(options_.folder, jobs_[i].line);
+      if (!record || record->hook_done) return;
+      outcome.hook = run_hook(options_.hook, hook_environment(options_.folder, jobs_[i].line, *record),
+                              record->line + "\n", watch_.interrupted);
+      if (outcome.hook->attempts == 0)
+        outcome.hook.reset();  // interrupted before its first
+      else
+        write_hook(options_.folder, jobs_[i].line, *outcome.hook);
+    } catch (const std::exception&) {  // the record cannot be written: then the hook is run again the next time
+    }
   }
 
   /// What an earlier run has made of the same job, where that stands. Post: the hash of its inputs is in the outcome.
@@ -115,12 +158,17 @@ class Run {
     const auto& job = jobs_[i];
     outcome.report.warnings = job.notices;
     refuse_what_never_fits(i);
-    outcome.inputs_sha256 = inputs_hash(job.job, files_);
     const auto record = read_record(options_.folder, job.line);
+    if (record && !options_.check_full)
+      for (const auto& file : record->files) files_.trust(file);
+    outcome.inputs_sha256 = inputs_hash(job.job, files_);
+    outcome.files = files_.known(job.job.models);
     if (!record || record->inputs_sha256 != outcome.inputs_sha256 || record->build != build_id() || !stands(*record))
       return std::nullopt;
     outcome.exit_status = record->exit_status, outcome.error = record->error;
-    return record->exit_status == 0 ? Fate::unchanged : Fate::failed;
+    if (record->exit_status != 0) return Fate::failed;
+    restamp(job.line, *record, outcome.files);
+    return Fate::unchanged;
   }
 
   /// @throws whatever a job can throw; then it has made nothing
@@ -133,14 +181,35 @@ class Run {
     const auto gcode = run(job.job, watch, outcome.report, options_.cache);
     outcome.exit_status = gcode ? 0 : exit_status(Error::Kind::audit);
     outcome.error = outcome.report.error;
-    if (gcode) write_gcode(options_.folder / job.line.output, *gcode);
+    if (gcode) {
+      write_gcode(options_.folder / job.line.output, *gcode);
+      outcome.output = stamp_of(options_.folder / job.line.output);
+    }
     return outcome.exit_status == 0 ? Fate::made : Fate::failed;
   }
 
   /// Whether what is known of an unchanged job makes running it needless.
   bool stands(const Record& record) const {
-    if (record.exit_status == 0) return has_hash(options_.folder / record.output, record.gcode_sha256);
+    if (record.exit_status == 0) {
+      const auto output = options_.folder / record.output;
+      const bool same = !options_.check_full && record.output_stamp && stamp_of(output) == record.output_stamp;
+      return same || has_hash(output, record.gcode_sha256);
+    }
     return options_.resume && record.exit_status >= 3 && record.exit_status <= 5;
+  }
+
+  /// What had to be read to know that it is the same need not be the next time.
+  void restamp(const JobLine& line, const Record& record, const std::vector<KnownFile>& files) const {
+    const auto output = stamp_of(options_.folder / record.output);
+    if (files == record.files && output == record.output_stamp) return;
+    try {
+      write_stamps(options_.folder, line, files, output);
+    } catch (const Error&) {  // then it is read again
+    }
+  }
+
+  double timeout_of(std::size_t i) const {
+    return jobs_[i].line.timeout_s > 0 ? jobs_[i].line.timeout_s : options_.timeout_s;
   }
 
   /// A mesh takes no less memory than its file: what is larger than all of it need not be read for minutes first.
@@ -155,7 +224,8 @@ class Run {
   }
 
   /// What becomes of a job that the error at hand has ended. Pre: in a handler.
-  Fate after_error(const Running& running, Outcome& outcome) const {
+  Fate after_error(std::size_t i, Outcome& outcome) const {
+    const auto& running = *running_[i];
     outcome.exit_status = 1;
     try {
       throw;
@@ -175,7 +245,7 @@ class Run {
     }
     if (outcome.exit_status != exit_status(Error::Kind::interrupted)) return Fate::failed;
     if (watch_.interrupted() || running.stop == Stop::put_back) return Fate::not_run;
-    outcome.error = why(running.stop);
+    outcome.error = why(i, running.stop);
     return Fate::failed;
   }
 
@@ -188,9 +258,10 @@ class Run {
     note(i, outcome);
   }
 
-  std::string why(Stop stop) const {
+  std::string why(std::size_t i, Stop stop) const {
     if (stop == Stop::timeout)
-      return fmt::format("stopped after {:g} s; give it more with --job-timeout", options_.timeout_s);
+      return fmt::format("stopped after {:g} s; give it more with {}", timeout_of(i),
+                         jobs_[i].line.timeout_s > 0 ? "timeout" : "--job-timeout");
     if (stop == Stop::no) return "was broken off; nothing was written";
     return fmt::format("stopped: alone it needs more than {} MB; give it more with --max-memory", gate_.limit() >> 20);
   }
@@ -206,15 +277,22 @@ class Run {
     }
   }
 
-  void end(std::size_t i, Fate fate, const Outcome& outcome, bool again) {
+  void end(std::size_t i, Fate fate, const Outcome& outcome, Again again) {
     const std::lock_guard lock(mutex_);
     gate_.end(i);
     running_[i].reset();
-    if (again) {
+    if (again == Again::put_back) {
       ++result_.put_back;
+      --attempts_[i];  // not its own fault
       waiting_.push_front(i);
       return;
     }
+    if (again == Again::retry) {
+      ++result_.retried;
+      waiting_.push_back(i);
+      return;
+    }
+    result_.hooks_failed += outcome.hook && !outcome.hook->ok();
     result_.fates[i] = outcome.exit_status != 0 && fate == Fate::made ? Fate::failed : fate;
     layers_ += result_.fates[i] == Fate::made ? outcome.report.layers : 0;
     if (fate == Fate::not_run) return;
@@ -233,7 +311,7 @@ class Run {
   /// Every few milliseconds of a job: is it late, is memory short, is it time to tell how far things are?
   void look_around(std::size_t i) {
     auto& running = *running_[i];
-    if (options_.timeout_s > 0 && seconds_since(running.begin) > options_.timeout_s) {
+    if (const double timeout_s = timeout_of(i); timeout_s > 0 && seconds_since(running.begin) > timeout_s) {
       Stop none = Stop::no;
       running.stop.compare_exchange_strong(none, Stop::timeout);
     }
@@ -286,6 +364,8 @@ class Run {
   const Clock::time_point begin_ = Clock::now();
   std::atomic<Clock::rep> next_look_ = 0;
   FileHashes files_;
+
+  std::vector<unsigned> attempts_;  // one a job, read and changed by the thread that has it
 
   std::mutex mutex_;  // guards what follows; a job's own entry of running_ is read without it while the job runs
   std::vector<std::optional<Running>> running_;

@@ -1,4 +1,5 @@
 #pragma once
+#include "jobs/hook.h"
 #include "jobs/prepare.h"
 #include "jobs/record.h"
 
@@ -16,6 +17,9 @@ struct BatchOptions {
   std::uint64_t max_memory = 0;  ///< bytes; 0: four fifths of what is available
   double timeout_s = 0;          ///< of one job; 0: none
   StageCache* cache = nullptr;   ///< what jobs have in common is done once; null: each job does everything
+  unsigned retries = 0;          ///< how often a job is begun again that could not read, write or go on (status 6, 130)
+  Hook hook;                     ///< run when a job has ended, in the job's thread
+  bool check_full = false;       ///< files are read to know that they have not changed, whatever their stamps say
   bool resume = false;  ///< verdicts stand: what was refused for its settings, model or moves is not tried again
 };
 
@@ -49,6 +53,8 @@ struct BatchResult {
   Progress progress;             ///< at the end
   std::size_t put_back = 0;      ///< times that a job was stopped and begun again later because memory was short
   std::uint64_t max_memory = 0;  ///< bytes, as it was
+  std::size_t retried = 0;       ///< times that a job was begun again because it had failed
+  std::size_t hooks_failed = 0;  ///< hooks that did not go well in the end
   bool interrupted = false;
 };
 

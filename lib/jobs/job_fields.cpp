@@ -65,7 +65,8 @@ void add_models(JobLine& j, const Values& v, Folder folder) {
   for (const auto& path : v) j.models.push_back(placed(path, folder));
 }
 void add_profiles(JobLine& j, const Values& v, Folder folder) {
-  for (const auto& path : v) j.profiles.emplace_back(placed(path, folder));
+  j.folder = folder;
+  for (const auto& path : v) j.profiles.emplace_back(path);
 }
 constexpr std::array fields{
     Field{"id", false, [](JobLine& j, const Values& v, Folder) { j.id = v[0]; }},
@@ -88,6 +89,7 @@ constexpr std::array fields{
     Field{"spacing", false,
           [](JobLine& j, const Values& v, Folder) { j.placement.spacing = from_mm(number(v[0], 0, 1000)); }},
     Field{"audit", false, [](JobLine& j, const Values& v, Folder) { j.audit = mode(v[0]); }},
+    Field{"timeout", false, [](JobLine& j, const Values& v, Folder) { j.timeout_s = number(v[0], 0.001, 1e9); }},
 };
 
 }  // namespace
@@ -99,6 +101,12 @@ const std::vector<std::string_view>& field_names() {
     return out;
   }();
   return names;
+}
+
+bool is_free_field(std::string_view name) {
+  constexpr std::array<std::string_view, 3> known{"label", "priority", "due"};
+  if (name.size() > 2 && name.starts_with("x-")) return true;
+  return std::find(known.begin(), known.end(), name) != known.end();
 }
 
 bool set_field(JobLine& job, std::string_view name, const Values& values, const std::filesystem::path& folder) {

@@ -86,7 +86,7 @@ JobList jobs_of_models(const std::vector<std::string>& models) {
   return list;
 }
 
-JobList read_jobs(const std::vector<std::string>& inputs) {
+JobList read_jobs(const std::vector<std::string>& inputs, const std::string& name) {
   JobList list;
   for (const auto& input : inputs) {
     std::error_code ignored;
@@ -99,6 +99,7 @@ JobList read_jobs(const std::vector<std::string>& inputs) {
     else
       append(list, read_list(input));
   }
+  for (auto& job : list.jobs) job.list = name;
   complete(list);
   return list;
 }
@@ -119,6 +120,7 @@ void complete(JobList& list) {
     if (job.output.empty()) {
       job.output = job.id + ".gcode";
       std::replace(job.output.begin(), job.output.end(), '/', '_');
+      if (!job.list.empty()) job.output = job.list + "/" + job.output;
     }
     if (job.placement.keep_position && job.placement.centre)
       refuse(job, "keep_position contradicts center", "give one of the two");

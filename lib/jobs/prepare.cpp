@@ -43,9 +43,10 @@ class ProfileShelf {
 };
 
 Prepared prepare_one(JobLine line, const Common& common, ProfileShelf& shelf) {
-  for (const auto& model : line.models) check_model(model);
+  if (!common.keep_going)
+    for (const auto& model : line.models) check_model(model);
   auto files = common.profiles;
-  files.insert(files.end(), line.profiles.begin(), line.profiles.end());
+  for (const auto& typed : line.profiles) files.push_back(profile_file(typed, line.folder, common.import.folders));
   Profile profile = shelf.of(files, common.import);
   for (const auto& [key, text] : common.settings) apply_value(profile, key, text, "--set " + key);
   for (const auto& [key, text] : line.settings) apply_value(profile, key, text, line.where);

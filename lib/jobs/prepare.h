@@ -9,7 +9,8 @@ namespace weft::jobs {
 struct Common {
   std::vector<std::filesystem::path> profiles;
   std::vector<std::pair<std::string, std::string>> settings;
-  ImportOptions import;  ///< how profiles of PrusaSlicer's family are read
+  ImportOptions import;     ///< how profiles of PrusaSlicer's family are read
+  bool keep_going = false;  ///< a model that cannot be opened is a job that will fail, not an error of the list
 };
 
 /// A job with its settings resolved: ready to run.

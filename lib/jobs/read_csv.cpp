@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace weft::jobs {
 namespace {
@@ -60,6 +61,8 @@ std::vector<Row> rows_of(std::string_view text, const std::string& path) {
   return rows;
 }
 
+constexpr auto replace_damage = nlohmann::json::error_handler_t::replace;
+
 std::vector<std::string> items_of(const std::string& name, const std::string& cell) {
   if (name != "models" && name != "profiles") return {cell};
   std::vector<std::string> out;
@@ -76,7 +79,7 @@ void check_header(const Row& header, const std::string& path) {
   const auto where = fmt::format("{}:{}", path, header.line);
   for (const auto& name : header.cells) {
     const auto& fields = field_names();
-    if (std::find(fields.begin(), fields.end(), name) == fields.end() && !find_setting(name)) {
+    if (std::find(fields.begin(), fields.end(), name) == fields.end() && !is_free_field(name) && !find_setting(name)) {
       const auto near = nearest_setting(name);
       throw Error{Error::Kind::usage, fmt::format("column '{}' is neither a field of a job nor a setting", name), where,
                   near.empty() ? "fields: " + joined(fields) : fmt::format("did you mean '{}'?", near)};
@@ -107,6 +110,10 @@ JobList read_csv(std::string_view text, const std::string& path, const std::file
         const auto& name = header.cells[i];
         const auto& cell = row.cells[i];
         if (cell.empty()) continue;
+        if (is_free_field(name)) {
+          job.free_fields.emplace_back(name, nlohmann::json(cell).dump(-1, ' ', false, replace_damage));
+          continue;
+        }
         try {
           if (!set_field(job, name, items_of(name, cell), folder)) job.settings.emplace_back(name, cell);
         } catch (const std::invalid_argument& problem) {

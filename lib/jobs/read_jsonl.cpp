@@ -46,6 +46,12 @@ void set_all(JobLine& job, const Json& object, const std::filesystem::path& fold
       for (const auto& [key, item] : v.items()) job.settings.emplace_back(key, text_of(item));
       continue;
     }
+    if (is_free_field(name)) {
+      if (!v.is_primitive() || v.is_null())
+        throw std::invalid_argument(name + ": is not a text, a number, true or false");
+      job.free_fields.emplace_back(name, v.dump());
+      continue;
+    }
     std::vector<std::string> values;
     try {
       if (v.is_array())
@@ -62,6 +68,11 @@ void set_all(JobLine& job, const Json& object, const std::filesystem::path& fold
 }
 
 }  // namespace
+
+std::string free_text(const std::string& json) {
+  const auto value = Json::parse(json, nullptr, false);
+  return value.is_string() ? value.get<std::string>() : json;
+}
 
 JobList read_jsonl(std::string_view text, const std::string& path, const std::filesystem::path& folder) {
   JobList list;

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 namespace weft::jobs {
 namespace fs = std::filesystem;
@@ -32,6 +33,28 @@ std::string hash_of(const fs::path& path) {
   return hash.digest();
 }
 
+Json json_of(const std::optional<Stamp>& stamp) {
+  if (!stamp) return {};
+  return {stamp->device, stamp->inode, stamp->size, stamp->modified_ns, stamp->changed_ns};
+}
+
+/// @throws Json::exception
+std::optional<Stamp> stamp_from(const Json& json) {
+  if (json.is_null()) return std::nullopt;
+  return Stamp{json.at(0), json.at(1), json.at(2), json.at(3), json.at(4)};
+}
+
+Json json_of(const std::vector<KnownFile>& files) {
+  Json out = Json::array();
+  for (const auto& file : files)
+    out.push_back({{"path", file.path}, {"sha256", file.sha256}, {"stamp", json_of(file.stamp)}});
+  return out;
+}
+
+Json json_of(const HookResult& hook) {
+  return {{"status", hook.status}, {"attempts", hook.attempts}};
+}
+
 std::string dumped(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -39,7 +62,8 @@ std::string dumped(const Json& json) {
 }  // namespace
 
 fs::path record_path(const fs::path& folder, const JobLine& job) {
-  return folder / ".weft" / "jobs" / (sha256(job.id).substr(0, 32) + ".json");
+  const auto key = job.list.empty() ? job.id : job.list + "\n" + job.id;
+  return folder / ".weft" / "jobs" / (sha256(key).substr(0, 32) + ".json");
 }
 
 void write_record(const fs::path& folder, const JobLine& job, const Outcome& outcome) {
@@ -50,11 +74,50 @@ void write_record(const fs::path& folder, const JobLine& job, const Outcome& out
   const auto report = Json::parse(to_json(outcome.report));
   line.update(report);
   if (!outcome.error.empty()) line["error"] = outcome.error;
+  if (outcome.attempts > 1) line["attempts"] = outcome.attempts;
+  if (outcome.hook) line["exec"] = json_of(*outcome.hook);
   const Json record{{"format", record_format},
                     {"build", build_id()},
                     {"inputs_sha256", outcome.inputs_sha256},
+                    {"files", json_of(outcome.files)},
+                    {"output", json_of(outcome.output)},
                     {"report", std::move(line)}};
   write_file(record_path(folder, job), dumped(record) + "\n");
+}
+
+namespace {
+
+/// Reads the record, changes it, and writes it again. One that is not there, or no record, is left alone.
+template <class Change>
+void change_record(const fs::path& folder, const JobLine& job, const Change& change) {
+  const auto path = record_path(folder, job);
+  Json json;
+  try {
+    json = Json::parse(FileBytes(path.string()).view());
+    change(json);
+  } catch (const Json::exception&) {
+    return;
+  }
+  write_file(path, dumped(json) + "\n");
+}
+
+}  // namespace
+
+void write_hook(const fs::path& folder, const JobLine& job, const HookResult& result) {
+  change_record(folder, job, [&](Json& json) { json.at("report")["exec"] = json_of(result); });
+}
+
+void write_stamps(const fs::path& folder, const JobLine& job, const std::vector<KnownFile>& files,
+                  const std::optional<Stamp>& output) {
+  change_record(folder, job, [&](Json& json) { json["files"] = json_of(files), json["output"] = json_of(output); });
+}
+
+std::optional<Stamp> stamp_of(const fs::path& file) {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+  const auto ns = [](const timespec& t) { return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec; };
+  return Stamp{status.st_dev, status.st_ino, static_cast<std::uint64_t>(status.st_size), ns(status.st_mtim),
+               ns(status.st_ctim)};
 }
 
 std::optional<Record> read_record(const fs::path& folder, const JobLine& job) {
@@ -76,11 +139,18 @@ std::optional<Record> read_record(const fs::path& folder, const JobLine& job) {
     out.print_time_s = r.at("print_time_s");
     out.filament_mm = r.at("filament").at("mm");
     out.filament_g = r.at("filament").at("g");
+    if (const auto cost = r.find("cost"); cost != r.end())
+      out.cost = cost->at("total"), out.currency = cost->at("currency");
     out.height_mm = r.at("height_mm");
     out.layers = r.at("layers");
     out.warnings = r.at("warnings").size();
     out.verdict = r.at("audit").at("verdict");
     out.line = dumped(r);
+    if (const auto hook = r.find("exec"); hook != r.end()) out.hook_done = hook->at("status") == 0;
+    for (const auto& file : json.value("files", Json::array()))
+      if (const auto stamp = stamp_from(file.at("stamp")))
+        out.files.push_back({file.at("path"), file.at("sha256"), *stamp});
+    out.output_stamp = stamp_from(json.value("output", Json()));
     if (out.id != job.id) return std::nullopt;
     return out;
   } catch (const Json::exception&) {
@@ -93,11 +163,27 @@ std::optional<Record> read_record(const fs::path& folder, const JobLine& job) {
 std::string FileHashes::of(const std::string& path) {
   {
     const std::lock_guard lock(mutex_);
-    if (const auto at = known_.find(path); at != known_.end()) return at->second;
+    if (const auto at = known_.find(path); at != known_.end()) return at->second.sha256;
   }
-  auto hash = hash_of(path);  // twice, when two threads meet here: no harm
+  const auto before = stamp_of(path);
+  KnownFile file{path, hash_of(path), before.value_or(Stamp{})};  // twice, when two threads meet here: no harm
+  if (stamp_of(path) != before) file.stamp = {};
   const std::lock_guard lock(mutex_);
-  return known_.emplace(path, std::move(hash)).first->second;
+  return known_.emplace(path, std::move(file)).first->second.sha256;
+}
+
+void FileHashes::trust(const KnownFile& file) {
+  if (stamp_of(file.path) != file.stamp) return;
+  const std::lock_guard lock(mutex_);
+  known_.emplace(file.path, file);
+}
+
+std::vector<KnownFile> FileHashes::known(const std::vector<std::string>& paths) {
+  std::vector<KnownFile> out;
+  const std::lock_guard lock(mutex_);
+  for (const auto& path : paths)
+    if (const auto at = known_.find(path); at != known_.end() && at->second.stamp != Stamp{}) out.push_back(at->second);
+  return out;
 }
 
 std::string inputs_hash(const Job& job, FileHashes& files) {

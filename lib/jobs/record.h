@@ -1,7 +1,9 @@
 #pragma once
+#include "jobs/hook.h"
 #include "jobs/job_list.h"
 #include "pipeline/report.h"
 
+#include <cstdint>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -9,12 +11,33 @@
 
 namespace weft::jobs {
 
+/// What tells, without reading it, that a file is the one it was: where it is, its size, and when it last changed.
+/// Copies and restored files have another, and are read.
+struct Stamp {
+  std::uint64_t device = 0, inode = 0, size = 0;
+  std::int64_t modified_ns = 0, changed_ns = 0;  ///< since 1970; the second cannot be set at will
+  friend bool operator==(const Stamp&, const Stamp&) = default;
+};
+/// Nothing when there is no such file.
+std::optional<Stamp> stamp_of(const std::filesystem::path& file);
+
+/// A file that was read, and what was found.
+struct KnownFile {
+  std::string path, sha256;
+  Stamp stamp;
+  friend bool operator==(const KnownFile&, const KnownFile&) = default;
+};
+
 /// How a job ended.
 struct Outcome {
   std::string inputs_sha256;  ///< of everything its G-code depends on, this build of weft apart
   int exit_status = 1;        ///< as `weft slice` would have left with; 130 when it was stopped
   std::string error;          ///< one line; empty when it went well
   double seconds = 0;
+  unsigned attempts = 1;           ///< how often it was begun
+  std::optional<HookResult> hook;  ///< when one was run
+  std::vector<KnownFile> files;    ///< its models
+  std::optional<Stamp> output;     ///< of its G-code
   Report report;
 };
 
@@ -25,9 +48,14 @@ struct Record {
   int exit_status = 1;
   double seconds = 0;
   double print_time_s = 0, filament_mm = 0, filament_g = 0, height_mm = 0;
+  std::optional<double> cost;  ///< of filament and machine, when they have prices
+  std::string currency;
   std::size_t layers = 0, warnings = 0;
-  std::string verdict;  ///< of the audit
-  std::string line;     ///< JSON, without newline
+  std::string verdict;     ///< of the audit
+  bool hook_done = false;  ///< a hook was run, and went well
+  std::vector<KnownFile> files;
+  std::optional<Stamp> output_stamp;
+  std::string line;  ///< JSON, without newline
 };
 
 std::filesystem::path record_path(const std::filesystem::path& folder, const JobLine& job);
@@ -38,15 +66,27 @@ void write_record(const std::filesystem::path& folder, const JobLine& job, const
 /// nullopt when there is none, or none that can be read: the job is then run again.
 std::optional<Record> read_record(const std::filesystem::path& folder, const JobLine& job);
 
-/// Hashes of files by path; each is read once.
+/// Notes in the record what its hook did. @throws Error{file}
+void write_hook(const std::filesystem::path& folder, const JobLine& job, const HookResult& result);
+
+/// Notes in the record the stamps that the job's files have now; contents were found to be the same.
+/// @throws Error{file}
+void write_stamps(const std::filesystem::path& folder, const JobLine& job, const std::vector<KnownFile>& files,
+                  const std::optional<Stamp>& output);
+
+/// Hashes of files by path; each is read once, or not at all when what a record knows of it still holds.
 class FileHashes {
  public:
   /// @throws Error{file}
   std::string of(const std::string& path);
+  /// Takes the hash for that of the file when it has that stamp.
+  void trust(const KnownFile& file);
+  /// What is known of these files, as far as they stayed the same while they were read.
+  std::vector<KnownFile> known(const std::vector<std::string>& paths);
 
  private:
   std::mutex mutex_;
-  std::map<std::string, std::string> known_;
+  std::map<std::string, KnownFile> known_;
 };
 
 /// Hash of everything the job's G-code depends on besides this build of weft: models by name and content, settings,

@@ -1,11 +1,13 @@
 #include "jobs/shard.h"
 
 #include "core/error.h"
-#include "core/hash.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
-#include <cstdint>
+#include <functional>
+#include <numeric>
+#include <queue>
 
 #include <fmt/format.h>
 
@@ -40,12 +42,24 @@ unsigned number(std::string_view text, const std::string& where) {
 
 }  // namespace
 
-bool belongs(const Shard& shard, std::string_view id) {
-  if (shard.count <= 1) return true;
-  const auto digest = sha256(id);
-  std::uint64_t v = 0;
-  std::from_chars(digest.data(), digest.data() + 16, v, 16);
-  return v % shard.count == shard.index;
+std::vector<unsigned> deal(const std::vector<Dealt>& jobs, unsigned count) {
+  std::vector<unsigned> out(jobs.size(), 0);
+  if (count <= 1) return out;
+  std::vector<std::size_t> order(jobs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return jobs[a].work != jobs[b].work ? jobs[a].work > jobs[b].work : jobs[a].id < jobs[b].id;
+  });
+  using Load = std::pair<double, unsigned>;  // of equal ones the first share
+  std::priority_queue<Load, std::vector<Load>, std::greater<>> loads;
+  for (unsigned share = 0; share < count; ++share) loads.emplace(0, share);
+  for (const auto i : order) {
+    auto [work, share] = loads.top();
+    loads.pop();
+    out[i] = share;
+    loads.emplace(work + jobs[i].work, share);
+  }
+  return out;
 }
 
 std::optional<FoundShard> shard_of_environment(const Environment& environment, std::optional<unsigned> told) {

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace weft::jobs {
 
@@ -13,9 +14,16 @@ struct Shard {
   friend bool operator==(const Shard&, const Shard&) = default;
 };
 
-/// Whether the job belongs to the share. By a hash of its id alone: the order of the list, the machine and the other
-/// jobs do not matter, and every job belongs to exactly one share.
-bool belongs(const Shard& shard, std::string_view id);
+/// A job as it is dealt out.
+struct Dealt {
+  std::string_view id;
+  double work = 1;  ///< about what it takes, in whatever unit
+};
+
+/// Which share each job belongs to, from 0, so that all have about as much to do: the largest first, each to the share
+/// that has least so far (Graham 1969, "Bounds on multiprocessing timing anomalies"). Ids and work alone decide, not
+/// the order of the list or the machine: who deals the same jobs deals them alike.
+std::vector<unsigned> deal(const std::vector<Dealt>& jobs, unsigned count);
 
 /// Reads an environment variable; absent: nullopt.
 using Environment = std::function<std::optional<std::string>(const char* name)>;

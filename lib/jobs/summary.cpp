@@ -73,13 +73,15 @@ bool is_of(const Record& record, const Job& job, FileHashes& files) {
 
 }  // namespace
 
-Collected collect(const std::vector<Prepared>& jobs, const std::filesystem::path& folder) {
+Collected collect(const std::vector<Prepared>& jobs, const std::filesystem::path& folder, bool check_full) {
   Collected out;
   FileHashes files;
   for (const auto& job : jobs) {
     Collected::Entry entry{job.line, read_record(folder, job.line)};
     std::error_code ignored;
     const bool gone = entry.ok() && !std::filesystem::exists(folder / entry.line.output, ignored);
+    if (entry.record && !check_full)
+      for (const auto& file : entry.record->files) files.trust(file);
     if (gone || (entry.record && !is_of(*entry.record, job.job, files))) entry.record.reset();
     out.missing += !entry.record;
     out.ok += entry.ok();
@@ -89,38 +91,92 @@ Collected collect(const std::vector<Prepared>& jobs, const std::filesystem::path
   return out;
 }
 
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// An object as text, with the job's free fields right behind its id.
+std::string with_free_fields(const std::string& object, const JobLine& line) {
+  const auto begin = Json{{"id", line.id}}.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const auto id = begin.substr(0, begin.size() - 1);  // without its brace
+  if (line.free_fields.empty() || !object.starts_with(id)) return object;
+  std::string fields;
+  for (const auto& [name, value] : line.free_fields)
+    fields += "," + Json(name).dump(-1, ' ', false, Json::error_handler_t::replace) + ":" + value;
+  return id + fields + object.substr(id.size());
+}
+
+/// Names of the free fields of all jobs, in the order of their first appearance.
+std::vector<std::string> free_names(const Collected& collected) {
+  std::vector<std::string> out;
+  for (const auto& entry : collected.entries)
+    for (const auto& [name, value] : entry.line.free_fields)
+      if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
+  return out;
+}
+
+std::string free_cell(const JobLine& line, const std::string& wanted) {
+  for (const auto& [name, value] : line.free_fields)
+    if (name == wanted) return free_text(value);
+  return {};
+}
+
+}  // namespace
+
 std::string report_jsonl(const Collected& collected) {
   std::string out;
   for (const auto& entry : collected.entries) {
-    if (entry.record)
-      out += entry.record->line + "\n";
-    else
-      out += nlohmann::ordered_json{{"id", entry.line.id}, {"output", entry.line.output}, {"status", "missing"}}.dump(
-                 -1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
-             "\n";
+    const auto object = entry.record
+                            ? entry.record->line
+                            : Json{{"id", entry.line.id}, {"output", entry.line.output}, {"status", "missing"}}.dump(
+                                  -1, ' ', false, Json::error_handler_t::replace);
+    out += with_free_fields(object, entry.line) + "\n";
   }
   return out;
 }
 
 std::string summary_csv(const Collected& collected) {
-  const auto keys = own_settings(collected);
+  const auto keys = own_settings(collected), fields = free_names(collected);
   std::string out =
-      "id,output,status,exit_status,seconds,layers,height_mm,print_time_s,filament_mm,filament_g,audit,warnings,error";
+      "id,output,status,exit_status,seconds,layers,height_mm,print_time_s,filament_mm,filament_g,audit,warnings,error,"
+      "cost,currency";
+  for (const auto& field : fields) out.append(",").append(cell(field));
   for (const auto& key : keys) out.append(",").append(cell(key));
   out += "\n";
   for (const auto& entry : collected.entries) {
     out += fmt::format("{},{},", cell(entry.line.id), cell(entry.line.output));
     if (const auto& r = entry.record)
-      out += fmt::format("{},{},{:.3f},{},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{}", r->status, r->exit_status, r->seconds,
-                         r->layers, r->height_mm, r->print_time_s, r->filament_mm, r->filament_g, r->verdict,
-                         r->warnings, cell(r->error));
+      out +=
+          fmt::format("{},{},{:.3f},{},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{},{}", r->status, r->exit_status,
+                      r->seconds, r->layers, r->height_mm, r->print_time_s, r->filament_mm, r->filament_g, r->verdict,
+                      r->warnings, cell(r->error), r->cost ? fmt::format("{:.2f}", *r->cost) : "", cell(r->currency));
     else
-      out += "missing,,,,,,,,,,";
+      out += "missing,,,,,,,,,,,,";
+    for (const auto& field : fields) out.append(",").append(cell(free_cell(entry.line, field)));
     for (const auto& key : keys) out.append(",").append(cell(own_value(entry.line, key)));
     out += "\n";
   }
   return out;
 }
+
+namespace {
+
+/// The free fields of a job.
+std::string properties_xml(const JobLine& line) {
+  std::string out;
+  for (const auto& [name, value] : line.free_fields)
+    out += fmt::format("    <property name=\"{}\" value=\"{}\"/>\n", escaped(name), escaped(free_text(value)));
+  return out.empty() ? out : "   <properties>\n" + out + "   </properties>\n";
+}
+
+std::string verdict_xml(const Collected::Entry& entry) {
+  if (entry.ok()) return {};
+  if (!entry.record) return "   <error type=\"missing\" message=\"the job was not run\"/>\n";
+  return fmt::format("   <failure type=\"exit status {}\" message=\"{}\"/>\n", entry.record->exit_status,
+                     escaped(entry.record->error));
+}
+
+}  // namespace
 
 std::string junit_xml(const Collected& collected, std::string_view suite) {
   double seconds = 0;
@@ -133,13 +189,8 @@ std::string junit_xml(const Collected& collected, std::string_view suite) {
   for (const auto& entry : collected.entries) {
     out += fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", escaped(suite),
                        escaped(entry.line.id), entry.record ? entry.record->seconds : 0.0);
-    if (entry.ok())
-      out += "/>\n";
-    else if (entry.record)
-      out += fmt::format(">\n   <failure type=\"exit status {}\" message=\"{}\"/>\n  </testcase>\n",
-                         entry.record->exit_status, escaped(entry.record->error));
-    else
-      out += ">\n   <error type=\"missing\" message=\"the job was not run\"/>\n  </testcase>\n";
+    const auto inside = properties_xml(entry.line) + verdict_xml(entry);
+    out += inside.empty() ? "/>\n" : ">\n" + inside + "  </testcase>\n";
   }
   return out + " </testsuite>\n</testsuites>\n";
 }

@@ -21,7 +21,8 @@ struct Collected {
   std::size_t ok = 0, failed = 0, missing = 0;
 };
 /// @throws Error{file} for a model that cannot be read
-Collected collect(const std::vector<Prepared>& jobs, const std::filesystem::path& folder);
+/// @param check_full models are read whatever their stamps say
+Collected collect(const std::vector<Prepared>& jobs, const std::filesystem::path& folder, bool check_full = false);
 
 /// The report of each, a JSON object a line; a job that was not run is a line with "status": "missing".
 std::string report_jsonl(const Collected& collected);

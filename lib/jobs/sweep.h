@@ -3,6 +3,7 @@
 #include "jobs/summary.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,8 @@ struct Trial {
   std::vector<std::string> values;  ///< one an axis
   double time_s = 0, material_g = 0, strength = 0;
   std::size_t layers = 0;
+  std::optional<double> cost;  ///< when there are prices
+  std::string currency;
   std::string picture;  ///< PNG of a layer; may be empty
 };
 

@@ -22,7 +22,7 @@ section{background:#fff;border:1px solid #ccd;border-radius:6px;padding:10px 12p
 h2{font-size:14px;margin:0 0 6px}label{margin-right:12px;color:#556}select{font:inherit}
 svg{width:100%;display:block;user-select:none}svg text{font-size:11px;fill:#445}
 table{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums}
-th{position:sticky;top:0;background:#fff;text-align:left;cursor:pointer;border-bottom:2px solid #889;padding:4px 8px;white-space:nowrap}
+th{position:sticky;top:0;background:#fff;text-align:left;cursor:pointer;border-bottom:2px solid #889;padding:4px 8px;white-space:nowrap}th.n{text-align:right}
 td{border-bottom:1px solid #e2e4ea;padding:3px 8px;white-space:nowrap}td.n{text-align:right}
 tr.best td:first-child{box-shadow:inset 4px 0 #c2410c}tr.lit,tr:hover{background:#fff4d6}tr.failed{color:#a11;white-space:normal}tr.out{opacity:.3}
 td img{height:72px;width:72px;object-fit:cover;object-position:left top;display:block;cursor:zoom-in}td img:hover{position:fixed;right:20px;bottom:20px;height:70vh;width:auto;max-width:90vw;object-fit:contain;background:#fff;border:1px solid #889;z-index:9;pointer-events:none}
@@ -32,7 +32,7 @@ td img{height:72px;width:72px;object-fit:cover;object-position:left top;display:
 </style></head><body>
 <header><h1 id="title"></h1><p id="facts"></p></header>
 <main>
-<section><h2>Any two figures</h2><label>across <select id="x"></select></label><label>up <select id="y"></select></label><label>colour <select id="c"></select></label>
+<section><h2>Any two figures <small>(dashed: no other is better in both)</small></h2><label>across <select id="x"></select></label><label>up <select id="y"></select></label><label>colour <select id="c"></select></label>
 <svg id="scatter" viewBox="0 0 520 360" role="img" aria-label="scatter of two figures"></svg></section>
 <section><h2>All at once <small>(drag along an axis to keep a range, double click to let go)</small></h2>
 <svg id="parallel" viewBox="0 0 720 384" role="img" aria-label="parallel coordinates"></svg></section>
@@ -55,9 +55,10 @@ const trials=data.trials,ok=trials.filter(t=>t.ok);
 // A column: how a trial's figure is read, and shown. Settings that are not numbers are placed by their order of appearance.
 const columns=data.axes.map((name,i)=>{const words=[...new Set(trials.map(t=>t.values[i]))];
   const numeric=words.every(w=>w.trim()!==""&&!isNaN(parseFloat(w))&&/^-?[\d.]+ ?%?$/.test(w));
-  return {name,get:t=>numeric?parseFloat(t.values[i]):words.indexOf(t.values[i]),show:t=>t.values[i],ticks:numeric?null:words}});
-columns.push({name:"time",get:t=>t.time_s,show:t=>clock(t.time_s),tick:clock},{name:"material g",get:t=>t.material_g,show:t=>t.material_g.toFixed(2)},
-  {name:"strength",get:t=>t.strength,show:t=>t.strength.toFixed(1)},{name:"layers",get:t=>t.layers,show:t=>t.layers});
+  return {name,words:!numeric,get:t=>numeric?parseFloat(t.values[i]):words.indexOf(t.values[i]),show:t=>t.values[i],ticks:numeric?null:words}});
+columns.push({name:"time",better:-1,get:t=>t.time_s,show:t=>clock(t.time_s),tick:clock},{name:"material g",better:-1,get:t=>t.material_g,show:t=>t.material_g.toFixed(2)},
+  ...(ok.some(t=>t.cost!==null)?[{name:("cost "+(ok.find(t=>t.currency)?.currency??"")).trim(),better:-1,get:t=>t.cost??NaN,show:t=>t.cost===null?"":t.cost.toFixed(2)}]:[]),
+  {name:"strength",better:1,get:t=>t.strength,show:t=>t.strength.toFixed(1)},{name:"layers",get:t=>t.layers,show:t=>t.layers});
 const by=name=>columns.find(c=>c.name===name)||columns[0];
 const state={x:"time",y:"strength",c:data.axes[0]||"time",sort:"",down:false,kept:{},lit:-1};
 for(const [k,v] of new URLSearchParams(location.hash.slice(1))){if(k==="down")state.down=v==="1";else if(k==="keep"){const [n,a,b]=v.split("~");state.kept[n]=[+a,+b]}else if(k in state)state[k]=v}
@@ -71,8 +72,10 @@ function scatter(){const s=$("scatter");s.replaceChildren();const cx=by(state.x)
   for(const v of ticks(cx)){s.append(el("line",{x1:px(v),x2:px(v),y1:20,y2:320,class:"grid"}),el("text",{x:px(v),y:336,"text-anchor":"middle"},label(cx,v)))}
   for(const v of ticks(cy)){s.append(el("line",{x1:60,x2:505,y1:py(v),y2:py(v),class:"grid"}),el("text",{x:55,y:py(v)+4,"text-anchor":"end"},label(cy,v)))}
   s.append(el("text",{x:500,y:354,"text-anchor":"end"},cx.name+" →"),el("text",{x:60,y:14},"↑ "+cy.name));
-  const front=ok.filter(t=>t.best).sort((a,b)=>cx.get(a)-cx.get(b));
-  if(["time","material g","strength"].includes(cx.name)&&["time","material g","strength"].includes(cy.name))s.append(el("polyline",{class:"front",points:front.map(t=>px(cx.get(t))+","+py(cy.get(t))).join(" ")}));
+  // What of the two figures shown no other has better in both: along the first from its best on, whatever is better in the second.
+  if(cx.better&&cy.better){let best=-Infinity;const front=[...ok].sort((a,b)=>cx.better*(cx.get(b)-cx.get(a))||cy.better*(cy.get(b)-cy.get(a)))
+    .filter(t=>{const v=cy.better*cy.get(t);if(!(v>best))return false;best=v;return true});
+    s.append(el("polyline",{class:"front",points:front.map(t=>px(cx.get(t))+","+py(cy.get(t))).join(" "),"data-trials":front.map(t=>t.id).join("|")}))}
   ok.forEach(t=>{const lit=t===trials[state.lit],d=el("circle",{class:"dot",cx:px(cx.get(t)),cy:py(cy.get(t)),r:lit?9:t.best?6:4.5,fill:colour(t),stroke:lit?"#000":t.best?"#c2410c":"#fff","stroke-width":t.best?2:1,opacity:kept(t)?1:.12});
     d.append(el("title",{},t.id+"\n"+["time","material g","strength"].map(n=>n+" "+by(n).show(t)).join(", ")));d.onclick=()=>light(trials.indexOf(t),true);s.append(d)})}
 function parallel(){const s=$("parallel");s.replaceChildren();const n=columns.length,px=i=>50+620*i/Math.max(1,n-1),top=30,low=350;
@@ -86,11 +89,11 @@ function parallel(){const s=$("parallel");s.replaceChildren();const n=columns.le
       onpointermove=ev=>{const to=at(ev);state.kept[c.name]=[Math.min(from,to),Math.max(from,to)];draw()};onpointerup=()=>{onpointermove=onpointerup=null}};
     grip.ondblclick=()=>{delete state.kept[c.name];draw()};s.append(grip)})}
 function table(){const order=trials.map((t,i)=>i);if(state.sort){const c=by(state.sort);order.sort((a,b)=>(trials[b].ok-trials[a].ok)||(state.down?-1:1)*(c.get(trials[a])-c.get(trials[b]))||a-b)}
-  $("heads").replaceChildren(...["",...columns.map(c=>c.name),"file"].map(n=>{const h=document.createElement("th");h.textContent=n+(n&&n===state.sort?(state.down?" ▼":" ▲"):"");if(n&&n!=="file")h.onclick=()=>{state.down=state.sort===n&&!state.down;state.sort=n;draw()};return h}));
+  $("heads").replaceChildren(...["",...columns.map(c=>c.name),"file"].map(n=>{const h=document.createElement("th");if(columns.some(c=>c.name===n&&!c.words))h.className="n";h.textContent=n+(n&&n===state.sort?(state.down?" ▼":" ▲"):"");if(n&&n!=="file")h.onclick=()=>{state.down=state.sort===n&&!state.down;state.sort=n;draw()};return h}));
   $("rows").replaceChildren(...order.map(i=>{const t=trials[i],r=document.createElement("tr");r.dataset.id=t.id;r.dataset.time=t.time_s;r.className=[t.best?"best":"",t.ok?"":"failed",i===state.lit?"lit":"",t.ok&&!kept(t)?"out":""].join(" ").trim();
     const cell=(text,n)=>{const d=document.createElement("td");d.textContent=text;if(n)d.className="n";r.append(d);return d};
     const picture=cell("");if(t.picture){const m=document.createElement("img");m.src="data:image/png;base64,"+t.picture;m.alt="a layer of "+t.id;picture.append(m)}
-    columns.forEach((c,k)=>cell(t.ok||k<data.axes.length?c.show(t):"",true));
+    columns.forEach((c,k)=>cell(t.ok||k<data.axes.length?c.show(t):"",!c.words));
     if(t.ok){const a=document.createElement("a");a.href=encodeURIComponent(t.output);a.textContent=t.output;cell("").append(a)}else cell(t.error);
     r.onclick=()=>light(i,false);return r}))}
 function light(i,scroll){state.lit=i;draw();if(scroll)document.querySelector("tr.lit")?.scrollIntoView({block:"nearest"})}
@@ -118,6 +121,8 @@ std::string sweep_page(const std::string& title, const std::vector<std::string>&
                     {"material_g", t.material_g},
                     {"strength", t.strength},
                     {"layers", t.layers},
+                    {"cost", t.cost ? Json(*t.cost) : Json()},
+                    {"currency", t.currency},
                     {"picture", base64(t.picture)}});
   const Json data{{"title", title}, {"axes", axes}, {"trials", std::move(rows)}};
   std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace);

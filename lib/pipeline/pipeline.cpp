@@ -1,11 +1,13 @@
 #include "pipeline/pipeline.h"
 
+#include "adhesion/adhesion.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/stop.h"
 #include "gcode/digest.h"
 #include "gcode/writer.h"
 #include "pipeline/codec.h"
+#include "pipeline/estimate.h"
 #include "pipeline/give_back.h"
 #include "pipeline/plate.h"
 #include "pipeline/provenance.h"
@@ -58,11 +60,13 @@ void write_gcode(const gcode::Job& job, PrintPlan& plan, std::vector<std::string
   check.add(tail);
 }
 
-void note_statistics(const Statistics& s, Report& report) {
+void note_statistics(const Settings& settings, const Statistics& s, Report& report) {
   report.print_time_s = s.print_time_s;
   report.filament_mm = s.filament_mm;
   report.filament_mm3 = s.filament_mm3;
   report.filament_g = s.filament_g;
+  report.cost = cost_of(settings.machine, settings.material, s.filament_g, s.print_time_s);
+  report.currency = settings.machine.currency;
   for (std::size_t i = 0; i < s.features.size(); ++i)
     report.features[i] = {s.features[i].mm, s.features[i].mm3, s.features[i].s};
   report.walls = {static_cast<std::size_t>(s.walls.beads), s.walls.variable_width_mm, s.walls.flow_compensated_mm,
@@ -145,8 +149,8 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
   refuse_emptiness(job, box, layers);
   give_back_memory();
   begin("travel", 0.65);
-  auto [plan, packed, digests, statistics] = plan_plate(job.settings, objects, std::move(layers), report);
-  note_statistics(statistics, report);
+  auto [plan, packed, digests, statistics, by_layer] = plan_plate(job.settings, objects, std::move(layers), report);
+  note_statistics(job.settings, statistics, report);
   report.layers = plan.layers.size();
   report.height_mm = plan.layers.empty() ? 0.0 : to_mm(plan.layers.back().z);
   report.warnings.insert(report.warnings.end(), plan.notices.begin(), plan.notices.end());
@@ -161,16 +165,70 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
   return passed;
 }
 
-}  // namespace
+/// Less than that many layers are all planned: each is a large share of the print.
+constexpr std::size_t few_layers = 24;
+/// Every so manieth of more layers. The other stages read all layers, so that a larger one saves little.
+constexpr std::size_t estimate_stride = 4;
 
-std::optional<audit::Passed> run(const Job& job, const Watch& watch, Report& report, StageCache* cache) {
+/// The program without its end, and unless asked for all of them, with beads on some layers only.
+std::size_t estimate_stages(const Job& job, const EstimateOptions& options, const Watch& watch, Report& report,
+                            StageCache* cache) {
+  const Stopwatch stopwatch(report.timings_ms.total);
+  report.settings_sha256 = sha256(as_text(job.settings));
+  gcode::check_custom_code(job.settings);
+  auto objects = place_models(job, report, cache);
+  Box3 box;
+  for (const auto& object : objects) box.add(box_of(object.mesh));
+  const auto layer_height = std::max(job.settings.layers.layer_height, Um{1});
+  const bool few = box.size().z / layer_height < static_cast<Um>(few_layers);
+  const Sample sample{options.exact || few ? 1 : estimate_stride};
+  std::vector<PrintedLayers> layers;
+  std::vector<LayerMeasure> measures;
+  for (auto& object : objects) {
+    std::vector<LayerMeasure> own;
+    layers.push_back(print_object(job.settings, object, watch, report, cache, sample, &own));
+    object.mesh = {};
+    for (std::size_t i = adhesion::layers_needed(job.settings.adhesion); i < layers.back().size(); ++i)
+      if (auto& layer = layers.back()[i]; !sample.has(i)) layer = {layer.z, layer.height, {}, {}, {}, {}, {}};
+    if (measures.size() < own.size()) measures.resize(own.size());
+    for (std::size_t i = 0; i < own.size(); ++i) measures[i].add(own[i], static_cast<double>(object.offsets.size()));
+  }
+  refuse_emptiness(job, box, layers);
+  stop_if_asked();
+  watch.progress("travel", 0.65);
+  const auto planned = plan_plate(job.settings, objects, std::move(layers), report, PlanFor::figures);
+  note_statistics(job.settings, extrapolated(sample, planned.layer_statistics, measures), report);
+  report.layers = planned.plan.layers.size();
+  report.height_mm = planned.plan.layers.empty() ? 0.0 : to_mm(planned.plan.layers.back().z);
+  report.warnings.insert(report.warnings.end(), planned.plan.notices.begin(), planned.plan.notices.end());
+  report.audit.verdict = "unaudited";
+  report.status = Report::Status::ok;
+  watch.progress("done", 1.0);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < report.layers; ++i) count += sample.has(i);
+  return count;
+}
+
+template <class Work>
+auto stoppable(const Job& job, const Watch& watch, const Work& work) {
   const tasks::ThreadLimit limit(job.threads);
   const StopWhen stop_when(&watch.cancelled);
   try {
-    return run_stages(job, watch, report, cache);
+    return work();
   } catch (const Stopped&) {
     throw Error{Error::Kind::interrupted, "interrupted", {}, "nothing was written"};
   }
+}
+
+}  // namespace
+
+std::optional<audit::Passed> run(const Job& job, const Watch& watch, Report& report, StageCache* cache) {
+  return stoppable(job, watch, [&] { return run_stages(job, watch, report, cache); });
+}
+
+std::size_t estimate(const Job& job, const EstimateOptions& options, const Watch& watch, Report& report,
+                     StageCache* cache) {
+  return stoppable(job, watch, [&] { return estimate_stages(job, options, watch, report, cache); });
 }
 
 }  // namespace weft

@@ -97,7 +97,7 @@ struct PackedLayer {
 
 /// Ways, speeds and times. What a layer was made of is let go of as it goes.
 std::vector<PackedLayer> plan_moves(const Settings& settings, std::vector<travel::Prepared> prepared,
-                                    std::vector<travel::Ordered> ordered, Notices& notices) {
+                                    std::vector<travel::Ordered> ordered, Notices& notices, PlanFor use) {
   const std::size_t count = prepared.size();
   std::vector<std::optional<Point>> from(count);
   for (std::size_t i = 1; i < count; ++i) from[i] = ordered[i - 1].end ? ordered[i - 1].end : from[i - 1];
@@ -124,6 +124,7 @@ std::vector<PackedLayer> plan_moves(const Settings& settings, std::vector<travel
       [&](std::size_t i, Begun layer) {
         const auto planned = motion::plan_layer(rules, std::move(layer.plan), i, layer.start);
         const auto& plan = planned.plan;
+        if (use == PlanFor::figures) return PackedLayer{{plan.z, plan.height}, {}, {}, planned.statistics};
         return PackedLayer{{plan.z, plan.height}, encode(plan), gcode::digest_of(settings, plan), planned.statistics};
       });
   for (auto& notice : travel::notices_of(departures)) notices.push_back(std::move(notice));
@@ -133,7 +134,7 @@ std::vector<PackedLayer> plan_moves(const Settings& settings, std::vector<travel
 }  // namespace
 
 PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects,
-                        std::vector<PrintedLayers> layers, Report& report) {
+                        std::vector<PrintedLayers> layers, Report& report, PlanFor use) {
   const Stopwatch stopwatch(report.timings_ms.travel);
   std::size_t count = 0;
   for (const auto& object : layers) count = std::max(count, object.size());
@@ -163,9 +164,10 @@ PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject
   const auto linked = linker.linked();
   auto ordered =
       tasks::parallel_map(count, [&](std::size_t i) { return travel::order(settings.travel, prepared[i], linked[i]); });
-  auto planned = plan_moves(settings, std::move(prepared), std::move(ordered), plan.notices);
+  auto planned = plan_moves(settings, std::move(prepared), std::move(ordered), plan.notices, use);
   for (auto& layer : planned) {
     out.statistics.append(layer.statistics);
+    if (use == PlanFor::figures) out.layer_statistics.push_back(layer.statistics);
     plan.layers.push_back(std::move(layer.bare));
     out.digests.push_back(std::move(layer.digest));
     out.packed.push_back(std::move(layer.packed));

@@ -1,4 +1,5 @@
 #include "geometry/boolean.h"
+#include "geometry/offset.h"
 #include "infill/infill.h"
 #include "infill/shells.h"
 #include "pipeline/cached.h"
@@ -62,8 +63,17 @@ Settings of_first_layer(Settings settings) {
   return settings;
 }
 
-Walls build_walls(const Settings& settings, const Settings& first, const Cuts& cuts) {
+/// About what walls leave of a layer: enough for the layers around it to know their skin.
+WallLayer without_beads(const Settings& settings, const Regions& regions) {
+  const Um width = settings.walls.wall_line_width_x.value_or(settings.machine.nozzle_diameter);
+  WallLayer out;
+  out.inside = geometry::offset(regions, {.by = -settings.walls.wall_line_count * width});
+  return out;
+}
+
+Walls build_walls(const Settings& settings, const Settings& first, const Cuts& cuts, const Sample& sample) {
   return tasks::parallel_map(cuts.size(), [&](std::size_t i) {
+    if (!sample.has(i)) return without_beads(settings, cuts[i].layer.regions);
     const Regions over_air = i > 0 ? geometry::subtract(cuts[i].layer.regions, cuts[i - 1].layer.regions) : Regions{};
     return walls::build((i == 0 ? first : settings).walls, {.layer = cuts[i].layer,
                                                             .index = i,
@@ -89,13 +99,44 @@ std::vector<infill::LayerAreas> find_areas(const Settings& settings, const Cuts&
   return areas;
 }
 
+double outline_mm(const Regions& regions) {
+  double out = 0;
+  for (const auto& region : regions) {
+    out += perimeter_of(region.outer);
+    for (const auto& hole : region.holes) out += perimeter_of(hole);
+  }
+  return out / 1000;
+}
+
+/// What the beads of each layer grow with. Of a layer with beads, too, the walls are measured as of one without.
+std::vector<LayerMeasure> measures_of(const Settings& settings, const Cuts& cuts,
+                                      const std::vector<infill::LayerAreas>& areas) {
+  return tasks::parallel_map(cuts.size(), [&](std::size_t i) {
+    const auto& layer = cuts[i].layer;
+    LayerMeasure out{.outline_mm = outline_mm(layer.regions), .height_mm = to_mm(layer.height)};
+    const auto inside = without_beads(settings, layer.regions).inside;
+    out.walls_mm3 = (area_mm2(layer.regions) - area_mm2(inside)) * out.height_mm;
+    for (const auto& part : areas[i]) {
+      out.solid_mm2 += area_mm2(part.solid);
+      out.top_mm2 += area_mm2(part.top);
+      out.sparse_mm2 += area_mm2(part.sparse);
+      for (const auto& bridge : part.bridges) out.bridge_mm2 += area_mm2(bridge.regions);
+    }
+    return out;
+  });
+}
+
 /// Shells and infill.
-Fills fill_object(const Settings& settings, const Settings& first, const Cuts& cuts, const Walls& walls) {
+/// @param measures of each layer, where only a sample gets beads
+Fills fill_object(const Settings& settings, const Settings& first, const Cuts& cuts, const Walls& walls,
+                  const Sample& sample, std::vector<LayerMeasure>& measures) {
   auto areas = find_areas(settings, cuts, walls);
+  if (!sample.all()) measures = measures_of(settings, cuts, areas);
   Box box;  // patterns hang on its centre, so they move with the object
   for (const auto& cut : cuts) box.add(box_of(cut.layer.regions));
   return tasks::parallel_map(cuts.size(), [&](std::size_t i) {
     const auto& layer = cuts[i].layer;
+    if (!sample.has(i)) return FilledLayer{};
     const auto& s = i == 0 ? first : settings;
     auto filled = infill::fill(s.infill, s.shells,
                                {.areas = areas[i],
@@ -119,7 +160,7 @@ Fills fill_object(const Settings& settings, const Settings& first, const Cuts& c
 }  // namespace
 
 PrintedLayers print_object(const Settings& settings, const PlacedObject& object, const Watch& watch, Report& report,
-                           StageCache* cache) {
+                           StageCache* cache, const Sample& sample, std::vector<LayerMeasure>* measures) {
   std::optional<Stopwatch> stopwatch(std::in_place, report.timings_ms.slice);
   const auto sliced_by = [&] { return slice_key(settings, object.mesh); };
   auto sliced = cached(cache, sliced_by, [&] { return slice_object(settings, object); });
@@ -129,14 +170,17 @@ PrintedLayers print_object(const Settings& settings, const PlacedObject& object,
   stopwatch.emplace(report.timings_ms.walls);
   const auto walls_by = [&] { return walls_key(settings, sliced_by().hash()); };
   const auto first =
-      of_first_layer(settings);  // a function of what the keys hold: all of layers, walls, shells and infill
-  auto walled = cached(cache, walls_by, [&] { return build_walls(settings, first, *sliced); });
+      of_first_layer(settings);        // a function of what the keys hold: all of layers, walls, shells and infill
+  if (!sample.all()) cache = nullptr;  // a sample is no stage's result
+  auto walled = cached(cache, walls_by, [&] { return build_walls(settings, first, *sliced, sample); });
 
   watch.progress("infill", 0.5);
   stopwatch.emplace(report.timings_ms.infill);
+  std::vector<LayerMeasure> measured;
   auto filled = cached(
       cache, [&] { return fill_key(settings, walls_by().hash()); },
-      [&] { return fill_object(settings, first, *sliced, *walled); });
+      [&] { return fill_object(settings, first, *sliced, *walled, sample, measured); });
+  if (measures) *measures = std::move(measured);
 
   auto cuts = std::move(sliced).take();
   auto walls = std::move(walled).take();

@@ -27,7 +27,8 @@ std::string profile_text(const std::filesystem::path& path) {
 }
 
 void apply_profile(Profile& profile, const std::filesystem::path& path, const ImportOptions& options) {
-  apply_text(profile, profile_text(path), path, options);
+  const auto found = profile_file(path, {}, options.folders);
+  apply_text(profile, profile_text(found), found, options);
 }
 
 }  // namespace weft

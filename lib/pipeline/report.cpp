@@ -80,6 +80,11 @@ std::string to_json(const Report& r) {
   out["height_mm"] = rounded3(r.height_mm);
   out["print_time_s"] = rounded3(r.print_time_s);
   out["filament"] = {{"mm", rounded3(r.filament_mm)}, {"mm3", rounded3(r.filament_mm3)}, {"g", rounded3(r.filament_g)}};
+  if (r.cost)
+    out["cost"] = {{"filament", rounded3(r.cost->filament)},
+                   {"machine", rounded3(r.cost->machine)},
+                   {"total", rounded3(r.cost->total())},
+                   {"currency", r.currency}};
   out["features"] = features_of(r);
   out["walls"] = {{"beads", r.walls.beads},
                   {"variable_width_mm", rounded3(r.walls.variable_width_mm)},

@@ -1,9 +1,11 @@
 #pragma once
 #include "core/notice.h"
 #include "model/bead.h"
+#include "settings/cost.h"
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,6 +56,8 @@ struct Report {
   std::size_t layers = 0;
   double height_mm = 0, print_time_s = 0;
   double filament_mm = 0, filament_mm3 = 0, filament_g = 0;
+  std::optional<Cost> cost;  ///< when there are prices
+  std::string currency;
   std::array<Feature, role_names.size()> features{};
   Walls walls;
   Travel travel;

@@ -6,6 +6,7 @@
 #include "model/plan.h"
 #include "model/statistics.h"
 #include "pipeline/pipeline.h"
+#include "pipeline/sample.h"
 
 #include <string>
 #include <vector>
@@ -33,9 +34,11 @@ struct PrintedLayer {
 using PrintedLayers = std::vector<PrintedLayer>;
 
 /// Slice, walls, shells and infill of one object.
-/// @param cache may be null
+/// @param cache    may be null
+/// @param sample   which layers get beads
+/// @param measures one a layer, for a sample that is not all; may be null
 PrintedLayers print_object(const Settings& settings, const PlacedObject& object, const Watch& watch, Report& report,
-                           StageCache* cache);
+                           StageCache* cache, const Sample& sample = {}, std::vector<LayerMeasure>* measures = nullptr);
 
 /// A plan of which each layer's steps wait as bytes (codec.h), which take a third of the memory.
 struct PlannedPlate {
@@ -43,11 +46,15 @@ struct PlannedPlate {
   std::vector<std::string> packed;  ///< the layers, with them
   std::vector<gcode::LayerDigest> digests;
   Statistics statistics;
+  std::vector<Statistics> layer_statistics;  ///< only for figures
 };
+
+/// What a plan is for: to be written, or for its figures only.
+enum class PlanFor { writing, figures };
 
 /// The whole plate as steps: copies put in their places, adhesion around them, order, seams and travels, speeds and
 /// times.
 PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects,
-                        std::vector<PrintedLayers> layers, Report& report);
+                        std::vector<PrintedLayers> layers, Report& report, PlanFor use = PlanFor::writing);
 
 }  // namespace weft::pipeline

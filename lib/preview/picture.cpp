@@ -59,7 +59,9 @@ void draw_legend(Image& image, const Scene& scene, int left) {
 std::vector<std::uint8_t> png(const Toolpaths& paths, const View& view, const std::optional<Overlay>& overlay) {
   const Scene scene = scene_of(paths, view, overlay);
   const Frame frame = frame_of(scene, view.size);
-  Image image({frame.width + Frame::legend_width, std::max(frame.height, 420)});
+  constexpr int least_height = 420;  // room for the legend
+  Image image(view.legend ? PixelSize{frame.width + Frame::legend_width, std::max(frame.height, least_height)}
+                          : PixelSize{frame.width, frame.height});
   fill(image, paper);
   Painter painter(image, scene, frame);
   painter.outline(scene.reach, reach_colour, 0.08);
@@ -73,7 +75,7 @@ std::vector<std::uint8_t> png(const Toolpaths& paths, const View& view, const st
   for (const Line& line : scene.marks) painter.line(line, 1, line.colour);
   for (const Line& line : scene.travels) painter.line(line, 1, line.colour);
   for (const Line& line : scene.offending) painter.line(line, 3, line.colour);
-  draw_legend(image, scene, frame.width);
+  if (view.legend) draw_legend(image, scene, frame.width);
   return encode_png(image);
 }
 

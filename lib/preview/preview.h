@@ -19,6 +19,7 @@ struct View {
   std::optional<std::size_t> layer = {};  ///< from 0; absent: the middle one, and the last one of a page
   std::optional<Box> window = {};         ///< what a picture shows; absent: all of the layer
   std::string title = {};                 ///< above the legend
+  bool legend = true;                     ///< of a PNG; without one the picture is the drawing alone
 };
 
 /// The machine under the toolpaths, and the moves that an audit found outside.

@@ -151,7 +151,36 @@ void read_lines(Gatherer& gatherer, std::string_view gcode) {
   gatherer.line(last.data(), last.data() + last.size() - 1);
 }
 
+/// Where the lines stand that begin a layer.
+std::vector<std::size_t> layer_marks(std::string_view gcode, std::string_view mark) {
+  std::vector<std::size_t> out;
+  for (auto at = gcode.find(mark); at != std::string_view::npos; at = gcode.find(mark, at + mark.size()))
+    if (at == 0 || gcode[at - 1] == '\n') out.push_back(at);
+  return out;
+}
+
 }  // namespace
+
+Toolpaths read_layer(std::string_view gcode, Um filament_diameter, double share) {
+  auto marks = layer_marks(gcode, ";LAYER_CHANGE");
+  if (marks.empty()) marks = layer_marks(gcode, ";LAYER:");
+  const auto place = [share](std::size_t count) {
+    return std::min(count - 1, static_cast<std::size_t>(std::max(share, 0.0) * static_cast<double>(count)));
+  };
+  Toolpaths out;
+  if (marks.empty()) {
+    out = read(gcode, filament_diameter);
+    if (!out.layers.empty()) out.layers = {std::move(out.layers[place(out.layers.size())])};
+    return out;
+  }
+  // The layer before says where the nozzle is, and to what height E has come.
+  const std::size_t layer = place(marks.size());
+  const auto begin = marks[layer > 0 ? layer - 1 : 0];
+  const auto end = layer + 1 < marks.size() ? marks[layer + 1] : gcode.size();
+  out = read(std::string(gcode.substr(0, marks.front())).append(gcode.substr(begin, end - begin)), filament_diameter);
+  if (out.layers.size() > 1) out.layers = {std::move(out.layers.back())};
+  return out;
+}
 
 Toolpaths read(std::string_view gcode, Um filament_diameter) {
   Gatherer gatherer(filament_diameter, Gatherer::LayersBy::comments);

@@ -39,4 +39,10 @@ struct Toolpaths {
 /// Throws nothing: what cannot be understood is not drawn. Cost: linear in bytes.
 Toolpaths read(std::string_view gcode, Um filament_diameter);
 
+/// One layer of a file that announces its layers in comments, as most slicers do: only its text is read, and what comes
+/// right before it. Of other files all is read.
+/// @param share  of the layers that lie below the one that is meant, 0 … 1
+/// Post: at most one layer.
+Toolpaths read_layer(std::string_view gcode, Um filament_diameter, double share);
+
 }  // namespace weft::preview

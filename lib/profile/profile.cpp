@@ -121,8 +121,9 @@ void apply_text(Profile& profile, std::string_view text, const std::filesystem::
   chain.push_back(std::filesystem::weakly_canonical(path));
   for (const auto& e : entries) {
     if (e.key != "inherits") continue;
-    const auto parent = path.parent_path() / e.value;
     const auto where = fmt::format("{}:{}", name, e.line);
+    const auto found = find_profile(e.value, path.parent_path(), options.folders);
+    const auto parent = found.value_or(path.parent_path() / e.value);
     const auto canonical = std::filesystem::weakly_canonical(parent);
     for (const auto& above : chain)
       if (above == canonical)
@@ -131,7 +132,7 @@ void apply_text(Profile& profile, std::string_view text, const std::filesystem::
     if (chain.size() > 100) throw Error{Error::Kind::settings, "more than 100 generations of ancestors", where, {}};
     if (!std::filesystem::is_regular_file(parent))
       throw Error{Error::Kind::settings, fmt::format("inherits '{}', which is not there", parent.string()), where,
-                  "the path is relative to this file"};
+                  "the path is relative to this file, or a name that `weft profile list` knows"};
     profile.parents.push_back(parent);
     apply_text(profile, read_profile(parent), parent, options, chain);
   }
@@ -158,7 +159,8 @@ void apply_text(Profile& profile, std::string_view text, const std::filesystem::
 }
 
 void apply_file(Profile& profile, const std::filesystem::path& path, const ImportOptions& options) {
-  apply_text(profile, read_profile(path), path, options);
+  const auto found = profile_file(path, {}, options.folders);
+  apply_text(profile, read_profile(found), found, options);
 }
 
 prusaslicer::Translation import_prusaslicer(Profile& profile, std::string_view text, const std::filesystem::path& path,

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/notice.h"
+#include "profile/named_profiles.h"
 #include "prusaslicer/bundle.h"
 #include "prusaslicer/import.h"
 #include "settings/settings.h"
@@ -31,11 +32,12 @@ struct Profile {
 struct ImportOptions {
   prusaslicer::PresetChoice presets;  ///< which presets of a bundle are meant
   bool strict = false;                ///< what would be lost is an error
+  ProfileFolders folders;             ///< where profiles are looked for by name
 };
 
-/// Lays an ini file over `profile`. `inherits = other.ini` (relative to the file) is laid down before the file's own
-/// values. A configuration or bundle of PrusaSlicer's family, or G-code that holds one, is translated, with a notice
-/// for what it loses.
+/// Lays an ini file over `profile`. `inherits = other.ini` (relative to the file, else by name) is laid down before the
+/// file's own values. A configuration or bundle of PrusaSlicer's family, or G-code that holds one, is translated, with
+/// a notice for what it loses.
 /// @throws Error{file} when the file cannot be read; Error{settings} with path:line for unknown keys (with the nearest
 /// known
 ///         one), values of wrong type or range, a key given twice, an inheritance that is missing or runs in a circle

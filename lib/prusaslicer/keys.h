@@ -32,6 +32,8 @@ inline constexpr std::array same_rows{
     SameRow{"filament_type", "material_type", Form::text},
     SameRow{"filament_diameter", "filament_diameter", Form::length},
     SameRow{"filament_density", "material_density", Form::number},
+    SameRow{"filament_cost", "filament_cost", Form::number},
+    SameRow{"time_cost", "machine_hourly_cost", Form::number},  // SuperSlicer's
     SameRow{"extrusion_multiplier", "material_flow", Form::times_100},
     SameRow{"temperature", "material_print_temperature", Form::number},
     SameRow{"first_layer_temperature", "material_print_temperature_layer_0", Form::number},
@@ -238,8 +240,7 @@ inline constexpr auto other_rows = std::to_array<OtherRow>({
     OtherRow{"template_custom_gcode", "*", "only for changes of tool or colour within a print"},
     OtherRow{"retract_length_toolchange", "*", "only for changes of tool or colour within a print"},
     OtherRow{"retract_restart_extra_toolchange", "*", "only for changes of tool or colour within a print"},
-    OtherRow{"filament_cost", "*", "prices are not reckoned"},
-    OtherRow{"filament_spool_weight", "*", "prices are not reckoned"},
+    OtherRow{"filament_spool_weight", "*", "the spool is not weighed"},
     OtherRow{"perimeter_generator", "*", "weft has one generator of walls, which fills what these are about"},
     OtherRow{"wall_transition_filter_deviation", "*",
              "weft has one generator of walls, which fills what these are about"},

@@ -20,6 +20,7 @@ enum class Unit : std::uint8_t {
   layers,
   g_cm3,
   per_kg,
+  per_h,
   mm2,
   mm3
 };
@@ -33,7 +34,7 @@ inline constexpr std::array unit_names{
     UnitName{Unit::mm_s2, "mm/s²"}, UnitName{Unit::mm3_s, "mm³/s"},   UnitName{Unit::mm3_s2, "mm³/s²"},
     UnitName{Unit::degrees, "°"},   UnitName{Unit::celsius, "°C"},    UnitName{Unit::percent, "%"},
     UnitName{Unit::seconds, "s"},   UnitName{Unit::layers, "layers"}, UnitName{Unit::g_cm3, "g/cm³"},
-    UnitName{Unit::per_kg, "/kg"},  UnitName{Unit::mm2, "mm²"},       UnitName{Unit::mm3, "mm³"},
+    UnitName{Unit::per_kg, "/kg"}, UnitName{Unit::per_h, "/h"},  UnitName{Unit::mm2, "mm²"},       UnitName{Unit::mm3, "mm³"},
 };
 static_assert(
     [] {

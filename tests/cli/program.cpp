@@ -66,6 +66,7 @@ Scratch::~Scratch() {
   std::filesystem::remove_all(path_, ignored);
 }
 std::filesystem::path Scratch::write(const std::string& name, const std::string& bytes) const {
+  std::filesystem::create_directories((path_ / name).parent_path());
   std::ofstream(path_ / name, std::ios::binary) << bytes;
   return path_ / name;
 }

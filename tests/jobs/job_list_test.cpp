@@ -30,7 +30,8 @@ TEST_CASE("jobs: a line of JSON is a job, with paths relative to the list") {
   const auto& a = good.jobs[0];
   CHECK(a.where == "orders.jsonl:1");
   CHECK(a.models == std::vector<std::string>{"orders/m/part.stl", "/abs.stl"});
-  CHECK(a.profiles == std::vector<std::filesystem::path>{"orders/p.ini"});
+  CHECK(a.profiles == std::vector<std::filesystem::path>{"p.ini"});
+  CHECK(a.folder == "orders");
   CHECK(a.settings == std::vector<std::pair<std::string, std::string>>{{"layer_height", "0.2"}, {"bridges", "false"}});
   CHECK(a.output == "a.gcode");
   CHECK(a.placement.centre == Point{10'000, 20'500});
@@ -118,4 +119,30 @@ TEST_CASE("jobs: a CSV with an unknown column, a missing cell or an open quote i
   const auto list = csv("id,models\na,a.stl\nb\n");
   REQUIRE(list.errors.size() == 1);
   CHECK_THAT(list.errors[0].what(), Contains("orders.csv:3") && Contains("1 cells"));
+}
+
+TEST_CASE("job lists: free fields are kept as they stand, and a job has a time limit of its own") {
+  const auto list = jobs::read_jsonl(
+      R"({"id": "a", "models": ["a.stl"], "label": "Grün, 2nd", "priority": 3, "due": "2026-12-01", "x-rush": true, "timeout": 90})"
+      "\n"
+      R"({"id": "b", "models": ["a.stl"], "x-parts": [1, 2]})"
+      "\n"
+      R"({"id": "c", "models": ["a.stl"], "timeout": 0})"
+      "\n"
+      R"({"id": "d", "models": ["a.stl"], "x-": 1})",
+      "l.jsonl", {});
+  REQUIRE(list.jobs.size() == 1);
+  using Fields = std::vector<std::pair<std::string, std::string>>;
+  CHECK(list.jobs[0].free_fields ==
+        Fields{{"label", "\"Grün, 2nd\""}, {"priority", "3"}, {"due", "\"2026-12-01\""}, {"x-rush", "true"}});
+  CHECK(list.jobs[0].timeout_s == 90);
+  REQUIRE(list.errors.size() == 3);
+  CHECK_THAT(list.errors[0].what(), Contains("x-parts"));
+  CHECK_THAT(list.errors[1].what(), Contains("timeout"));
+  CHECK_THAT(list.errors[2].what(), Contains("unknown name 'x-'"));
+  const auto table = jobs::read_csv("id,models,label,x-rush,timeout\na,a.stl,\"one, two\",,5\n", "l.csv", {});
+  REQUIRE(table.errors.empty());
+  REQUIRE(table.jobs.size() == 1);
+  CHECK(table.jobs[0].free_fields == Fields{{"label", "\"one, two\""}});
+  CHECK(table.jobs[0].timeout_s == 5);
 }

@@ -24,6 +24,8 @@ constexpr auto choices_of(Firmware) {
 /// The printer: what it can reach, its nozzle, its limits.
 struct MachineSettings {
   std::string machine_name;
+  double machine_hourly_cost = 0;
+  std::string currency;
   BedShape bed_shape = BedShape::rectangle;
   Um machine_width = 220_mm;
   Um machine_depth = 220_mm;
@@ -54,6 +56,9 @@ struct MachineSettings {
 inline constexpr std::tuple machine_schema{
     setting("machine_name", &MachineSettings::machine_name, "Name of the printer, for comments and messages.",
             "printer_model"),
+    setting("machine_hourly_cost", &MachineSettings::machine_hourly_cost, Unit::per_h, 0, 1'000'000,
+            "What an hour of printing costs, in `currency`, for the cost in report and footer; 0: not reckoned."),
+    setting("currency", &MachineSettings::currency, "What prices are in, for reports: EUR, $, points."),
     setting("bed_shape", &MachineSettings::bed_shape, "Shape of the print surface."),
     setting("machine_width", &MachineSettings::machine_width, Unit::mm, 1_mm, 10000_mm,
             "Extent of the print surface along X."),

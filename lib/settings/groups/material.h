@@ -9,6 +9,7 @@ struct MaterialSettings {
   std::string material_type = "PLA";
   Um filament_diameter = 1.75_mm;
   double material_density = 1.24;
+  double filament_cost = 0;
   double material_flow = 100;
   double material_max_volumetric_speed = 12;
   int material_print_temperature = 210;
@@ -27,6 +28,9 @@ inline constexpr std::tuple material_schema{
             "Diameter of the filament.", "filament_diameter"),
     setting("material_density", &MaterialSettings::material_density, Unit::g_cm3, 0.1, 20,
             "Density, for the weight in the report.", "filament_density"),
+    setting("filament_cost", &MaterialSettings::filament_cost, Unit::per_kg, 0, 1'000'000,
+            "What a kilogram of the filament costs, in `currency`, for the cost in report and footer; 0: not reckoned.",
+            "filament_cost"),
     setting("material_flow", &MaterialSettings::material_flow, Unit::percent, 1, 300, "Multiplies every extrusion.",
             "extrusion_multiplier"),
     setting("material_max_volumetric_speed", &MaterialSettings::material_max_volumetric_speed, Unit::mm3_s, 0.1, 500,

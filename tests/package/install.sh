@@ -1,0 +1,31 @@
+#!/usr/bin/env bash
+# What `cmake --install` lays down, and that it works wherever it is moved to:  bash tests/package/install.sh CMAKE BUILD
+set -euo pipefail
+cmake=$1 build=$2
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+"$cmake" --install "$build" --prefix "$scratch/first" --component weft > "$scratch/log"
+mv "$scratch/first" "$scratch/moved" # the program finds its profiles from where it is
+weft=$scratch/moved/bin/weft
+failed=0
+check() { # NAME COMMAND...
+  local name=$1
+  shift
+  if "$@" > "$scratch/out" 2>&1; then echo "ok: $name"; else echo "FAILED: $name" >&2; cat "$scratch/out" >&2; failed=1; fi
+}
+cd "$scratch"
+unset WEFT_PROFILES
+for file in share/man/man1/weft.1 share/doc/weft/copyright share/doc/weft/LICENSE share/bash-completion/completions/weft \
+  share/zsh/vendor-completions/_weft share/fish/vendor_completions.d/weft.fish share/weft/profiles/printers/marlin-220.ini; do
+  check "$file is installed" test -s "moved/$file"
+done
+check "no header or archive is in the program's package" test -z "$(find moved -name '*.h' -o -name '*.a')"
+check "the bash completion is what the program prints" cmp <("$weft" completions bash) moved/share/bash-completion/completions/weft
+check "profiles are found by name" "$weft" slice "$root/examples/box.stl" -p marlin-220 -p pla -p standard -o box.gcode
+check "and listed" bash -c "'$weft' profile list | grep -q '^printers/marlin-220 '"
+# Every library that is compiled or linked in has its notice.
+for library in CGAL Clipper Boost Eigen fmt oneTBB nlohmann-json nettle zlib minizip expat libpng; do
+  check "the copyright file names $library" grep -q "third-party/$library" moved/share/doc/weft/copyright
+done
+exit $failed
