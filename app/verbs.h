@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+/// The verbs of the command line, one file each. Each takes the words behind its name.
 namespace weft::app {
 
 using Words = std::vector<std::string>;

@@ -1,8 +1,8 @@
 #include "mesh/read.h"
 
 #include "core/error.h"
-#include "core/hash.h"
 #include "core/file_bytes.h"
+#include "core/hash.h"
 #include "mesh/formats.h"
 #include "tasks/tasks.h"
 

@@ -1,6 +1,6 @@
+#include "core/file_bytes.h"
 #include "core/hash.h"
 #include "corpus.h"
-#include "core/file_bytes.h"
 #include "mesh/fixtures.h"
 #include "mesh/formats.h"
 #include "mesh/weld.h"
