@@ -6,6 +6,7 @@
 
 #include <boost/program_options/options_description.hpp>
 
+/// The verbs of the command line, one file each. Each takes the words behind its name.
 namespace weft::app {
 
 using Words = std::vector<std::string>;

@@ -2,8 +2,10 @@
 # What the house asks of its sources, beyond what compilers see:  bash tests/house.sh
 # No file above 500 lines, no function above 60 but those that tests/house.txt names with a reason, no marker of things
 # left undone, a line of licence at the top of each file, a word on every header, and the layout of .clang-format.
-# Needs universal-ctags and clang-format (Debian's; .ci/run installs them). Exit status: the number of kinds of faults.
+# Needs universal-ctags and clang-format (bash cmake/packages.sh universal-ctags clang-format). Run by hand: it still finds
+# lines of licence and functions to mend. Exit status: the number of kinds of faults.
 set -uo pipefail
+shopt -s lastpipe  # what `tell` counts at the end of a pipe counts here
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 mapfile -t sources < <(git ls-files '*.cpp' '*.h')
 mapfile -t ours < <(git ls-files 'lib/*.cpp' 'lib/*.h' 'app/*.cpp' 'app/*.h')
@@ -29,7 +31,8 @@ awk 'NR == FNR { allowed[$0] = 1; next } NF && !(($1 " " $2) in allowed)' <(echo
 awk 'NR == FNR { long[$1 " " $2] = 1; next } NF && !($0 in long)' <(echo "$long") <(echo "$allowed") |
   tell 'tests/house.txt names what is no longer above 60 lines'
 
-git grep -nIE '\b(TODO|FIXME|XXX|HACK)\b' -- lib app tests examples profiles ':!tests/house.sh' | tell 'markers'
+marker='TO''DO|FIX''ME|X''XX|HA''CK'  # in pieces, so that this line is none
+git grep -nIE "\b($marker)\b" -- lib app tests examples profiles | tell 'markers'
 
 for file in "${sources[@]}" $(git ls-files '*.sh' '*.py' '*.cmake' '*CMakeLists.txt' .ci/run); do
   head -n 3 "$file" | grep -q 'SPDX-License-Identifier: GPL-3.0-or-later' || echo "$file"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What is run before a capability is called done, beside .ci/run; an hour on two cores:  bash tests/thorough.sh
+# What takes too long for .ci/run, to be run before a capability is called done:  bash tests/thorough.sh
 #   - the thread sanitizer over what runs on several threads,
 #   - the same bytes from clang as from g++ (tests/jobs/compilers.sh),
 #   - each fuzzer for a minute (MINUTES=15 bash tests/thorough.sh: for as many).
