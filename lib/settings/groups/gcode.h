@@ -21,6 +21,13 @@ constexpr auto choices_of(CommentDialect) {
                     Choice<CommentDialect>{CommentDialect::orca, "orca"}};
 }
 
+/// What the pictures in the head of the file show.
+enum class ThumbnailContent { model, toolpaths };
+constexpr auto choices_of(ThumbnailContent) {
+  return std::array{Choice<ThumbnailContent>{ThumbnailContent::model, "model"},
+                    Choice<ThumbnailContent>{ThumbnailContent::toolpaths, "toolpaths"}};
+}
+
 /// What the file holds besides moves.
 struct GcodeSettings {
   bool relative_extrusion = true;
@@ -39,6 +46,7 @@ struct GcodeSettings {
   bool gcode_machine_limits = false;
   bool gcode_flow_comments = false;
   PictureSizes thumbnails = {{32, 32}, {300, 300}};
+  ThumbnailContent thumbnail_content = ThumbnailContent::model;
   std::string output_filename_format = "{input_filename_base}.gcode";
 };
 
@@ -83,6 +91,9 @@ inline constexpr std::tuple gcode_schema{
             "Moves of beads with flow compensation carry their ratio as a comment."),
     setting("thumbnails", Scope::plate, &GcodeSettings::thumbnails,
             "Sizes of the pictures of the plate in the head of the file, PNG; empty: none."),
+    setting("thumbnail_content", Scope::plate, &GcodeSettings::thumbnail_content,
+            "What these pictures show: model (the meshes) or toolpaths (the beads that are printed, with supports and "
+            "brim)."),
     setting("output_filename_format", Scope::plate, &GcodeSettings::output_filename_format,
             "Name of the file where no -o says one, with placeholders such as {layer_height}."),
 };
