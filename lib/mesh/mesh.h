@@ -17,6 +17,8 @@ using Triangle = std::array<std::uint32_t, 3>;
 struct Mesh {
   std::vector<Point3> vertices;
   std::vector<Triangle> triangles;
+  bool cut_through =
+      false;  ///< a shell that is inside out cuts through another: what runs clockwise adds nothing anywhere
   friend bool operator==(const Mesh&, const Mesh&) = default;
 };
 

@@ -142,7 +142,7 @@ bool cuts(const Mesh& mesh, const TrianglesByShell& triangles, const std::vector
 }
 
 /// Rule 4 of the header.
-void turn_parts_inside_out(const Mesh& mesh, const ShellForest& forest, std::vector<Shell>& shells) {
+void turn_parts_inside_out(Mesh& mesh, const ShellForest& forest, std::vector<Shell>& shells) {
   const auto faces_inward = [](const Shell& s) { return s.closed && !s.one_sided && s.facing() < 0; };
   if (std::none_of(shells.begin(), shells.end(), faces_inward)) return;
   std::vector<Box3> outward;
@@ -151,13 +151,17 @@ void turn_parts_inside_out(const Mesh& mesh, const ShellForest& forest, std::vec
   const BoxTree tree(std::move(outward));
   const TrianglesByShell triangles(forest, mesh.triangles.size(), shells.size());
   std::vector<std::uint8_t> hole(shells.size());  // looked at while all face as the file says
-  for (std::size_t s = 0; s < shells.size(); ++s)
-    hole[s] = faces_inward(shells[s]) && (tree.any_contains(shells[s].box) || cuts(mesh, triangles, shells, s));
+  for (std::size_t s = 0; s < shells.size(); ++s) {
+    if (!faces_inward(shells[s])) continue;
+    hole[s] = tree.any_contains(shells[s].box);
+    if (hole[s] || !cuts(mesh, triangles, shells, s)) continue;
+    hole[s] = mesh.cut_through = true;
+  }
   for (std::size_t s = 0; s < shells.size(); ++s)
     if (faces_inward(shells[s]) && !hole[s]) shells[s].invert = !shells[s].invert;
 }
 
-void decide(const Mesh& mesh, const ShellForest& forest, std::vector<Shell>& shells) {
+void decide(Mesh& mesh, const ShellForest& forest, std::vector<Shell>& shells) {
   double six_um3 = 0;
   for (Shell& shell : shells) {
     if (shell.one_sided) continue;

@@ -15,9 +15,9 @@ namespace weft::mesh {
 ///    hole if it cuts through one: both stay. Elsewhere it can only be a part that is inside out, and is turned.
 ///
 /// So what the file says is empty is never made solid. An inside-out part within the box of another stays too; slicing
-/// sees it as solid nevertheless. One-sided shells (Möbius) and open ones in rule 4 are left.
-/// Writes the counts flipped, inverted_shells, shells and one_sided_shells. Cost: linear, but for rule 4, where shells
-/// are looked for in a tree of boxes.
+/// sees it as solid nevertheless, unless some shell is a hole that cuts through another (`Mesh::cut_through`).
+/// One-sided shells (Möbius) and open ones in rule 4 are left. Writes the counts flipped, inverted_shells, shells and
+/// one_sided_shells. Cost: linear, but for rule 4, where shells are looked for in a tree of boxes.
 void orient(Mesh& mesh, Adjacency adjacency, Repairs& repairs);
 
 }  // namespace weft::mesh

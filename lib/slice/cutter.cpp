@@ -69,8 +69,10 @@ Cutter::Cutter(const Mesh& mesh, std::vector<Plane> planes) : mesh_(&mesh), plan
 namespace {
 
 /// What rings enclose: those that run clockwise are holes in the others, and no more than that where they reach beyond
-/// them; those that meet no other are parts that are inside out.
-Regions solid_of(std::vector<Ring> rings) {
+/// them. Those that meet no other are parts that are inside out, unless a shell of the mesh cuts through another: then
+/// they are where it leaves that one.
+Regions solid_of(std::vector<Ring> rings, bool cut_through) {
+  if (cut_through) return geometry::regions_from_rings(rings, geometry::WindingRule::positive);
   const auto hole = [](const Ring& ring) { return double_area(ring) < 0; };
   Regions any = geometry::regions_from_rings(rings);
   if (std::none_of(rings.begin(), rings.end(), hole)) return any;
@@ -99,7 +101,7 @@ Cut Cutter::cut(std::size_t i, Um resolution) const {
     stop.step();
     ring = geometry::simplified(ring, resolution);
   }
-  out.layer.regions = solid_of(std::move(chains.rings));
+  out.layer.regions = solid_of(std::move(chains.rings), mesh_->cut_through);
   return out;
 }
 

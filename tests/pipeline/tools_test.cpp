@@ -107,16 +107,19 @@ TEST_CASE("tools: a plan of two tools is written, passes the audit, and is read 
 }
 
 TEST_CASE("tools: each firmware is told in its own words, and the place is said again afterwards") {
-  CHECK_THAT(Printed(settings_for(Firmware::marlin2)).text, Contains("M104 T1 S190\nT0\nG0 X20 Y20 Z.2") &&
-                                                                Contains("M109 T1 S215\nT1\nG0 X20 Y40 Z.2") &&
-                                                                Contains("M0 lay the nut in\nG0 X20 Y40 Z.4"));
+  CHECK_THAT(Printed(settings_for(Firmware::marlin2)).text,
+             Contains("M104 T1 S190\nT0\nG0 X20 Y20 F9000\nG0 Z.2") &&
+                 Contains("M109 T1 S215\nT1\nG0 X20 Y40 F9000\nG0 Z.2") &&
+                 Contains("M0 lay the nut in\nG0 X20 Y40 F9000\nG0 Z.4"));
   CHECK_THAT(Printed(settings_for(Firmware::klipper)).text,
              Contains("M104 T1 S190\nACTIVATE_EXTRUDER EXTRUDER=extruder\n") &&
-                 Contains("M109 T1 S215\nACTIVATE_EXTRUDER EXTRUDER=extruder1\nG0 X20 Y40 Z.2") &&
-                 Contains("M117 lay the nut in\nPAUSE\nG0 X20 Y40 Z.4"));
-  CHECK_THAT(Printed(settings_for(Firmware::reprapfirmware)).text,
-             Contains("G10 P1 S190\n") && Contains("G10 P1 S215\nM116 P1\nT1\n") && Contains("M226\nG0 X20 Y40 Z.4"));
-  CHECK_THAT(Printed(settings_for(Firmware::repetier)).text, Contains("@pause lay the nut in\nG0 X20 Y40 Z.4"));
+                 Contains("M109 T1 S215\nACTIVATE_EXTRUDER EXTRUDER=extruder1\nG0 X20 Y40 F9000\nG0 Z.2") &&
+                 Contains("M117 lay the nut in\nPAUSE\nG0 X20 Y40 F9000\nG0 Z.4"));
+  CHECK_THAT(Printed(settings_for(Firmware::reprapfirmware)).text, Contains("G10 P1 S190\n") &&
+                                                                       Contains("G10 P1 S215\nM116 P1\nT1\n") &&
+                                                                       Contains("M226\nG0 X20 Y40 F9000\nG0 Z.4"));
+  CHECK_THAT(Printed(settings_for(Firmware::repetier)).text,
+             Contains("@pause lay the nut in\nG0 X20 Y40 F9000\nG0 Z.4"));
 }
 
 TEST_CASE("tools: a tool keeps what was drawn back of it, and one that comes new is not pushed forward") {
@@ -124,14 +127,14 @@ TEST_CASE("tools: a tool keeps what was drawn back of it, and one that comes new
   settings.gcode.relative_extrusion = true;
   const auto text = Printed(settings).text;
   // T0 is drawn back when it leaves; the Prime of T1 says nothing; T1 is drawn back for the pause, and pushed forward.
-  CHECK_THAT(text, Contains("G1 E-1 F2400\nM109 T1 S215\nT1\nG0 X20 Y40 Z.2 F9000\nG1 X40"));
-  CHECK_THAT(text, Contains("G1 E-1 F2400\nM0 lay the nut in\nG0 X20 Y40 Z.4 F9000\nG1 E1 F2400\n"));
+  CHECK_THAT(text, Contains("G1 E-1 F2400\nM109 T1 S215\nT1\nG0 X20 Y40 F9000\nG0 Z.2 F600\nG1 X40"));
+  CHECK_THAT(text, Contains("G1 E-1 F2400\nM0 lay the nut in\nG0 X20 Y40 F9000\nG0 Z.4 F600\nG1 E1 F2400\n"));
 }
 
 TEST_CASE("tools: with absolute E each tool counts from zero") {
   auto settings = settings_for(Firmware::marlin2);
   settings.gcode.relative_extrusion = false;
-  CHECK_THAT(Printed(settings).text, Contains("T1\nG92 E0\nG0 X20 Y40 Z.2"));
+  CHECK_THAT(Printed(settings).text, Contains("T1\nG92 E0\nG0 X20 Y40 F9000\nG0 Z.2"));
 }
 
 TEST_CASE("tools: tool_change_gcode knows from which tool to which, and may choose the tool itself") {
