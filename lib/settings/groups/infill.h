@@ -25,6 +25,7 @@ struct InfillSettings {
   LengthOrShare infill_overlap = share(15);
   bool infill_connect_lines = true;
   std::optional<Um> infill_sparse_thickness;
+  bool infill_support_enabled = false;
 };
 
 inline constexpr std::tuple infill_schema{
@@ -44,6 +45,8 @@ inline constexpr std::tuple infill_schema{
     setting("infill_sparse_thickness", Scope::object, &InfillSettings::infill_sparse_thickness, Unit::mm, 0.02_mm, 5_mm,
             "Height of sparse infill, printed every so many layers at once: as many as it holds; auto is layer_height. "
             "No more than nozzle_diameter."),
+    setting("infill_support_enabled", Scope::object, &InfillSettings::infill_support_enabled,
+            "Sparse infill only straight below what is solid above it; elsewhere the inside stays hollow."),
 };
 static_assert(complete<InfillSettings>(infill_schema));
 

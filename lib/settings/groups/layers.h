@@ -1,8 +1,22 @@
 #pragma once
 #include "settings/schema.h"
 
+#include <array>
+
 namespace weft {
 using namespace weft::literals;
+
+/// What of a cut through the model is inside.
+enum class SlicingMode {
+  regular,     ///< what any shell encloses
+  even_odd,    ///< what an odd number of outlines encloses
+  close_holes  ///< what any outline encloses: holes are filled
+};
+constexpr auto choices_of(SlicingMode) {
+  return std::array{Choice<SlicingMode>{SlicingMode::regular, "regular"},
+                    Choice<SlicingMode>{SlicingMode::even_odd, "even_odd"},
+                    Choice<SlicingMode>{SlicingMode::close_holes, "close_holes"}};
+}
 
 /// How the model is cut.
 struct LayerSettings {
@@ -10,6 +24,7 @@ struct LayerSettings {
   std::optional<Um> initial_layer_height;      ///< auto: layer_height
   std::optional<Um> initial_layer_line_width;  ///< auto: as in the other layers
   Um resolution = 0.0125_mm;
+  SlicingMode slicing_mode = SlicingMode::regular;
 };
 
 inline constexpr std::tuple layer_schema{
@@ -20,6 +35,9 @@ inline constexpr std::tuple layer_schema{
             5_mm, "Line width of everything in the first layer; auto is that of the other layers."),
     setting("resolution", Scope::object, &LayerSettings::resolution, Unit::mm, 0_mm, 1_mm,
             "How far a simplified outline may stand off the model's."),
+    setting("slicing_mode", Scope::object, &LayerSettings::slicing_mode,
+            "What of a cut is solid: regular, what any shell encloses; even_odd, what an odd number of outlines "
+            "encloses, for models made of shells within shells; close_holes, holes too."),
 };
 static_assert(complete<LayerSettings>(layer_schema));
 

@@ -11,6 +11,8 @@ struct MaterialSettings {
   double material_density = 1.24;
   double filament_cost = 0;
   double material_flow = 100;
+  double material_shrinkage_percentage_xy = 100;
+  double material_shrinkage_percentage_z = 100;
   double material_max_volumetric_speed = 12;
   int material_print_temperature = 210;
   std::optional<int> material_print_temperature_layer_0;
@@ -33,6 +35,11 @@ inline constexpr std::tuple material_schema{
         "What a kilogram of the filament costs, in `currency`, for the cost in report and footer; 0: not reckoned."),
     setting("material_flow", Scope::tool, &MaterialSettings::material_flow, Unit::percent, 1, 300,
             "Multiplies every extrusion."),
+    setting("material_shrinkage_percentage_xy", Scope::plate, &MaterialSettings::material_shrinkage_percentage_xy,
+            Unit::percent, 50, 200,
+            "Models are printed at this share of their size in X and Y, for a plastic that shrinks as it cools."),
+    setting("material_shrinkage_percentage_z", Scope::plate, &MaterialSettings::material_shrinkage_percentage_z,
+            Unit::percent, 50, 200, "The same in Z."),
     setting("material_max_volumetric_speed", Scope::tool, &MaterialSettings::material_max_volumetric_speed, Unit::mm3_s,
             0.1, 500, "What the hot end melts; speeds are lowered to stay below it."),
     setting("material_print_temperature", Scope::tool, &MaterialSettings::material_print_temperature, Unit::celsius, 0,

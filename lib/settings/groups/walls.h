@@ -49,6 +49,7 @@ struct WallSettings {
   double overlap_factor = 1;
   WallOrder wall_order = WallOrder::inside_out;
   bool alternate_extra_wall = false;
+  bool wall_extra_on_slopes = false;
   Um xy_offset = 0_mm;
   Um xy_offset_layer_0 = 0_mm;
   Um hole_xy_offset = 0_mm;
@@ -106,6 +107,9 @@ inline constexpr std::tuple wall_schema{
     setting("wall_order", Scope::region, &WallSettings::wall_order, "Which wall of a part is printed first."),
     setting("alternate_extra_wall", Scope::region, &WallSettings::alternate_extra_wall,
             "One more wall on every second layer."),
+    setting("wall_extra_on_slopes", Scope::region, &WallSettings::wall_extra_on_slopes,
+            "More walls where the layer above stands further in than the walls reach, so that its outer walls lie on "
+            "walls."),
     setting("xy_offset", Scope::object, &WallSettings::xy_offset, Unit::mm, -10_mm, 10_mm,
             "Moves all outlines outwards (a negative value inwards)."),
     setting("xy_offset_layer_0", Scope::object, &WallSettings::xy_offset_layer_0, Unit::mm, -10_mm, 10_mm,
