@@ -25,7 +25,8 @@ struct PlacedNotice {
 /// Walls of one layer.
 struct WallLayer {
   Beads beads;
-  Regions inside;  ///< what the walls leave for skin and infill, up to the inner edge of the innermost walls
+  Regions inside;    ///< what the walls leave for skin and infill, up to the inner edge of the innermost walls
+  Regions over_air;  ///< where nothing lies below, as the caller knows it
   std::vector<PlacedNotice> notices;
 };
 

@@ -16,14 +16,16 @@ inline constexpr auto fields<SlicedLayer> = listed(&SlicedLayer::z, &SlicedLayer
 template <>
 inline constexpr auto fields<PlacedNotice> = listed(&PlacedNotice::code, &PlacedNotice::message, &PlacedNotice::at);
 template <>
-inline constexpr auto fields<WallLayer> = listed(&WallLayer::beads, &WallLayer::inside, &WallLayer::notices);
+inline constexpr auto fields<WallLayer> = listed(&WallLayer::beads, &WallLayer::inside, &WallLayer::over_air,
+                                                 &WallLayer::notices);
 template <>
 inline constexpr auto fields<FillLayer> = listed(&FillLayer::beads, &FillLayer::notices);
 
 template <>
 inline constexpr auto fields<Extrude> = listed(&Extrude::path, &Extrude::role, &Extrude::tool, &Extrude::scope,
                                                &Extrude::height, &Extrude::speed_mm_s, &Extrude::segment_speed_mm_s,
-                                               &Extrude::acceleration_mm_s2, &Extrude::below);
+                                               &Extrude::acceleration_mm_s2, &Extrude::below, &Extrude::air_quarters,
+                                               &Extrude::loop_length);
 template <>
 inline constexpr auto fields<Travel> = listed(&Travel::path, &Travel::speed_mm_s, &Travel::crosses_wall,
                                               &Travel::z_speed_mm_s, &Travel::acceleration_mm_s2);

@@ -25,6 +25,10 @@ struct Extrude {
   /// Of a ramp: how far below the layer's z each junction lies, one a junction; else empty. Flow is the band's share
   /// that is laid there, so that volume is as for any bead. Such a bead is not resampled.
   std::vector<Um> below{};
+  /// Of walls: how much of the width lies over air, in quarters rounded up; 0 where it is less than a tenth.
+  std::uint8_t air_quarters = 0;
+  /// Of a piece that was cut out of a closed bead: the length of all of it; 0: the path is the whole bead.
+  Um loop_length = 0;
 };
 
 /// Where junction i of a bead lies, on a layer at z.

@@ -19,6 +19,8 @@ void Statistics::append(const Statistics& later) {
   walls.variable_width_mm += later.walls.variable_width_mm;
   walls.flow_compensated_mm += later.walls.flow_compensated_mm;
   walls.min_flow_ratio = std::min(walls.min_flow_ratio, later.walls.min_flow_ratio);
+  for (std::size_t i = 0; i < walls.over_air_mm.size(); ++i) walls.over_air_mm[i] += later.walls.over_air_mm[i];
+  walls.whole_over_air_mm += later.walls.whole_over_air_mm;
   walls.min_width = std::min(walls.min_width, later.walls.min_width);
   travel.mm += later.travel.mm;
   travel.s += later.travel.s;

@@ -19,7 +19,9 @@ struct Statistics {
     double variable_width_mm = 0;    ///< length along which a wall's width changes
     double flow_compensated_mm = 0;  ///< length printed with a flow ratio below 1
     double min_flow_ratio = 1;
-    Um min_width = max_coord;  ///< least line width of a wall; max_coord when there is none
+    Um min_width = max_coord;             ///< least line width of a wall; max_coord when there is none
+    std::array<double, 4> over_air_mm{};  ///< length with up to a quarter, a half … of the width over air
+    double whole_over_air_mm = 0;         ///< of the last of them: with all of it
   } walls;
 
   struct Travels {

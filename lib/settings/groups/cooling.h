@@ -13,6 +13,10 @@ struct CoolingSettings {
   int cool_fan_off_layers = 1;
   int cool_fan_full_layer = 4;
   double bridge_fan_speed = 100;
+  std::optional<double> overhang_fan_speed_25;
+  std::optional<double> overhang_fan_speed_50;
+  std::optional<double> overhang_fan_speed_75;
+  std::optional<double> overhang_fan_speed_100;
   double cool_min_layer_time_fan_speed_max = 30;
   double cool_min_layer_time = 5;
   double cool_min_speed = 10;
@@ -34,7 +38,17 @@ inline constexpr std::tuple cooling_schema{
     setting("cool_fan_full_layer", Scope::layer, &CoolingSettings::cool_fan_full_layer, Unit::layers, 0, 1000000,
             "Number of the layer, counted from 1, up to which the fan is raised step by step."),
     setting("bridge_fan_speed", Scope::region, &CoolingSettings::bridge_fan_speed, Unit::percent, 0, 100,
-            "Fan over bridges and overhangs, where it is more than the layer's."),
+            "Fan over bridges and walls over air, where it is more than the layer's."),
+    setting("overhang_fan_speed_25", Scope::region, &CoolingSettings::overhang_fan_speed_25, Unit::percent, 0, 100,
+            "Fan over walls that lie over air with a tenth to a quarter of their width, where it is more than the "
+            "layer's; auto: the layer's."),
+    setting("overhang_fan_speed_50", Scope::region, &CoolingSettings::overhang_fan_speed_50, Unit::percent, 0, 100,
+            "The same with a quarter to a half of their width."),
+    setting("overhang_fan_speed_75", Scope::region, &CoolingSettings::overhang_fan_speed_75, Unit::percent, 0, 100,
+            "The same with a half to three quarters of their width; auto: bridge_fan_speed."),
+    setting("overhang_fan_speed_100", Scope::region, &CoolingSettings::overhang_fan_speed_100, Unit::percent, 0, 100,
+            "The same with more than three quarters of their width; auto: bridge_fan_speed, which holds where all of "
+            "it lies over air."),
     setting("cool_min_layer_time_fan_speed_max", Scope::layer, &CoolingSettings::cool_min_layer_time_fan_speed_max,
             Unit::seconds, 0, 3600, "Layers faster than this get more than cool_fan_speed_min."),
     setting("cool_min_layer_time", Scope::layer, &CoolingSettings::cool_min_layer_time, Unit::seconds, 0, 3600,

@@ -36,7 +36,7 @@ struct ShellSettings {
   bool bridges = true;
   std::optional<double> bridge_angle;
   double bridge_flow = 100;
-  Um bridge_anchor = 1_mm;
+  Um bridge_anchor = 2_mm;
 };
 
 inline constexpr std::tuple shell_schema{

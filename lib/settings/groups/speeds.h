@@ -11,6 +11,10 @@ struct SpeedSettings {
   std::optional<SpeedOrShare> speed_small_perimeter = SpeedOrShare{50, true};
   Um small_perimeter_length = 20_mm;
   SpeedOrShare speed_overhang = {50, true};
+  SpeedOrShare speed_overhang_25 = {100, true};
+  SpeedOrShare speed_overhang_50 = {80, true};
+  SpeedOrShare speed_overhang_75 = {60, true};
+  SpeedOrShare speed_overhang_100 = {50, true};
   double speed_infill = 80;
   double speed_topbottom = 60;
   double speed_top_skin = 40;
@@ -46,7 +50,16 @@ inline constexpr std::tuple speed_schema{
     setting("small_perimeter_length", Scope::region, &SpeedSettings::small_perimeter_length, Unit::mm, 0_mm, 1000_mm,
             "Closed walls up to this length take speed_small_perimeter."),
     setting("speed_overhang", Scope::region, &SpeedSettings::speed_overhang, Unit::mm_s, 0.1, 5000,
-            "Speed of walls that overhang; a share is of speed_wall_0."),
+            "Speed of walls that lie over air with their whole width; a share is of speed_wall_0."),
+    setting("speed_overhang_25", Scope::region, &SpeedSettings::speed_overhang_25, Unit::mm_s, 0.1, 5000,
+            "Speed of walls that lie over air with a tenth to a quarter of their width; a share is of the wall's own "
+            "speed. No wall gets faster over air."),
+    setting("speed_overhang_50", Scope::region, &SpeedSettings::speed_overhang_50, Unit::mm_s, 0.1, 5000,
+            "The same with a quarter to a half of their width."),
+    setting("speed_overhang_75", Scope::region, &SpeedSettings::speed_overhang_75, Unit::mm_s, 0.1, 5000,
+            "The same with a half to three quarters of their width."),
+    setting("speed_overhang_100", Scope::region, &SpeedSettings::speed_overhang_100, Unit::mm_s, 0.1, 5000,
+            "The same with more than three quarters of their width; with all of it they take speed_overhang."),
     setting("speed_infill", Scope::region, &SpeedSettings::speed_infill, Unit::mm_s, 0.1, 5000,
             "Speed of sparse infill."),
     setting("speed_topbottom", Scope::region, &SpeedSettings::speed_topbottom, Unit::mm_s, 0.1, 5000,
