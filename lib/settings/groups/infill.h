@@ -26,6 +26,7 @@ struct InfillSettings {
   bool infill_connect_lines = true;
   std::optional<Um> infill_sparse_thickness;
   bool infill_support_enabled = false;
+  double infill_support_angle = 40;
 };
 
 inline constexpr std::tuple infill_schema{
@@ -46,7 +47,9 @@ inline constexpr std::tuple infill_schema{
             "Height of sparse infill, printed every so many layers at once: as many as it holds; auto is layer_height. "
             "No more than nozzle_diameter."),
     setting("infill_support_enabled", Scope::object, &InfillSettings::infill_support_enabled,
-            "Sparse infill only straight below what is solid above it; elsewhere the inside stays hollow."),
+            "Sparse infill only below what is solid and does not carry itself; elsewhere the inside stays hollow."),
+    setting("infill_support_angle", Scope::object, &InfillSettings::infill_support_angle, Unit::degrees, 0, 90,
+            "With infill_support_enabled: a shell that leans less than this from the vertical carries itself."),
 };
 static_assert(complete<InfillSettings>(infill_schema));
 
