@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "prusaslicer/custom.h"
+#include "prusaslicer/import_support.h"
 #include "prusaslicer/keys.h"
 #include "prusaslicer/lines.h"
 #include "prusaslicer/text.h"
@@ -33,6 +34,8 @@ class Translator {
     speeds();
     accelerations();
     fills();
+    import_support(lines_, {nozzle_, height_},
+                   [&](std::string_view key, std::string text, const IniEntry& e) { set(key, std::move(text), e); });
     seams();
     extrusion();
     cooling();

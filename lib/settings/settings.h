@@ -7,9 +7,11 @@
 #include "settings/groups/layers.h"
 #include "settings/groups/machine.h"
 #include "settings/groups/material.h"
+#include "settings/groups/raft.h"
 #include "settings/groups/retraction.h"
 #include "settings/groups/shells.h"
 #include "settings/groups/speeds.h"
+#include "settings/groups/support.h"
 #include "settings/groups/travel.h"
 #include "settings/groups/walls.h"
 
@@ -24,6 +26,8 @@ struct Settings {
   ShellSettings shells;
   InfillSettings infill;
   AdhesionSettings adhesion;
+  SupportSettings support;
+  RaftSettings raft;
   TravelSettings travel;
   RetractionSettings retraction;
   SpeedSettings speeds;
@@ -51,6 +55,8 @@ inline constexpr std::tuple sections{
     Section{"shells", &Settings::shells, shell_schema},
     Section{"infill", &Settings::infill, infill_schema},
     Section{"adhesion", &Settings::adhesion, adhesion_schema},
+    Section{"support", &Settings::support, support_schema},
+    Section{"raft", &Settings::raft, raft_schema},
     Section{"travel", &Settings::travel, travel_schema},
     Section{"retraction", &Settings::retraction, retraction_schema},
     Section{"speeds", &Settings::speeds, speed_schema},

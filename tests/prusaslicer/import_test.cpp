@@ -132,10 +132,10 @@ TEST_CASE("prusaslicer: filament G-code is laid between the printer's and the pr
 
 TEST_CASE("prusaslicer: what has no effect is listed when it would change the print, and only then") {
   const auto t = translated(
-      "support_material = 1\nironing = 0\nspiral_vase = 1\nperimeters = 2\nprinter_notes = mine\nno_such_key = "
+      "draft_shield = enabled\nironing = 0\nspiral_vase = 1\nperimeters = 2\nprinter_notes = mine\nno_such_key = "
       "1\nfilament_retract_length = nil\n");
   REQUIRE(t.unsupported.size() == 2);
-  CHECK(t.unsupported[0].key == "support_material");
+  CHECK(t.unsupported[0].key == "draft_shield");
   CHECK(t.unsupported[1].key == "spiral_vase");
   REQUIRE(t.unknown.size() == 1);
   CHECK(t.unknown[0].line == 6);

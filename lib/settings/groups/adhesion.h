@@ -14,6 +14,15 @@ constexpr auto choices_of(BrimLocation) {
                     Choice<BrimLocation>{BrimLocation::everywhere, "everywhere"}};
 }
 
+/// What holds the print to the bed. as_set: whatever skirt_line_count and brim_width ask for.
+enum class AdhesionType { as_set, none, skirt, brim, raft };
+constexpr auto choices_of(AdhesionType) {
+  return std::array{Choice<AdhesionType>{AdhesionType::as_set, "as_set"},
+                    Choice<AdhesionType>{AdhesionType::none, "none"},
+                    Choice<AdhesionType>{AdhesionType::skirt, "skirt"},
+                    Choice<AdhesionType>{AdhesionType::brim, "brim"}, Choice<AdhesionType>{AdhesionType::raft, "raft"}};
+}
+
 /// What happens to a skirt or brim that would leave the print surface.
 enum class AdhesionOutside { keep, clip };
 constexpr auto choices_of(AdhesionOutside) {
@@ -23,6 +32,7 @@ constexpr auto choices_of(AdhesionOutside) {
 
 /// What is printed around the parts on the bed.
 struct AdhesionSettings {
+  AdhesionType adhesion_type = AdhesionType::as_set;
   int skirt_line_count = 1;
   Um skirt_gap = 6_mm;
   int skirt_height = 1;
@@ -35,6 +45,9 @@ struct AdhesionSettings {
 };
 
 inline constexpr std::tuple adhesion_schema{
+    setting("adhesion_type", Scope::plate, &AdhesionSettings::adhesion_type,
+            "What holds the print to the bed: nothing, a skirt alone, a brim alone, a raft, or what skirt_line_count "
+            "and brim_width say."),
     setting("skirt_line_count", Scope::plate, &AdhesionSettings::skirt_line_count, Unit::none, 0, 1000,
             "Loops of the skirt around everything on the bed."),
     setting("skirt_gap", Scope::plate, &AdhesionSettings::skirt_gap, Unit::mm, 0_mm, 200_mm,

@@ -20,6 +20,8 @@ struct SpeedSettings {
   double speed_top_skin = 40;
   double speed_bridge = 30;
   double speed_gap_fill = 30;
+  double speed_support_infill = 60;
+  double speed_support_interface = 40;
   std::optional<double> skirt_brim_speed;
   double speed_travel = 150;
   double speed_z_hop = 10;
@@ -70,6 +72,10 @@ inline constexpr std::tuple speed_schema{
             "Speed of strands over air."),
     setting("speed_gap_fill", Scope::region, &SpeedSettings::speed_gap_fill, Unit::mm_s, 0.1, 5000,
             "Speed of what fills gaps between walls."),
+    setting("speed_support_infill", Scope::region, &SpeedSettings::speed_support_infill, Unit::mm_s, 0.1, 5000,
+            "Speed of support, and of all but the surface of a raft."),
+    setting("speed_support_interface", Scope::region, &SpeedSettings::speed_support_interface, Unit::mm_s, 0.1, 5000,
+            "Speed of the interfaces of support, and of the surface of a raft."),
     setting("skirt_brim_speed", Scope::plate, &SpeedSettings::skirt_brim_speed, Unit::mm_s, 0.1, 5000,
             "Speed of skirt and brim; auto: speed_wall_0, on the first layer speed_layer_0."),
     setting("speed_travel", Scope::layer, &SpeedSettings::speed_travel, Unit::mm_s, 0.1, 5000, "Speed of travels."),
