@@ -169,6 +169,26 @@ void check_files(Command& command, Result result) {
                            option == "output" && result == Result::profile);
 }
 
+/// How much is said, and in which form.
+ConsoleOptions console_options(const po::variables_map& o) {
+  ConsoleOptions console;
+  console.verbosity = o["quiet"].as<bool>()     ? Verbosity::quiet
+                      : o["verbose"].as<bool>() ? Verbosity::detail
+                                                : Verbosity::normal;
+  if (o.count("loglevel")) {
+    const int level = o["loglevel"].as<int>();
+    if (level < 0 || level > 5)
+      throw Error{Error::Kind::usage, fmt::format("{} is outside 0 … 5", level), "--loglevel"};
+    console.verbosity = level <= 1 ? Verbosity::quiet : level >= 4 ? Verbosity::detail : console.verbosity;
+  }
+  console.format = choice<LogFormat>("--log-format", o["log-format"].as<std::string>(),
+                                     {{"text", LogFormat::text}, {"json", LogFormat::json}});
+  console.progress = choice<ProgressMode>(
+      "--progress", o["progress"].as<std::string>(),
+      {{"auto", ProgressMode::automatic}, {"always", ProgressMode::always}, {"never", ProgressMode::never}});
+  return console;
+}
+
 }  // namespace
 
 Command parse_command(const std::vector<std::string>& words, const po::options_description& verb_options,
@@ -222,22 +242,7 @@ Command parse_command(const std::vector<std::string>& words, const po::options_d
   if (o.count("preset"))
     for (const auto& text : o["preset"].as<std::vector<std::string>>()) take_preset(command.import.presets, text);
   command.help = o["help"].as<bool>();
-  command.console.verbosity = o["quiet"].as<bool>()     ? Verbosity::quiet
-                              : o["verbose"].as<bool>() ? Verbosity::detail
-                                                        : Verbosity::normal;
-  if (o.count("loglevel")) {
-    const int level = o["loglevel"].as<int>();
-    if (level < 0 || level > 5)
-      throw Error{Error::Kind::usage, fmt::format("{} is outside 0 … 5", level), "--loglevel"};
-    command.console.verbosity = level <= 1   ? Verbosity::quiet
-                                : level >= 4 ? Verbosity::detail
-                                             : command.console.verbosity;
-  }
-  command.console.format = choice<LogFormat>("--log-format", o["log-format"].as<std::string>(),
-                                             {{"text", LogFormat::text}, {"json", LogFormat::json}});
-  command.console.progress = choice<ProgressMode>(
-      "--progress", o["progress"].as<std::string>(),
-      {{"auto", ProgressMode::automatic}, {"always", ProgressMode::always}, {"never", ProgressMode::never}});
+  command.console = console_options(o);
   if (!command.help) check_files(command, result);
   return command;
 }
