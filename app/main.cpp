@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "built_commit.h"
 #include "built_with.h"
 #include "command.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "audit/audit.h"
 #include "command.h"
 #include "core/file_bytes.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Memory for small things: operator new and delete of the program.
 ///
 /// A layer takes and frees some ten thousand pieces of up to 200 bytes: points of a clipper, vertices of a line. Here

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "command.h"
 #include "core/file_bytes.h"
 #include "core/hash.h"

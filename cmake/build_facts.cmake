@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # weft_build_facts(TARGET): build_facts.h, which says of what the program was built: the commit, looked up at each build,
 # and the libraries. Outside a checkout there is no commit. Run as a script it writes the commit, where it has changed.
 if(CMAKE_SCRIPT_MODE_FILE)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # weft_catalogues(TARGET po-file...): compiles gettext catalogues and builds their bytes into the target, so that labels
 # need neither a locale of the system nor a folder beside the program. Run as a script it writes the C++ of one of them.
 if(CMAKE_SCRIPT_MODE_FILE)

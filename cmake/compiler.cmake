@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # One place for what every target of weft is compiled with.
 
 add_library(weft_options INTERFACE)

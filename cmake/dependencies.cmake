@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Every library weft stands on, all from Debian packages; which module uses which stands in lib/CMakeLists.txt.
 find_package(fmt REQUIRED)
 find_package(TBB REQUIRED)

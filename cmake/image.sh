@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # A container image of weft out of Debian packages, without a base image:  bash cmake/image.sh [BUILD] [OUT]
 #   BUILD   a built tree (build/release); its package is made with cpack
 #   OUT     where the image goes (weft-image.tar)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # `cmake --install`, and the two packages of `cpack -G DEB`: weft is the program, its profiles, manual and completions;
 # weft-dev (the component dev) the library for programs that embed it. What names no component is of weft.
 include(CMakePackageConfigHelpers)

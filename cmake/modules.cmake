@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # weft_module(NAME [ONCE] [USES module...] [PUBLIC lib...] [PRIVATE lib...])
 #
 # A module is a folder of lib/ and the library made of the .cpp files in it and in folders of it. USES names the modules whose headers it may

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What weft is built with: Debian 12 packages, and nothing from anywhere else. Installs those that are missing; when none is
 # missing it touches neither network nor package manager. Packages named as arguments are wanted besides. Elsewhere (no dpkg): cmake names the library that it cannot find.
 set -euo pipefail

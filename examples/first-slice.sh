@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # From nothing to a first print: installs what is missing (Debian 12), builds weft, slices the bracket and draws a layer of it.
 #   bash examples/first-slice.sh [PRINTER.ini] [OUTPUT_FOLDER]
 set -euo pipefail

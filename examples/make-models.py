@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Makes the example models: box.stl, bracket.stl, calibration-tower.stl, beside this script.
 
 Each is one closed surface, outward oriented: the script checks it before it writes. All coordinates are whole microns

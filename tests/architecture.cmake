@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Checks every #include of lib/ and app/ against the module table (lib/CMakeLists.txt and app/CMakeLists.txt, written to
 # MODULES while configuring, a line `module:uses:public libraries:private libraries`):
 # a module includes what its row names and nothing else, and its row names nothing that it does not include.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What the house asks of its sources, beyond what compilers see:  bash tests/house.sh
 # No file above 500 lines, no function above 60 but those that tests/house.txt names with a reason, no marker of things
 # left undone, a line of licence at the top of each file, a word on every header, and the layout of .clang-format.

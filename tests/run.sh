@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Builds weft and runs every test:  bash tests/run.sh [PRESET] [CTEST OPTION]...
 # PRESET is one of CMakePresets.json: release (default), dev, asan, tsan.
 set -euo pipefail

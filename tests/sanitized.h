@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 /// Whether a sanitizer watches this program: it reserves and keeps memory of its own, so limits on memory tell nothing.

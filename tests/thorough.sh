@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What takes too long for .ci/run, to be run before a capability is called done:  bash tests/thorough.sh
 #   - the thread sanitizer over what runs on several threads,
 #   - the same bytes from clang as from g++ (tests/jobs/compilers.sh),

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # A list over machines that are reached by ssh, and have weft and a common folder:
 #   bash gnu-parallel.sh orders.jsonl results node1 node2 node3
 # GNU parallel (Debian: parallel) gives each share to the next free machine and tries one that failed to answer once more.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Hands each finished file of a batch to Moonraker (Mainsail, Fluidd):
 #   MOONRAKER=http://voron.local:7125 weft batch orders.jsonl -p my.ini -o results --exec 'bash moonraker.sh'
 # An order with "x-printer": "http://other.local:7125" goes there; MOONRAKER_PRINT=true queues it to be printed.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Hands each finished file of a batch to OctoPrint:
 #   OCTOPRINT=http://octopi.local OCTOPRINT_KEY=... weft batch orders.jsonl -p my.ini -o results --exec 'bash octoprint.sh'
 # An order with "x-printer": "http://other.local" goes there; OCTOPRINT_PRINT=true starts it at once.

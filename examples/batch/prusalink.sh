@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Hands each finished file of a batch to PrusaLink (MK4, XL, MINI and others):
 #   PRUSALINK=http://192.168.1.20 PRUSALINK_KEY=... weft batch orders.jsonl -p prusa-mk4 -o results --exec 'bash prusalink.sh'
 # An order with "x-printer": "http://192.168.1.21" goes there; PRUSALINK_PRINT=1 starts it when the printer is ready.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The table of commands: what each does to the nozzle and to what coordinates mean.
 #include "audit/reader.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Curves: arcs in any plane, and splines.
 #include "audit/reader.h"
 

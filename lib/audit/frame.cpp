@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What commands other than moves do to where the next move goes.
 #include "audit/reader.h"
 #include "audit/scan.h"

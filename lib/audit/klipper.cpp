@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "audit/klipper.h"
 
 #include "audit/scan.h"

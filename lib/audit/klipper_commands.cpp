@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Klipper's extended commands: what they do to where the next move goes.
 #include "audit/klipper.h"
 #include "audit/reader.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // From words to motions: where a move leads, and whether that is known.
 #include "audit/reader.h"
 #include "audit/scan.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The audit's findings in words.
 #include "audit/audit.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 /// std::visit with one overload a kind and no `auto` among them: a kind that nobody thought of is a compile error.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "gcode/custom_code.h"
 
 #include "core/escape.h"

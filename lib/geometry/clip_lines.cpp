@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/clip_lines.h"
 
 #include "core/stop.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The outline is proven simple before CGAL sees it; its own checks cost a third of the time and cannot fail then.
 #define CGAL_NDEBUG 1

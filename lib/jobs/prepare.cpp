@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/prepare.h"
 
 #include "gcode/writer.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/join.h"
 #include "jobs/job_list.h"
 #include "profile/profile.h"

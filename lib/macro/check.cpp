@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What is wrong with a program whatever the values are: unknown names, functions called wrongly, patterns that are
 // none.
 #include "core/join.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The text that a program gives.
 #include "macro/functions.h"
 #include "macro/macro.h"

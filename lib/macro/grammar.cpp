@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The grammar of expressions and statements: the only file that sees Boost.Spirit, which takes long to compile.
 #include "macro/program.h"
 

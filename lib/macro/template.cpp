@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // From text to statements: what stands outside braces, and how branches hang together.
 #include "core/error.h"
 #include "macro/macro.h"

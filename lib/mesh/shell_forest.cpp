@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/shell_forest.h"
 
 #include "tasks/blocks.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/boolean.h"
 #include "infill/infill.h"
 #include "infill/shells.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/write_gcode.h"
 
 #include "pipeline/write_file.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "audit/reader.h"
 #include "model/flow.h"
 #include "preview/toolpaths.h"

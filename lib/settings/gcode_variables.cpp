@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "settings/gcode_variables.h"
 
 #include "settings/value.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "travel/seam.h"
 
 #include "travel/box_tree.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "walls/beading.h"
 #include "walls/skeleton.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What runs into corners and what does not.
 #include "core/stop.h"
 #include "walls/planner.h"

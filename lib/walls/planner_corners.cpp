@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How beads turn back in corners.
 #include "core/stop.h"
 #include "walls/planner.h"

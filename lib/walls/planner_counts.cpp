@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How many beads lie side by side along the core.
 #include "core/stop.h"
 #include "walls/planner.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Small places where thick arms meet: the walls pass, and one bead in their middle fills what they leave.
 #include "walls/planner.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How one count of beads passes into another, and where the beads of the core lie.
 #include "walls/planner.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How walls get narrower where they bend around a sharp corner.
 #include "walls/planner.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "adhesion/adhesion.h"
 
 #include "adhesion/loops.h"

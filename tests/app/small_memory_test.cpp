@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // This program is linked with app/small_memory.cpp: whatever is new here is its, but where a sanitizer watches, which
 // has operators of its own. There it is reached by name, so that the sanitizer sees what it does.
 #include "app/small_memory.h"

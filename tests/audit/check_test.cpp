@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The door that G-code leaves through: verdicts, annotations, and the type that proves them.
 #include "audit/audit_fixture.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What weft's dialects write beside moves: no such command may make the audit lose the nozzle.
 #include "audit/audit_fixture.h"
 

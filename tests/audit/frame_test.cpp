@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What moves the frame of reference is followed, or the verdict says from which line on moves are not audited.
 #include "audit/audit_fixture.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Klipper's commands, read to the letter: one line must not blind the audit.
 #include "audit/klipper.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the audit's reader makes of commands, dialects and damaged files.
 #include "audit/audit_fixture.h"
 #include "audit/scan.h"

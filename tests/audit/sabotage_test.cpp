@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Good G-code is spoiled in one place: found on that line. Changed where it does not matter: nothing is found.
 #include "audit/audit_fixture.h"
 

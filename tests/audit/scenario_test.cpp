@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The scenarios that the boundary audit must hold, and the motions and volumes they are made of.
 #include "audit/audit_fixture.h"
 

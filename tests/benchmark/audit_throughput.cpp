@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How fast the boundary audit reads: `benchmark_audit FILE.gcode [MEGABYTES]` repeats the file to that size (500) in
 // memory, audits it on one core, and says megabytes and moves a second. Without a file it writes an ordinary print of
 // its own.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Times weft beside the slicers that Debian packages, on the same models at comparable settings.
 
     python3 tests/benchmark/compare.py --weft build/release/app/weft [--runs 5] [--peers prusa,cura,slic3r] [MODEL.stl ...]

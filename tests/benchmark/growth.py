@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """How weft's time and memory grow with its input, on generated series: triangles, islands, layers, vertices of an outline.
 
     python3 tests/benchmark/growth.py --weft build/release/app/weft [--runs 3] [--plot growth.svg]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Slices one model with PrusaSlicer and with weft from the same ini, once a key, and puts what each key did side by side.
 
 usage: keys_beside_prusaslicer.py --weft PROGRAM [--only KEY...]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Measures walls of variable width on polygons filled by walls alone, beside PrusaSlicer's Arachne and classic walls.
 
     shapes.py run --weft BINARY [--shapes FOLDER] [--tools FOLDER] [--work FOLDER] [-o RUN.json] [NAME ...]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What each stage costs a unit of its work, on one core, with the settings of the profiles given:
 //   benchmark_stages MODEL [PROFILE.ini]... [--benchmark_filter=walls]
 // `each` is what one costs of what the stage's cost grows with: triangles, vertices of outlines, beads, junctions,

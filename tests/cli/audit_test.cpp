@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The scenarios of the boundary audit as users meet them, in both verdicts.
 #include "cli/program.h"
 

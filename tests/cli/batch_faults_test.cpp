@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What goes wrong in one job of a batch, or around it, is that job's: its neighbours are, byte for byte, what they are
 // without it, and what is recorded is true.
 #include "cli/program.h"

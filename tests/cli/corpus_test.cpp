@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Real models as a farm slices them: audited, reproducible, and what the file says of itself is true.
 #include "corpus.h"
 

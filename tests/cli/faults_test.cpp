@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a farm's machines do to a job: full disks, readers that go away, limits, signals, files that change. The status
 // says what happened, the message where, and nothing half-written is left.
 #include "cli/program.h"

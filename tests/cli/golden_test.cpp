@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Golden G-code: small models whose every move is known, so that a change of what is printed is seen as what it is.
 // WEFT_GOLDEN=write test_cli "golden*" writes the files anew; read the difference before you commit it.
 #include "program.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // No file that is read is written, and none is written twice: whatever the paths are called.
 #include "cli/program.h"
 

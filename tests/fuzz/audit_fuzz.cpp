@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // libFuzzer target for the audit's reader: any bytes, against a rectangular, a round and a concave machine. Beyond
 // crashes, hangs and leaks it checks that the pieces a file arrives in do not matter, and that annotating keeps every
 // byte.

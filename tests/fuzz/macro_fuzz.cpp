@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // libFuzzer target for the macro language of custom G-code: texts of one print, parted by bytes of 1, that share their
 // globals; and each as a condition. What is wrong is refused with an Error that names settings; what is taken gives the
 // same twice, and no text that a few lines can make fills the memory.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // libFuzzer target for everything that reads models: any bytes, in the format that their content says. What is not a
 // model is refused with an Error; what is read keeps the promises of Mesh, and gives the same twice, an OBJ also in
 // pieces.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Runs a fuzz target without libFuzzer: over its seeds and over seeded mutations of them, so that every build tests
 // what the fuzzers look for:  replay_NAME RUNS FOLDER-OR-FILE...
 #include <algorithm>

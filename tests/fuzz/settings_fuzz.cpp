@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // libFuzzer target for everything that reads settings: ini text of weft's own, configurations and bundles of
 // PrusaSlicer's family, G-code that holds one in its comments, and custom G-code. What is wrong is refused with an
 // Error that names settings; what is taken can be written out and read again to the same settings.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // libFuzzer target for the stages between slices and G-code: random rings, a few layers of them, through walls, shells,
 // infill, travel, motion, writer and audit at random settings. No stage throws; every G-code is read by the audit to
 // its last line, and the same input gives the same bytes.

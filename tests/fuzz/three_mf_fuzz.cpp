@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // libFuzzer target for what is inside a 3MF: the XML of its parts, which no fuzzer reaches through a packed archive
 // with check sums. The bytes are the model part, then, each after a byte of 1, a second model part and the
 // relationships; they are put in an archive unpacked. What fuzz_mesh promises holds here as well.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What print servers look for in the comments, by the patterns that they publish.
 #include "gcode/writer.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The segment Delaunay graph that is grown by a way of our own, against the one that CGAL grows from the same sites.
 #include "geometry/segment_graph.h"
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The page of weft sweep in a real browser:  bash tests/jobs/browser.sh WEFT [SCREENSHOT.png]
 # Looks at what its script has built, with the network cut off. Status 77: skipped, no chromium (Debian: apt-get install chromium).
 set -euo pipefail

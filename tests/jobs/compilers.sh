@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The bytes do not depend on the compiler:  bash tests/jobs/compilers.sh WEFT [OTHER]
 # OTHER is weft of the same sources from another compiler: build/clang/app/weft by default, which is made by
 #   cmake --preset clang && cmake --build --preset clang --target weft_app

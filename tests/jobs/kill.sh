@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # weft batch under hard conditions:  bash tests/jobs/kill.sh WEFT [SEED]
 # Killed at 20 seeded moments and resumed; two processes on one cache; a full disk; damaged cache entries. What there is at the
 # end must be, byte for byte, what an undisturbed run makes. The full disk takes root (a small tmpfs), else that part is skipped.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Small stand-ins for OctoPrint, Moonraker and PrusaLink on the loopback: what they ask of an upload, and no more.
 
   print_servers.py FOLDER      prints the port, then serves until it is killed

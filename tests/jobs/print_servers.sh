@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The recipes of examples/batch that upload, against stand-ins for the servers:  bash tests/jobs/print_servers.sh WEFT
 # Status 77: skipped, python3 or curl is not there.
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # A real Slurm on this machine runs an array of 20 shares: one job of the list fails, one share is killed in the middle and
 # requeued, and everything is there at the end.
 #   bash tests/jobs/slurm.sh WEFT [--install]      as root; --install fetches Debian's slurm-wlm and munge when they are missing

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The macro language against PrusaSlicer itself: the expressions of tests/data/macro in the start G-code of one profile,
 sliced by both programs; the text must be the same. Without prusa-slicer the test is skipped, loudly (status 77).
 

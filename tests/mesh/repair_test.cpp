@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/box_tree.h"
 #include "mesh/fixtures.h"
 #include "source.h"

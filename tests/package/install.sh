@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What `cmake --install` lays down, and that it works wherever it is moved to:  bash tests/package/install.sh CMAKE BUILD
 set -euo pipefail
 cmake=$1 build=$2

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A plan of two tools made by hand, on its way through motion, codec, writer and audit.
 #include "audit/audit.h"
 #include "audit/reader.h"

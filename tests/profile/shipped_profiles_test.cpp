@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "profile/profile.h"
 #include "profile/rules.h"
 #include "settings/groups/machine.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Has tasks of parallel_map write to one variable: the thread sanitizer must see it, or its silence about the rest of
 // weft says nothing.
 #include "tasks/parallel.h"

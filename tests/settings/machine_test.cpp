@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "settings/groups/machine.h"
 
 #include "core/error.h"

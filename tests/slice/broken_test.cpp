@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Meshes broken in every way that exports break them, with the area that a person would expect of each layer.
 #include "mesh/repair.h"
 #include "mesh/weld.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a failed geometry test leaves behind (tests/picture.h).
 #include "picture.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The pictures of lib/walls/README.md, drawn by the steps they show. WEFT_PICTURES=write test_walls "walls: the
 // pictures*" draws them anew.
 #include "geometry/medial_axis.h"
