@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "audit_report.h"
 #include "command.h"
+#include "limited.h"
 #include "pipeline/profile_file.h"
 #include "verbs.h"
 
@@ -86,6 +87,7 @@ po::options_description audit_options() {
       "format", po::value<std::string>()->value_name("json|junit")->default_value("json"), "form of the report")(
       "commands", po::bool_switch(),
       "says of each G- and M-code that moves the nozzle or changes what coordinates mean what the audit does with it");
+  add_limit_options(out);
   return out;
 }
 
@@ -115,7 +117,8 @@ int audit_verb(const Words& words) {
       jobs.push_back({file, &printer.settings});
       entries.push_back({file, printer.name, {}});
     }
-  auto outcomes = audit_files(jobs, command.threads);
+  std::vector<AuditOutcome> outcomes;
+  within_limits(command, [&] { outcomes = audit_files(jobs, command.threads); });
   for (std::size_t i = 0; i < entries.size(); ++i) {
     entries[i].outcome = std::move(outcomes[i]);
     tell(console, entries[i], printers.size() > 1);

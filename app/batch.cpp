@@ -87,9 +87,9 @@ int collect_only(Console& console, const std::vector<jobs::Prepared>& jobs, cons
   jobs::write_summaries(collected, options.folder, suffix);
   for (const auto& entry : collected.entries) {
     if (!entry.record)
-      console.warning({"job_missing", fmt::format("{} ({}): was not run", entry.line.id, entry.line.where)});
+      console.failure({"job_missing", fmt::format("{} ({}): was not run", entry.line.id, entry.line.where)});
     else if (!entry.ok())
-      console.warning({"job_failed", fmt::format("{} ({}): {}; status {}", entry.line.id, entry.line.where,
+      console.failure({"job_failed", fmt::format("{} ({}): {}; status {}", entry.line.id, entry.line.where,
                                                  entry.record->error, entry.record->exit_status)});
   }
   console.info(fmt::format("{} jobs: {} there, {} failed, {} not run", collected.entries.size(), collected.ok,

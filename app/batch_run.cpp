@@ -4,6 +4,7 @@
 #include "core/figures.h"
 #include "core/version.h"
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 
@@ -51,7 +52,7 @@ void tell(Console& console, const jobs::JobLine& line, jobs::Fate fate, const jo
     case jobs::Fate::unchanged:
       return console.detail(fmt::format("{}: unchanged", line.id));
     case jobs::Fate::failed:
-      return console.warning({"job_failed", fmt::format("{} ({}): {}; status {}", line.id, line.where, outcome.error,
+      return console.failure({"job_failed", fmt::format("{} ({}): {}; status {}", line.id, line.where, outcome.error,
                                                         outcome.exit_status)});
     case jobs::Fate::not_run:
       break;
@@ -71,6 +72,16 @@ void check_files(const std::vector<jobs::Prepared>& jobs, const Command& command
   for (const auto& job : jobs)
     noted(job, [&] {
       for (const auto& path : job.read) files.reads(path.string());
+    });
+  std::error_code unknown;
+  auto whole = fs::weakly_canonical(*command.output, unknown);
+  if (!whole.has_filename()) whole = whole.parent_path();  // "out/"
+  for (const auto& job : jobs)
+    noted(job, [&] {
+      const auto path = fs::weakly_canonical(fs::path(*command.output) / job.line.output, unknown);
+      if (unknown || std::mismatch(whole.begin(), whole.end(), path.begin(), path.end()).first != whole.end())
+        throw Error{Error::Kind::usage, fmt::format("{} leads out of the folder of the results", job.line.output),
+                    "output", "a symbolic link is in its way"};
     });
   for (const auto& job : jobs)
     noted(job, [&] { files.writes((fs::path(*command.output) / job.line.output).string(), "output"); });

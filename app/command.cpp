@@ -18,6 +18,7 @@
 #include <sstream>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 namespace po = boost::program_options;
 
@@ -168,6 +169,8 @@ void check_files(Command& command, Result result) {
     if (command.options.count(option))
       command.files.writes(command.options[option].as<std::string>(), option == "output" ? "-o" : "--" + option,
                            option == "output" && result == Result::profile);
+  for (const auto* option : {"report", "preview"})
+    if (command.options.count(option)) check_writable(command.options[option].as<std::string>());
 }
 
 /// How much is said, and in which form.
@@ -277,6 +280,20 @@ Point parse_point(const std::string& text, const std::string& option) {
   if (point.size() != 1)
     throw Error{Error::Kind::usage, fmt::format("'{}' is not X,Y in mm", text), option, "as in " + option + " 110,110"};
   return point.front();
+}
+
+void check_writable(const std::string& destination) {
+  if (destination == "-") return;
+  namespace fs = std::filesystem;
+  std::error_code unknown;
+  const auto target = followed(destination);
+  const auto folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  if (fs::is_directory(target, unknown))
+    throw Error{Error::Kind::file, "is a folder", destination, "name a file in it"};
+  const bool replaced = fs::is_regular_file(target, unknown) || !fs::exists(target, unknown);  // by its neighbour
+  if (::access(replaced ? folder.c_str() : target.c_str(), W_OK) != 0)
+    throw Error{Error::Kind::file, fmt::format("cannot be written ({})", std::strerror(errno)), destination,
+                errno == ENOENT ? "does the folder exist?" : "check the path and its permissions"};
 }
 
 void write_output(const std::string& destination, std::string_view text) {

@@ -51,6 +51,9 @@ Profile resolve(const Command& command);
 /// Two numbers separated by a comma, mm. @throws Error{usage}
 Point parse_point(const std::string& text, const std::string& option);
 
+/// What is known to be in the way of writing there is told before the work, not after it. @throws Error{file}
+void check_writable(const std::string& destination);
+
 /// Writes a report or a picture where the user wants it: a path (through a neighbour that is renamed when complete), or
 /// "-". G-code goes through pipeline/write_gcode.h.
 /// @throws Error{file}

@@ -13,6 +13,23 @@
 namespace weft::app {
 namespace {
 
+/// A message on one line that does nothing to a terminal: control characters, of ASCII and of C1, are written as \xNN.
+std::string one_line(std::string_view message) {
+  std::string out;
+  out.reserve(message.size());
+  for (std::size_t i = 0; i < message.size(); ++i) {
+    const auto c = static_cast<unsigned char>(message[i]);
+    const auto next = i + 1 < message.size() ? static_cast<unsigned char>(message[i + 1]) : 0;
+    if (c < 0x20 || c == 0x7F)
+      out += fmt::format("\\x{:02x}", c);
+    else if (c == 0xC2 && next >= 0x80 && next < 0xA0)
+      out += fmt::format("\\x{:02x}", next), ++i;
+    else
+      out += message[i];
+  }
+  return out;
+}
+
 /// To standard error, in one go. A message that cannot be told, because whoever listened has gone or the disk is full,
 /// is lost: it changes nothing of the work, nor of what it ends with.
 template <class... Args>
@@ -56,9 +73,9 @@ void Console::log(std::string_view level, std::string_view message, std::string_
     line["message"] = message;
     say("{}\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   } else if (level == "info" || level == "debug") {
-    say("weft: {}\n", message);
+    say("weft: {}\n", one_line(message));
   } else {
-    say("weft: {}: {}\n", level, message);
+    say("weft: {}: {}\n", level, one_line(message));
   }
 }
 
@@ -70,6 +87,9 @@ void Console::internal_error(std::string_view what) noexcept {
 }
 void Console::warning(const Notice& notice) noexcept {
   if (options_.verbosity != Verbosity::quiet) quietly([&] { log("warning", notice.message, notice.code); });
+}
+void Console::failure(const Notice& notice) noexcept {
+  quietly([&] { log(options_.verbosity == Verbosity::quiet ? "error" : "warning", notice.message, notice.code); });
 }
 void Console::info(std::string_view message) noexcept {
   if (options_.verbosity != Verbosity::quiet) quietly([&] { log("info", message); });
@@ -111,7 +131,7 @@ void Console::draw_bar(double share, std::string_view words) {
   constexpr int cells = 30;
   const int full = static_cast<int>(std::clamp(share, 0.0, 1.0) * cells);
   const auto over = words.size() < last_words_ ? last_words_ - words.size() : 0;  // nothing of the longer line stays
-  say("\r[{:#>{}}{:.>{}}] {:3.0f} % {:<12}{:{}}", "", full, "", cells - full, share * 100, words, "", over);
+  say("\r[{:#>{}}{:.>{}}] {:3.0f} % {:<12}{:{}}", "", full, "", cells - full, share * 100, one_line(words), "", over);
   last_words_ = words.size();
   progress_on_screen_ = true;
 }

@@ -32,6 +32,8 @@ class Console {
   void error(const Error& error) noexcept;
   void internal_error(std::string_view what) noexcept;
   void warning(const Notice& notice) noexcept;
+  /// A part of the work that failed: told with -q, too.
+  void failure(const Notice& notice) noexcept;
   void info(std::string_view message) noexcept;
   void detail(std::string_view message) noexcept;
 

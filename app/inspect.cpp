@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command.h"
+#include "limited.h"
 #include "mesh/read.h"
 #include "verbs.h"
 
@@ -63,6 +64,7 @@ po::options_description inspect_options() {
   po::options_description out("Options of weft inspect");
   out.add_options()("format", po::value<std::string>()->value_name("text|json")->default_value("text"),
                     "form of the facts");
+  add_limit_options(out);
   return out;
 }
 
@@ -79,7 +81,9 @@ int inspect(const Words& words) {
   if (format != "text" && format != "json")
     throw Error{Error::Kind::usage, fmt::format("'{}' is not one of text, json", format), "--format"};
   Json models = Json::array();
-  for (const auto& path : command.inputs) models.push_back(facts_of(mesh::read_file(path)));
+  within_limits(command, [&] {
+    for (const auto& path : command.inputs) models.push_back(facts_of(mesh::read_file(path)));
+  });
   std::string out;
   if (format == "json")
     out = models.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -128,6 +128,7 @@ void explain_termination() {
 
 void hold_standard_streams() {
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that becomes too large is an error of writing, too
   // Opened the wrong way round, so that using it is the error that it would have been.
   for (const auto& [stream, mode] :
        {std::pair(STDIN_FILENO, O_WRONLY), {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_RDONLY}})

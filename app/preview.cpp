@@ -2,6 +2,7 @@
 #include "audit/audit.h"
 #include "command.h"
 #include "core/file_bytes.h"
+#include "limited.h"
 #include "preview_file.h"
 #include "settings/value.h"
 #include "verbs.h"
@@ -29,6 +30,7 @@ po::options_description preview_options() {
       "longer side of a picture, without its legend")(
       "audit", po::bool_switch(),
       "show the machine of the profile, its no-go areas and reach, and in red every move that the audit finds outside");
+  add_limit_options(out);
   return out;
 }
 
@@ -83,6 +85,33 @@ preview::Overlay overlay_of(const Profile& profile, std::string_view gcode, Cons
   return overlay;
 }
 
+/// Half a pixel of a window, however large the arcs are that it shows a part of.
+preview::Chord chord_of(preview::Kind kind, const preview::View& view) {
+  if (!view.window || kind == preview::Kind::html) return {};
+  return {0.5 * to_mm(std::max(view.window->size().x, view.window->size().y)) / view.size, 0};
+}
+
+/// The bytes of the picture or page that the command asks for. @throws Error
+std::string drawing(const Command& command, preview::Kind kind, Console& console) {
+  const Profile profile = resolve(command);
+  const FileBytes file(command.inputs[0]);
+  const std::string_view gcode = file.view();
+  preview::View view;
+  view.colour = colour_of(command.options["colour"].as<std::string>());
+  view.travels = command.options["travels"].as<bool>();
+  view.size = command.options["size"].as<int>();
+  if (view.size < 16 || view.size > 8192) throw Error{Error::Kind::usage, "must be 16 … 8192", "--size"};
+  view.window = window_of(command);
+  const auto paths = preview::read(gcode, diameter_of_e(profile.settings), chord_of(kind, view));
+  if (paths.layers.empty())
+    throw Error{Error::Kind::file, "holds no motion that could be drawn", command.inputs[0], "is it G-code?"};
+  view.layer = layer_of(command, paths.layers.size());
+  view.title = std::filesystem::path(command.inputs[0]).filename().string();
+  std::optional<preview::Overlay> overlay;
+  if (command.options["audit"].as<bool>()) overlay = overlay_of(profile, gcode, console);
+  return preview::draw(kind, paths, view, overlay);
+}
+
 }  // namespace
 
 preview::Kind preview_kind(const std::string& destination) {
@@ -117,23 +146,9 @@ int preview(const Words& words) {
   const auto kind = preview_kind(*command.output);
 
   Console console(command.console);
-  const Profile profile = resolve(command);
-  const FileBytes file(command.inputs[0]);
-  const std::string_view gcode = file.view();
-  const auto paths = preview::read(gcode, diameter_of_e(profile.settings));
-  if (paths.layers.empty())
-    throw Error{Error::Kind::file, "holds no motion that could be drawn", command.inputs[0], "is it G-code?"};
-  preview::View view;
-  view.colour = colour_of(command.options["colour"].as<std::string>());
-  view.travels = command.options["travels"].as<bool>();
-  view.size = command.options["size"].as<int>();
-  if (view.size < 16 || view.size > 8192) throw Error{Error::Kind::usage, "must be 16 … 8192", "--size"};
-  view.layer = layer_of(command, paths.layers.size());
-  view.window = window_of(command);
-  view.title = std::filesystem::path(command.inputs[0]).filename().string();
-  std::optional<preview::Overlay> overlay;
-  if (command.options["audit"].as<bool>()) overlay = overlay_of(profile, gcode, console);
-  write_output(*command.output, preview::draw(kind, paths, view, overlay));
+  std::string drawn;
+  within_limits(command, [&] { drawn = drawing(command, kind, console); });
+  write_output(*command.output, drawn);
   return 0;
 }
 

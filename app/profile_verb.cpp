@@ -254,7 +254,7 @@ po::options_description profile_options() {
 int profile(const Words& words) {
   const auto options = profile_options();
   auto command = parse_command(words, options, Result::profile);
-  if (command.help || words.empty()) return write_output("-", help(options)), words.empty() ? 2 : 0;
+  if (command.help) return write_output("-", help(options)), 0;
   for (std::size_t i = 1; i < command.inputs.size(); ++i) command.profiles.emplace_back(command.inputs[i]);
   deed_of(command).run(command);
   return 0;

@@ -221,7 +221,7 @@ int slice(const Words& words) {
   try {
     const auto profile = resolve(command);
     report.warnings = profile.notices;
-    (void)destination_of(command, profile.settings, report);  // refused before the work, not after it
+    check_writable(destination_of(command, profile.settings, report));  // refused before the work, not after it
     Watch watch;
     watch.progress = [&](std::string_view stage, double share) {
       console.progress(stage, share);

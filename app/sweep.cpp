@@ -62,7 +62,7 @@ std::string picture_of(const std::filesystem::path& gcode, const Settings& setti
     view.legend = false;
     const auto png = preview::png(paths, view);
     return {png.begin(), png.end()};
-  } catch (const Error&) {
+  } catch (const std::exception&) {  // the G-code is there, and that is what counts
     return {};
   }
 }

@@ -2,8 +2,9 @@
 #include "command.h"
 #include "core/file_bytes.h"
 #include "core/hash.h"
+#include "core/stop.h"
 #include "core/version.h"
-#include "limits.h"
+#include "limited.h"
 #include "pipeline/provenance.h"
 #include "verbs.h"
 
@@ -51,24 +52,8 @@ std::string first_difference(std::string_view made, std::string_view found) {
                      a == made.end() ? "" : line_at(made, std::min(at, made.size() - 1)));
 }
 
-}  // namespace
-
-po::options_description verify_options() {
-  return po::options_description("Options of weft verify");
-}
-
-int verify(const Words& words) {
-  const auto command = parse_command(words, verify_options());
-  if (command.help)
-    return write_output("-",
-                        "weft verify FILE.gcode [MODEL...]\n\nSlices again from the settings, the placement and the "
-                        "model that the file names, and compares every byte.\n\n" +
-                            common_help()),
-           0;
-  if (command.inputs.empty())
-    throw Error{Error::Kind::usage, "no G-code was given", "weft verify", "as in weft verify part.gcode part.stl"};
-  Console console(command.console);
-  const Limits limits(0, 0);
+/// Slices again and compares. @throws Error
+void compare(const Command& command, Console& console) {
   const auto& path = command.inputs.front();
   const FileBytes file(path);
   auto made_of = provenance_of(file.view(), path);
@@ -86,7 +71,7 @@ int verify(const Words& words) {
   Report report;
   Watch watch;
   watch.progress = [&](std::string_view stage, double share) { console.progress(stage, share); };
-  watch.cancelled = [&] { return limits.reached(); };
+  watch.cancelled = *StopWhen::current();
   const auto again = run(job, watch, report);
   if (!again) throw Error{Error::Kind::audit, report.error, path};
   if (again->gcode() != file.view())
@@ -94,6 +79,31 @@ int verify(const Words& words) {
                 "is not what weft makes of its model and settings; " + first_difference(again->gcode(), file.view()),
                 path, "it was changed after it was made"};
   console.info(fmt::format("{}: byte for byte what weft {} makes of {}", path, version, job.models.front()));
+}
+
+}  // namespace
+
+po::options_description verify_options() {
+  po::options_description out("Options of weft verify");
+  add_limit_options(out);
+  return out;
+}
+
+int verify(const Words& words) {
+  const auto options = verify_options();
+  const auto command = parse_command(words, options);
+  std::ostringstream help;
+  help << options;
+  if (command.help)
+    return write_output("-",
+                        "weft verify FILE.gcode [MODEL...]\n\nSlices again from the settings, the placement and the "
+                        "model that the file names, and compares every byte.\n\n" +
+                            help.str() + "\n" + common_help()),
+           0;
+  if (command.inputs.empty())
+    throw Error{Error::Kind::usage, "no G-code was given", "weft verify", "as in weft verify part.gcode part.stl"};
+  Console console(command.console);
+  within_limits(command, [&] { compare(command, console); });
   return 0;
 }
 

@@ -84,9 +84,21 @@ std::string script(std::string_view json_text) {
   return out;
 }
 
+namespace {
+
+/// What a spreadsheet would take for a formula and reckon, or run: not a number with its sign.
+bool begins_a_formula(std::string_view text) {
+  constexpr std::string_view beginnings = "=+-@\t\r";
+  if (text.empty() || beginnings.find(text.front()) == std::string_view::npos) return false;
+  return text.front() != '-' || text.size() == 1 || text.find_first_not_of("0123456789.", 1) != std::string_view::npos;
+}
+
+}  // namespace
+
 std::string csv(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
-  std::string out = "\"";
+  const bool formula = begins_a_formula(text);
+  if (!formula && text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string out = formula ? "\"'" : "\"";
   for (const char c : text) out.append(c == '"' ? 2 : 1, c);
   out += '"';
   return out;

@@ -20,7 +20,8 @@ std::string json(std::string_view text);
 /// A whole text of JSON inside `<script>`: no `<` in it can end the script.
 std::string script(std::string_view json_text);
 
-/// One cell of a table, in quotes where it needs them. Source: RFC 4180, 2.
+/// One cell of a table, in quotes where it needs them. One that a spreadsheet would reckon as a formula begins with an
+/// apostrophe. Sources: RFC 4180, 2; OWASP, "CSV injection".
 std::string csv(std::string_view text);
 
 /// A value in a comment of G-code: one line, in which line ends, tabs and backslashes are `\n`, `\r`, `\t`, `\\`.

@@ -24,6 +24,15 @@ Error unreadable(const std::string& path, int error) {
           error == ENOENT ? "check the path" : ""};
 }
 
+/// Of what would be waited for, or has no end.
+Error no_file(const std::string& path, mode_t mode) {
+  return {Error::Kind::file,
+          fmt::format("is a {}, not a file", S_ISFIFO(mode)   ? "pipe"
+                                             : S_ISSOCK(mode) ? "socket"
+                                                              : "device"),
+          path, "write what it gives to a file first"};
+}
+
 Error changed(const std::string& path) {
   return {Error::Kind::file, "changed while it was read", path, "is another program still writing it?"};
 }
@@ -31,12 +40,12 @@ Error changed(const std::string& path) {
 }  // namespace
 
 InputFile::InputFile(std::string path)
-    : path_(std::move(path)), descriptor_(::open(path_.c_str(), O_RDONLY | O_CLOEXEC)) {
-  if (descriptor_ < 0) throw unreadable(path_, errno);
+    : path_(std::move(path)), descriptor_(::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {
+  if (descriptor_ < 0) throw errno == ENXIO ? no_file(path_, S_IFSOCK) : unreadable(path_, errno);
   const int error = ::fstat(descriptor_, &before_) != 0 ? errno : S_ISDIR(before_.st_mode) ? EISDIR : 0;
-  if (error == 0) return;
+  if (error == 0 && regular()) return;
   ::close(descriptor_);
-  throw unreadable(path_, error);
+  throw error != 0 ? unreadable(path_, error) : no_file(path_, before_.st_mode);
 }
 
 InputFile::~InputFile() {

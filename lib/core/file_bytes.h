@@ -14,7 +14,7 @@ namespace weft {
 /// program cuts short meanwhile would take the job down (SIGBUS).
 class InputFile {
  public:
-  /// Throws: Error::Kind::file for what cannot be opened or is a directory.
+  /// Throws: Error::Kind::file for what cannot be opened, at once for what is no file: a directory, pipe or device.
   explicit InputFile(std::string path);
   ~InputFile();
   InputFile(const InputFile&) = delete;

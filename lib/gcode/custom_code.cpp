@@ -180,9 +180,8 @@ bool has_command(std::string_view code, std::string_view command) {
     const auto line = value::trimmed(code.substr(0, end));
     const bool same = line.size() >= command.size() && std::equal(command.begin(), command.end(), line.begin(),
                                                                   [](char a, char b) { return a == upper(b); });
-    const bool whole = command.back() < '0' || command.back() > '9' || line.size() == command.size() ||
-                       !is_digit(line[command.size()]);
-    if (same && whole) return true;
+    if (same && (!is_digit(command.back()) || line.size() == command.size() || !is_digit(line[command.size()])))
+      return true;
     code.remove_prefix(std::min(end + 1, code.size()));
   }
   return false;

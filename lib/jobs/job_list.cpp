@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/job_list.h"
 
+#include "core/file_bytes.h"
 #include "settings/value.h"
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 #include <iostream>
 #include <iterator>
 #include <map>
@@ -26,22 +26,38 @@ bool named_like_a_model(const fs::path& path) {
 
 std::string bytes_of(const std::string& path) {
   if (path == "-") return {std::istreambuf_iterator<char>(std::cin), {}};
-  std::ifstream in(path, std::ios::binary);
-  std::string out{std::istreambuf_iterator<char>(in), {}};
-  if (!in) throw Error{Error::Kind::file, "cannot be read", path, "check the path and its permissions"};
-  return out;
+  return std::string(FileBytes(path).view());
 }
 
 std::vector<std::string> models_in(const fs::path& folder) {
   std::vector<std::string> out;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.is_regular_file() && named_like_a_model(entry.path())) out.push_back(entry.path().string());
+  std::error_code error, unknown;  // of an entry that leads to itself, or is gone
+  for (auto at = fs::directory_iterator(folder, error); !error && at != fs::directory_iterator(); at.increment(error))
+    if (named_like_a_model(at->path()) && at->is_regular_file(unknown)) out.push_back(at->path().string());
+  if (error)
+    throw Error{Error::Kind::file, "cannot be read: " + error.message(), folder.string(), "check its permissions"};
   std::sort(out.begin(), out.end());
   if (out.empty()) throw Error{Error::Kind::usage, "no .stl, .obj or .3mf is in this folder", folder.string()};
   return out;
 }
 
+/// Patterns that the braces of one make, at most: as if each were within all others.
+double alternatives_in(const std::string& pattern) {
+  double out = 1;
+  std::vector<int> open;
+  for (const char c : pattern) {
+    if (c == '{') open.push_back(1);
+    if (c == ',' && !open.empty()) ++open.back();
+    if (c == '}' && !open.empty()) out *= open.back(), open.pop_back();
+  }
+  return out;
+}
+
 std::vector<std::string> matches_of(const std::string& pattern) {
+  constexpr double most = 10'000;
+  if (alternatives_in(pattern) > most)
+    throw Error{Error::Kind::usage, fmt::format("its braces make more than {} patterns", most), pattern,
+                "name a list of jobs"};
   glob_t found{};
   const int status = ::glob(pattern.c_str(), GLOB_BRACE | GLOB_TILDE, nullptr, &found);
   std::vector<std::string> out;
@@ -72,6 +88,15 @@ bool leaves_its_folder(const std::string& output) {
   const fs::path path = fs::path(output).lexically_normal();
   return path.is_absolute() || path.empty() || *path.begin() == ".." || path == "." || !path.has_filename() ||
          *path.begin() == ".weft";
+}
+
+/// What a run writes beside the G-code: report.jsonl, summary.csv, junit.xml (-2-of-3 for a share) and index.html.
+bool is_a_report(const std::string& output) {
+  const auto name = fs::path(output).lexically_normal().string();
+  constexpr std::pair<std::string_view, std::string_view> reports[] = {
+      {"report", ".jsonl"}, {"summary", ".csv"}, {"junit", ".xml"}, {"index", ".html"}};
+  return std::any_of(std::begin(reports), std::end(reports),
+                     [&](const auto& r) { return name.starts_with(r.first) && name.ends_with(r.second); });
 }
 
 }  // namespace
@@ -132,6 +157,8 @@ void complete(JobList& list) {
     if (leaves_its_folder(job.output))
       refuse(job, fmt::format("output '{}' is not a file in the folder of the results", job.output),
              "give a path relative to -o");
+    else if (is_a_report(job.output))
+      refuse(job, fmt::format("output '{}' is the name of a report", job.output), "as in part.gcode");
     else if (const auto [at, is_new] = outputs.emplace(fs::path(job.output).lexically_normal().string(), job.where);
              !is_new)
       refuse(job, fmt::format("output '{}' is that of {}", job.output, at->second),

@@ -42,7 +42,8 @@ struct JobList {
 /// to `folder`.
 JobList read_jsonl(std::string_view text, const std::string& path, const std::filesystem::path& folder);
 
-/// A header line with the same names, of which models and profiles are lists separated by `;`; every other column is a
+/// A header line with the same names, of which models and profiles are lists separated by `;` (by `,` where
+/// `;` separates the cells); every other column is a
 /// setting. An empty cell says nothing. Quotes as RFC 4180 has them; a quoted cell may run over several lines.
 JobList read_csv(std::string_view text, const std::string& path, const std::filesystem::path& folder);
 

@@ -19,8 +19,14 @@ struct Row {
   std::vector<std::string> cells;
 };
 
+/// What separates cells: `;` where spreadsheets write that, as they do where the comma is the decimal sign.
+char separator_of(std::string_view text) {
+  const auto header = text.substr(0, text.find('\n'));
+  return header.find(',') == std::string_view::npos && header.find(';') != std::string_view::npos ? ';' : ',';
+}
+
 /// Rows of a CSV text (RFC 4180), blank ones left out. @throws Error{usage} for a quote that is not closed
-std::vector<Row> rows_of(std::string_view text, const std::string& path) {
+std::vector<Row> rows_of(std::string_view text, char separator, const std::string& path) {
   std::vector<Row> rows;
   Row row{1, {}};
   std::string cell;
@@ -50,7 +56,7 @@ std::vector<Row> rows_of(std::string_view text, const std::string& path) {
       quoted = was_quoted = true;
       opened = line;
       cell.clear();
-    } else if (c == ',') {
+    } else if (c == separator) {
       end_cell();
     } else if (c == '\n') {
       end_row();
@@ -65,11 +71,11 @@ std::vector<Row> rows_of(std::string_view text, const std::string& path) {
 
 constexpr auto replace_damage = nlohmann::json::error_handler_t::replace;
 
-std::vector<std::string> items_of(const std::string& name, const std::string& cell) {
+std::vector<std::string> items_of(const std::string& name, const std::string& cell, char between) {
   if (name != "models" && name != "profiles") return {cell};
   std::vector<std::string> out;
   for (std::size_t from = 0; from <= cell.size();) {
-    const auto end = std::min(cell.find(';', from), cell.size());
+    const auto end = std::min(cell.find(between, from), cell.size());
     out.emplace_back(value::trimmed(std::string_view(cell).substr(from, end - from)));
     from = end + 1;
   }
@@ -96,7 +102,8 @@ void check_header(const Row& header, const std::string& path) {
 JobList read_csv(std::string_view text, const std::string& path, const std::filesystem::path& folder) {
   JobList list;
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  const auto rows = rows_of(text, path);
+  const char separator = separator_of(text), between = separator == ';' ? ',' : ';';
+  const auto rows = rows_of(text, separator, path);
   if (rows.empty()) return list;
   const auto& header = rows.front();
   check_header(header, path);
@@ -117,7 +124,7 @@ JobList read_csv(std::string_view text, const std::string& path, const std::file
           continue;
         }
         try {
-          if (!set_field(job, name, items_of(name, cell), folder)) job.settings.emplace_back(name, cell);
+          if (!set_field(job, name, items_of(name, cell, between), folder)) job.settings.emplace_back(name, cell);
         } catch (const std::invalid_argument& problem) {
           throw std::invalid_argument(fmt::format("{}: {}", name, problem.what()));
         }

@@ -21,10 +21,13 @@ std::string text_of(const Json& v) {
   throw std::invalid_argument(fmt::format("{} is neither text, number nor true or false", v.dump()));
 }
 
+constexpr int deepest = 64;  // levels of a line; it needs three
+
 /// The object of a line. A name given twice would be lost silently by the parser: it is refused.
 Json parse_line(std::string_view line) {
   std::vector<std::set<std::string>> seen;
-  const auto refuse_twins = [&](int, Json::parse_event_t event, Json& parsed) {
+  const auto refuse_twins = [&](int depth, Json::parse_event_t event, Json& parsed) {
+    if (depth > deepest) throw std::invalid_argument(fmt::format("is more than {} levels deep", deepest));
     if (event == Json::parse_event_t::object_start) seen.emplace_back();
     if (event == Json::parse_event_t::object_end) seen.pop_back();
     if (event == Json::parse_event_t::key && !seen.back().insert(parsed.get<std::string>()).second)
@@ -37,6 +40,8 @@ Json parse_line(std::string_view line) {
     return out;
   } catch (const Json::parse_error& problem) {
     throw std::invalid_argument(fmt::format("is not JSON: column {}", problem.byte));
+  } catch (const Json::out_of_range&) {
+    throw std::invalid_argument("holds a number that is too large");
   }
 }
 

@@ -125,7 +125,8 @@ std::optional<Stamp> stamp_of(const fs::path& file) {
 std::optional<Record> read_record(const fs::path& folder, const JobLine& job) {
   try {
     const FileBytes text(record_path(folder, job).string());
-    const auto json = Json::parse(text.view());
+    const auto shallow = [](int depth, Json::parse_event_t, const Json&) { return depth <= 64; };  // as written
+    const auto json = Json::parse(text.view(), shallow);
     if (json.at("format") != record_format) return std::nullopt;
     const auto& r = json.at("report");
     Record out;

@@ -2,6 +2,7 @@
 #include "jobs/workplace.h"
 
 #include "core/error.h"
+#include "pipeline/write_file.h"
 
 #include <cerrno>
 #include <cstring>
@@ -42,7 +43,7 @@ Workplace::Workplace(const fs::path& folder, std::span<const std::string> output
   std::set<std::string> names{"report.jsonl", "summary.csv", "junit.xml", "index.html"};
   for (const auto& output : outputs) {
     folders.insert((folder / output).parent_path());
-    names.insert(fs::path(output).filename().string());
+    names.insert(fs::path(output).filename().string().substr(0, most_of_name));
   }
   for (const auto& needed : folders) make(needed);
   const auto path = folder / ".weft" / "lock";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The text that a program gives.
+#include "core/stop.h"
 #include "macro/functions.h"
 #include "macro/macro.h"
 #include "macro/program.h"
@@ -21,7 +22,14 @@ class Evaluation {
   Evaluation(const Program& program, const Variables& variables, Scope& scope)
       : program_(program), variables_(variables), scope_(scope) {}
 
+  /// What its own variables held is given back.
   std::string text() {
+    auto out = expanded();
+    for (const auto& [name, variable] : locals_) scope_.held -= bytes_of(variable.values);
+    return out;
+  }
+
+  std::string expanded() {
     std::string out;
     bool jumped = false;  // to the next branch, because the one before was not taken
     for (std::size_t i = 0; i < program_.statements.size();) {
@@ -53,10 +61,10 @@ class Evaluation {
         case Op::end_if:
           break;
         case Op::local:
-          locals_[s.text] = list(list_or_scalar(s.expression));
+          keep(s.at, locals_[s.text].values, list_or_scalar(s.expression));
           break;
         case Op::global:
-          scope_.globals[s.text] = list(list_or_scalar(s.expression));
+          keep(s.at, scope_.globals[s.text].values, list_or_scalar(s.expression));
           break;
         case Op::assign:
           assign(s);
@@ -79,13 +87,39 @@ class Evaluation {
   }
 
  private:
-  // A variable can be doubled again and again: without limits a few lines fill any memory.
+  // A variable can be doubled again and again, and a list made of long texts: without limits a few lines fill any
+  // memory and take any time.
   static constexpr std::size_t most_output = std::size_t{1} << 20, most_elements = 100'000;
+  static constexpr std::size_t most_held = std::size_t{16} << 20;   ///< bytes, in all variables
+  static constexpr std::size_t most_made = std::size_t{256} << 20;  ///< bytes, of all values of one template: its steps
 
-  static Variable list(std::vector<Scalar> values) {
-    Variable out;
-    out.values = std::move(values);
-    return out;
+  static std::size_t bytes_of(const Scalar& v) {
+    const auto* text = std::get_if<std::string>(&v);
+    return sizeof(Scalar) + (text ? text->size() : 0);
+  }
+  static std::size_t bytes_of(const std::vector<Scalar>& values) {
+    std::size_t sum = 0;
+    for (const auto& v : values) sum += bytes_of(v);
+    return sum;
+  }
+
+  /// To be told before so many bytes of values are made.
+  void make(std::uint32_t at, std::size_t bytes) {
+    const std::size_t before = std::exchange(made_, made_ + bytes);
+    if ((before ^ made_) >> 20 != 0) stop_if_asked();
+    if (made_ > most_made)
+      program_.refuse(at, "custom G-code takes too many steps", "make shorter lists and texts, or fewer of them");
+  }
+
+  /// Puts values where others were.
+  void keep(std::uint32_t at, std::vector<Scalar>& where, std::vector<Scalar> values) {
+    const std::size_t before = bytes_of(where), after = bytes_of(values);
+    make(at, before);
+    scope_.held = scope_.held + after - before;
+    where = std::move(values);
+    if (scope_.held > most_held)
+      program_.refuse(at, fmt::format("variables hold more than {} MB", most_held >> 20),
+                      "make shorter lists and texts, or fewer of them");
   }
 
   const Variable* find(const std::string& name) const {
@@ -153,16 +187,16 @@ class Evaluation {
     if (found == where.end())
       program_.refuse(s.at, fmt::format("'{}' has no value here", s.text),
                       fmt::format("write {{local {} = …}} before", s.text));
-    if (s.index == none) {
-      found->second = list(list_or_scalar(s.expression));
-      return;
-    }
+    if (s.index == none) return keep(s.at, found->second.values, list_or_scalar(s.expression));
     const auto index = index_value(s.index);
     auto& values = found->second.values;
     if (index < 0 || static_cast<std::size_t>(index) >= values.size())
       program_.refuse(s.at, fmt::format("'{}' has {} values, there is no [{}]", s.text, values.size(), index),
                       "count from 0");
-    values[static_cast<std::size_t>(index)] = scalar(s.expression);
+    auto value = scalar(s.expression);  // which may read the element
+    std::vector<Scalar> one{std::move(values[static_cast<std::size_t>(index)])};
+    keep(s.at, one, {std::move(value)});
+    values[static_cast<std::size_t>(index)] = std::move(one.front());
   }
 
   std::vector<Scalar> list_or_scalar(Id id) {
@@ -172,17 +206,31 @@ class Evaluation {
       for (const Id kid : node.kids) out.push_back(scalar(kid));
       return out;
     }
-    if (node.kind == Kind::variable) return variable(node.at, node.name).values;
+    if (node.kind == Kind::variable) {
+      const auto& values = variable(node.at, node.name).values;
+      make(node.at, bytes_of(values));
+      return values;
+    }
     if (node.kind == Kind::call && node.name == "repeat") {
       const auto count = index_value(node.kids[0]);
       if (count < 0 || static_cast<std::size_t>(count) > most_elements)
         program_.refuse(node.at, fmt::format("repeat takes 0 to {} elements", most_elements));
-      return std::vector<Scalar>(static_cast<std::size_t>(count), scalar(node.kids[1]));
+      const auto each = scalar(node.kids[1]);
+      const auto bytes = static_cast<std::size_t>(count) * bytes_of(each);
+      if (bytes > most_held) program_.refuse(node.at, fmt::format("the list takes more than {} MB", most_held >> 20));
+      make(node.at, bytes);
+      return std::vector<Scalar>(static_cast<std::size_t>(count), each);
     }
     return {scalar(id)};
   }
 
   Scalar scalar(Id id) {
+    auto out = value_of(id);
+    make(program_.nodes[id].at, bytes_of(out));
+    return out;
+  }
+
+  Scalar value_of(Id id) {
     const auto& node = program_.nodes[id];
     switch (node.kind) {
       case Kind::literal:
@@ -383,6 +431,7 @@ class Evaluation {
   const Variables& variables_;
   Scope& scope_;
   Variables locals_;
+  std::size_t made_ = 0;  // bytes
 };
 
 }  // namespace

@@ -28,6 +28,7 @@ struct Program;
 /// What templates of one print share.
 struct Scope {
   Variables globals;
+  std::size_t held = 0;      ///< bytes in them, and in those of the template at hand
   std::uint64_t random = 0;  ///< state of random(); the same seed gives the same numbers
   bool lenient = false;      ///< a trial with figures that are not the real ones: a division by zero gives 1
 };
@@ -45,7 +46,8 @@ class Template {
   void check(const Variables& variables, Variables& globals) const;
 
   /// The text with everything in its place. Globals are kept in `scope`.
-  /// @throws Error{settings} as check, and for what only shows with values: types, divisions by zero, indices
+  /// @throws Error{settings} as check, and for what only shows with values: types, divisions by zero, indices, and more
+  /// than a template may make (1 MB of text, 256 MB of values on the way) or variables may hold (16 MB)
   std::string expand(const Variables& variables, Scope& scope) const;
 
   /// Names of variables that the text mentions, in order.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/face.h"
 
+#include "mesh/face_delaunay.h"
+
 #include <cmath>
 #include <numeric>
 
@@ -49,6 +51,9 @@ bool is_ear(const std::vector<Point>& ring, const std::vector<std::uint32_t>& le
   return true;
 }
 
+/// Corners beyond which cutting ear by ear, each of which looks at all that are left, is no longer quick.
+constexpr std::size_t many_corners = 500;
+
 }  // namespace
 
 std::vector<Triangle> triangulated(const std::vector<Point3>& corners) {
@@ -62,7 +67,10 @@ std::vector<Triangle> triangulated(const std::vector<Point3>& corners) {
   };
   if (corners.size() > 3) {
     const std::vector<Point> ring = seen_largest(corners);
-    std::size_t patience = convex(ring) ? 0 : 4 * corners.size();  // tests; each costs at most a round of the face
+    const bool many = corners.size() > many_corners, round = convex(ring);
+    if (many && !round)
+      if (auto cut_up = triangulated_by_delaunay(ring)) return *std::move(cut_up);
+    std::size_t patience = many || round ? 0 : 4 * corners.size();  // tests; each costs at most a round of the face
     for (std::size_t at = 0; patience > 0 && left.size() > 3; --patience) {
       if (is_ear(ring, left, at))
         cut(at);

@@ -34,6 +34,8 @@ struct Contents {
 
 /// More than this is refused: sides and vertices are counted in 32 bits, and a file may ask for endless copies.
 inline constexpr std::size_t max_triangles = 100'000'000;
+/// Objects of one file: as many as copies there may be of one.
+inline constexpr std::size_t max_items = 10'000;
 
 /// Whether the size is to the byte that of the number of triangles in the header. The word `solid` in the header and
 /// the values of the bytes say nothing; and as a count, four bytes of text would ask for gigabytes.

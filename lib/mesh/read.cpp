@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/file_bytes.h"
 #include "core/hash.h"
+#include "core/stop.h"
 #include "mesh/formats.h"
 #include "tasks/tasks.h"
 
@@ -80,6 +81,7 @@ Loaded loaded_from(Contents contents, Format format, const std::string& path_as_
   loaded.unit = std::move(contents.unit);
   loaded.notices = std::move(contents.notices);
   for (Body& body : contents.bodies) {
+    stop_if_asked();
     loaded.triangles_in_file += body.mesh.triangles.size();
     Repaired repaired = repair(std::move(body.mesh));
     if (!repaired.mesh.triangles.empty())

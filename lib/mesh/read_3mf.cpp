@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/error.h"
+#include "core/stop.h"
 #include "mesh/formats.h"
 #include "mesh/three_mf.h"
 #include "mesh/weld.h"
@@ -18,13 +19,17 @@ class Build {
     if (document_.items.empty())
       throw Error(Error::Kind::model, "its build holds nothing to print", source_.path, "export the model again");
     Contents contents;
+    if (document_.items.size() > max_items)
+      refuse(document_.items[max_items],
+             fmt::format("the build has {} items, of which {} could be printed", document_.items.size(), max_items),
+             "print fewer at once");
     std::size_t sum = 0;
     for (const Reference& item : document_.items) {
       sum += measure(item, 0);
       if (sum > max_triangles)
         refuse(item, fmt::format("the build asks for more than {} triangles and vertices", max_triangles));
     }
-    for (const Reference& item : document_.items) contents.bodies.push_back(body(item));
+    for (const Reference& item : document_.items) stop_if_asked(), contents.bodies.push_back(body(item));
     contents.unit = document_.unit;
     contents.notices = std::move(document_.notices);
     return contents;

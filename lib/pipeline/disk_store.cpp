@@ -2,13 +2,12 @@
 #include "pipeline/disk_store.h"
 
 #include "core/error.h"
+#include "core/file_bytes.h"
 #include "core/hash.h"
 #include "pipeline/write_file.h"
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
-#include <iterator>
 #include <vector>
 
 #include <fcntl.h>
@@ -33,11 +32,11 @@ std::string headed(std::string_view stage, const std::string& key, std::string_v
 }
 
 /// The bytes behind the header, or nothing when they are not what was written.
-std::optional<std::string> checked(std::string_view stage, const std::string& key, const std::string& file) {
+std::optional<std::string> checked(std::string_view stage, const std::string& key, std::string_view file) {
   constexpr std::size_t digits = 64;
   if (!file.starts_with(magic) || file.size() < magic.size() + digits + 1) return std::nullopt;
-  const std::string_view hash = std::string_view(file).substr(magic.size(), digits);
-  const std::string_view body = std::string_view(file).substr(magic.size() + digits + 1);
+  const std::string_view hash = file.substr(magic.size(), digits);
+  const std::string_view body = file.substr(magic.size() + digits + 1);
   const std::string head = std::string(stage) + " " + key + "\n";
   if (sha256(body) != hash || !body.starts_with(head)) return std::nullopt;
   return std::string(body.substr(head.size()));
@@ -86,10 +85,13 @@ fs::path DiskStore::path_of(std::string_view stage, const std::string& key) cons
 
 std::optional<std::string> DiskStore::read(std::string_view stage, const std::string& key) {
   const auto path = path_of(stage, key);
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return std::nullopt;
-  const std::string file{std::istreambuf_iterator<char>(in), {}};
-  auto bytes = checked(stage, key, file);
+  std::error_code none;
+  if (fs::symlink_status(path, none).type() == fs::file_type::not_found || none) return std::nullopt;
+  std::optional<std::string> bytes;
+  try {
+    bytes = checked(stage, key, FileBytes(path.string()).view());
+  } catch (const Error&) {  // what cannot be read is not there
+  }
   if (bytes)
     ::utimensat(AT_FDCWD, path.c_str(), nullptr, 0);  // used now
   else

@@ -49,6 +49,14 @@ T number(std::string_view text, const std::string& path) {
   return v;
 }
 
+/// What the command line takes as well. @throws Error{file}
+template <class T>
+T within(T v, T least, T most, const char* key, const std::string& path) {
+  if (v >= least && v <= most) return v;
+  throw Error{Error::Kind::file, fmt::format("weft_placement: {} is {}, outside {} … {}", key, v, least, most), path,
+              "was it edited?"};
+}
+
 Placement placement_from(std::string_view text, const std::string& path) {
   Placement p;
   while (!text.empty()) {
@@ -62,13 +70,13 @@ Placement placement_from(std::string_view text, const std::string& path) {
     } else if (key == "drop") {
       p.drop = true;
     } else if (key == "scale") {
-      p.scale = number<double>(value, path);
+      p.scale = within(number<double>(value, path), 1e-6, 1e6, "scale", path);
     } else if (key == "rotate") {
-      p.rotate_deg = number<double>(value, path);
+      p.rotate_deg = within(number<double>(value, path), -36000.0, 36000.0, "rotate", path);
     } else if (key == "copies") {
-      p.copies = number<int>(value, path);
+      p.copies = within(number<int>(value, path), 1, 10000, "copies", path);
     } else if (key == "spacing") {
-      p.spacing = number<Um>(value, path);
+      p.spacing = within(number<Um>(value, path), 0, 1'000'000, "spacing", path);
     } else {
       throw Error{Error::Kind::file, fmt::format("weft_placement has no '{}'", key), path,
                   "was it made by a later weft?"};

@@ -2,6 +2,7 @@
 #include "pipeline/write_file.h"
 
 #include "core/error.h"
+#include "core/file_place.h"
 
 #include <cerrno>
 #include <cstdio>
@@ -40,6 +41,7 @@ class Descriptor {
   const char* hint = error == ENOSPC || error == EDQUOT ? "free some space"
                      : error == ENOENT                  ? "does the folder exist?"
                      : error == EPIPE                   ? "the reader went away"
+                     : error == EFBIG                   ? "the system's limit for the size of a file is reached"
                                                         : "check the path and its permissions";
   throw Error{Error::Kind::file, fmt::format("cannot be written ({})", std::strerror(error)), path.string(), hint};
 }
@@ -64,7 +66,9 @@ void write_file(const std::filesystem::path& destination, std::string_view bytes
     if (file.get() < 0) fail(destination, errno);
     return write_all(file.get(), bytes, destination);
   }
-  std::string temporary = destination.string() + ".weft-XXXXXX";
+  const auto target = followed(destination);  // a link stays what it is
+  const std::string mark = ".weft-XXXXXX";
+  std::string temporary = (target.parent_path() / (target.filename().string().substr(0, most_of_name) + mark)).string();
   const int fd = ::mkostemp(temporary.data(), O_CLOEXEC);  // by itself: it writes the name that is to be removed
   if (fd < 0) fail(destination, errno);
   Descriptor file(fd, temporary);
@@ -73,7 +77,7 @@ void write_file(const std::filesystem::path& destination, std::string_view bytes
   ::umask(mask);
   ::fchmod(file.get(), 0666 & ~mask);
   if (file.close() != 0) fail(destination, errno);
-  if (::rename(temporary.c_str(), destination.c_str()) != 0) fail(destination, errno);
+  if (::rename(temporary.c_str(), target.c_str()) != 0) fail(destination, errno);
   file.keep();
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "audit/reader.h"
+#include "core/stop.h"
 #include "model/flow.h"
 #include "preview/toolpaths.h"
 
@@ -13,7 +14,6 @@ namespace weft::preview {
 namespace {
 
 constexpr double shortest_mm = 0.0005;   // of a piece that is drawn: half the lattice
-constexpr double chord_error_mm = 0.01;  // how far the pieces of an arc may stand off it
 constexpr double full_flow = 0.93;       // below this share of the announced bead a piece counts as compensated
 constexpr double layer_step_mm = 0.005;  // files without comments: a bead this much higher begins a layer
 
@@ -21,12 +21,15 @@ constexpr double layer_step_mm = 0.005;  // files without comments: a bead this 
 class Gatherer {
  public:
   enum class LayersBy { comments, height };
-  Gatherer(Um filament_diameter, LayersBy by)
-      : filament_mm2_(std::numbers::pi / 4 * to_mm(filament_diameter) * to_mm(filament_diameter)), by_(by) {
+  Gatherer(Um filament_diameter, Chord chord, LayersBy by)
+      : filament_mm2_(std::numbers::pi / 4 * to_mm(filament_diameter) * to_mm(filament_diameter)),
+        chord_(chord),
+        by_(by) {
     feature_of_.fill(none);
   }
 
   void line(const char* begin, const char* end) {
+    stop_.step();
     reader_.line(begin, end);
     for (const audit::Motion& motion : reader_.motions()) add(motion);
   }
@@ -118,12 +121,14 @@ class Gatherer {
     return static_cast<std::uint8_t>(at - out_.features.begin());
   }
 
-  static void emit(PathLayer& layer, const audit::Motion& motion, Stroke stroke) {
+  void emit(PathLayer& layer, const audit::Motion& motion, Stroke stroke) {
     int pieces = 1;
     if (motion.path.arc) {
-      const double radius = std::max(motion.path.radius_mm, chord_error_mm);
-      const double step_rad = 2 * std::acos(1 - chord_error_mm / radius);
-      pieces = static_cast<int>(std::clamp(std::ceil(std::abs(motion.path.sweep_rad) / step_rad), 1.0, 10'000.0));
+      const double sweep_rad = std::abs(motion.path.sweep_rad);
+      const double span_mm = motion.path.radius_mm * std::min(2.0, sweep_rad);
+      const double chord = std::max(chord_.mm, chord_.share * span_mm);
+      const double step_rad = 2 * std::acos(1 - chord / std::max(motion.path.radius_mm, chord));
+      pieces = static_cast<int>(std::clamp(std::ceil(sweep_rad / step_rad), 1.0, 10'000.0));
     }
     Point last = point(motion.path.from);
     for (int i = 1; i <= pieces; ++i) {
@@ -136,6 +141,8 @@ class Gatherer {
   static Point point(audit::Vec v) { return {from_mm(v.x), from_mm(v.y)}; }
 
   double filament_mm2_;
+  Chord chord_;
+  StopNowAndThen stop_{1000};
   LayersBy by_;
   audit::Reader reader_{{}};
   std::array<std::uint8_t, 256> feature_of_{};
@@ -183,11 +190,11 @@ Toolpaths read_layer(std::string_view gcode, Um filament_diameter, double share)
   return out;
 }
 
-Toolpaths read(std::string_view gcode, Um filament_diameter) {
-  Gatherer gatherer(filament_diameter, Gatherer::LayersBy::comments);
+Toolpaths read(std::string_view gcode, Um filament_diameter, Chord chord) {
+  Gatherer gatherer(filament_diameter, chord, Gatherer::LayersBy::comments);
   read_lines(gatherer, gcode);
   if (gatherer.has_comments()) return gatherer.finish();
-  Gatherer again(filament_diameter, Gatherer::LayersBy::height);
+  Gatherer again(filament_diameter, chord, Gatherer::LayersBy::height);
   read_lines(again, gcode);
   return again.finish();
 }

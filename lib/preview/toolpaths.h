@@ -28,6 +28,13 @@ struct PathLayer {
   std::vector<Stroke> strokes;  ///< in the order of the file
 };
 
+/// How far the pieces of an arc may stand off it: the larger of a length, as fine as a bead is ever looked at, and of a
+/// share of what the arc spans, which is less than a pixel of a picture that holds all of it.
+struct Chord {
+  double mm = 0.01;
+  double share = 1.0 / 2000;
+};
+
 /// What a G-code file does, layer by layer.
 struct Toolpaths {
   std::vector<std::string>
@@ -37,8 +44,9 @@ struct Toolpaths {
 
 /// What is put before the first layer (start G-code) counts to the first, what comes last to the last.
 /// @param filament_diameter  what E is measured in
-/// Throws nothing: what cannot be understood is not drawn. Cost: linear in bytes.
-Toolpaths read(std::string_view gcode, Um filament_diameter);
+/// @throws Stopped, and nothing else: what cannot be understood is not drawn. Cost: linear in bytes, and in pieces of
+/// arcs: √(radius / chord) for each
+Toolpaths read(std::string_view gcode, Um filament_diameter, Chord chord = {});
 
 /// One layer of a file that announces its layers in comments, as most slicers do: only its text is read, and what comes
 /// right before it. Of other files all is read.

@@ -2,6 +2,7 @@
 #include "profile/profile.h"
 
 #include "core/error.h"
+#include "core/file_bytes.h"
 #include "prusaslicer/embedded.h"
 #include "prusaslicer/import.h"
 #include "prusaslicer/keys.h"
@@ -11,7 +12,6 @@
 #include "settings/value.h"
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <stdexcept>
 
@@ -147,6 +147,16 @@ std::string without_comment(const IniEntry& e) {
   return e.value;
 }
 
+/// The path without links and dots. @throws Error{settings} for links in a circle, and names that no system takes
+std::filesystem::path canonical(const std::filesystem::path& path, const std::string& where) {
+  std::error_code error;
+  auto out = std::filesystem::weakly_canonical(path, error);
+  if (error)
+    throw Error{Error::Kind::settings, fmt::format("'{}' leads nowhere: {}", path.string(), error.message()), where,
+                "check the path"};
+  return out;
+}
+
 void apply_text(Profile& profile, std::string_view text, const std::filesystem::path& path,
                 const ImportOptions& options, std::vector<std::filesystem::path>& chain) {
   const auto name = path.string();
@@ -159,19 +169,19 @@ void apply_text(Profile& profile, std::string_view text, const std::filesystem::
     if (options.strict) refuse_losses(translated, name);
     return note_losses(profile, translated, name);
   }
-  chain.push_back(std::filesystem::weakly_canonical(path));
+  chain.push_back(canonical(path, name));
   for (const auto& e : entries) {
     if (e.key != "inherits") continue;
     const auto where = fmt::format("{}:{}", name, e.line);
     const auto found = find_profile(e.value, path.parent_path(), options.folders);
     const auto parent = found.value_or(path.parent_path() / e.value);
-    const auto canonical = std::filesystem::weakly_canonical(parent);
+    const auto whole = canonical(parent, where);
     for (const auto& above : chain)
-      if (above == canonical)
+      if (above == whole)
         throw Error{Error::Kind::settings, fmt::format("inherits '{}', which inherits this file", e.value), where,
                     "break the circle"};
     if (chain.size() > 100) throw Error{Error::Kind::settings, "more than 100 generations of ancestors", where, {}};
-    if (!std::filesystem::is_regular_file(parent))
+    if (std::error_code unknown; !std::filesystem::is_regular_file(parent, unknown))
       throw Error{Error::Kind::settings, fmt::format("inherits '{}', which is not there", parent.string()), where,
                   "the path is relative to this file, or a name that `weft profile list` knows"};
     profile.parents.push_back(parent);
@@ -188,9 +198,7 @@ std::string read_profile(const std::filesystem::path& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
     throw Error{Error::Kind::file, "is a folder, not a profile", path.string(), "name an ini file in it"};
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw Error{Error::Kind::file, "cannot be read", path.string(), "check the path and its permissions"};
-  return {std::istreambuf_iterator<char>(in), {}};
+  return std::string(FileBytes(path.string()).view());
 }
 
 void apply_text(Profile& profile, std::string_view text, const std::filesystem::path& path,

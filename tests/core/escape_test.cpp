@@ -60,3 +60,13 @@ TEST_CASE("core: a word of a file in a message is short and shows no control cha
   CHECK(escape::message("\x1b[31m") == "'?[31m'");
   CHECK(escape::message(std::string(50, 'x')) == "'" + std::string(40, 'x') + "...'");
 }
+
+TEST_CASE("escape: a cell that a spreadsheet would reckon is text there, and a number stays one", "[core]") {
+  CHECK(escape::csv("=cmd|' /C calc'!A0") == "\"'=cmd|' /C calc'!A0\"");
+  CHECK(escape::csv("+1+1") == "\"'+1+1\"");
+  CHECK(escape::csv("-2+3") == "\"'-2+3\"");
+  CHECK(escape::csv("@SUM(A1)") == "\"'@SUM(A1)\"");
+  CHECK(escape::csv("\t=1") == "\"'\t=1\"");
+  CHECK(escape::csv("-0.25") == "-0.25");
+  CHECK(escape::csv("a=b") == "a=b");
+}

@@ -147,3 +147,48 @@ TEST_CASE("job lists: free fields are kept as they stand, and a job has a time l
   CHECK(table.jobs[0].free_fields == Fields{{"label", "\"one, two\""}});
   CHECK(table.jobs[0].timeout_s == 5);
 }
+
+TEST_CASE("jobs: a line that is nested deeper than it can mean anything is refused with its line") {
+  const std::string deep(100'000, '[');
+  const auto list = jsonl("{\"models\": [\"a.stl\"]}\n{\"models\": " + deep + "\n");
+  REQUIRE(list.errors.size() == 1);
+  CHECK(list.errors[0].where() == "orders.jsonl:2");
+  CHECK_THAT(list.errors[0].what(), Contains("is more than 64 levels deep"));
+  std::string objects;
+  for (int i = 0; i < 100'000; ++i) objects += "{\"a\":";
+  CHECK_THAT(jsonl(objects).errors.at(0).what(), Contains("64 levels"));
+}
+
+TEST_CASE("jobs: a number that no machine holds is refused with its line") {
+  const auto list = jsonl(R"({"models": ["a.stl"], "copies": 1e400})");
+  REQUIRE(list.errors.size() == 1);
+  CHECK_THAT(list.errors[0].what(), Contains("orders.jsonl:1: holds a number that is too large"));
+  CHECK(!csv("models,copies\na.stl,1e400\n").errors.empty());
+  CHECK(!csv("models,copies\na.stl,-5\n").errors.empty());
+}
+
+TEST_CASE("jobs: the cells of a CSV may be separated by semicolons, as spreadsheets do where the comma is decimal") {
+  const auto list = csv("id;models;copies\na;x.stl,y.stl;3\n\"b;c\";z.stl;\n");
+  REQUIRE(list.errors.empty());
+  REQUIRE(list.jobs.size() == 2);
+  CHECK(list.jobs[0].models == std::vector<std::string>{"orders/x.stl", "orders/y.stl"});
+  CHECK(list.jobs[0].placement.copies == 3);
+  CHECK(list.jobs[1].id == "b;c");
+}
+
+TEST_CASE("jobs: no output is called like a report of the run") {
+  for (const std::string name :
+       {"report.jsonl", "summary.csv", "junit.xml", "./junit.xml", "report-2-of-3.jsonl", "index.html"}) {
+    CAPTURE(name);
+    const auto list = jsonl(R"({"models": ["a.stl"], "output": ")" + name + "\"}");
+    REQUIRE(list.errors.size() == 1);
+    CHECK_THAT(list.errors[0].what(), Contains("is the name of a report"));
+  }
+  CHECK(jsonl(R"({"models": ["a.stl"], "output": "deep/report.jsonl"})").errors.empty());
+}
+
+TEST_CASE("jobs: braces that make more patterns than anyone has models are refused at once") {
+  std::string bomb;
+  for (int i = 0; i < 40; ++i) bomb += "{a,b}";
+  CHECK_THROWS_WITH(read_jobs({bomb}), Contains("its braces make more than 10000 patterns"));
+}

@@ -240,3 +240,42 @@ TEST_CASE("macro: a count of many digits in a regular expression is refused, not
   CHECK(expanded("{\"a{1\" =~ /a\\{1/}") == "true");
   CHECK(expanded("{\"aa\" =~ /a{1,2}/}") == "true");
 }
+
+TEST_CASE("macro: lists of long texts and texts of long lists meet a limit of memory, with line and column",
+          "[macro]") {
+  const std::string text = "{local t = \"0123456789abcdef\"}" + [] {
+    std::string doubled;
+    for (int i = 0; i < 15; ++i) doubled += "{t = t + t}";  // 512 kB
+    return doubled;
+  }();
+  CHECK_THAT(message("\n" + text + "{local l = repeat(100000, t)}"), Contains("start_gcode:2:"));
+  CHECK_THAT(message(text + "{local l = repeat(100000, t)}"), Contains("the list takes more than 16 MB"));
+  std::string many = text + "{local l = repeat(20, t)}";
+  for (const std::string name : {"a", "b", "c"}) many += "{local " + name + " = l}";
+  CHECK_THAT(message(many), Contains("variables hold more than 16 MB"));
+  std::string elements = text + "{local l = repeat(50, 0)}";
+  for (int i = 0; i < 50; ++i) elements += "{l[" + std::to_string(i) + "] = t}";
+  CHECK_THAT(message(elements), Contains("variables hold more than 16 MB"));
+}
+
+TEST_CASE("macro: what globals hold is limited over all templates, and what is given up is free again", "[macro]") {
+  Scope scope;
+  Variables globals;
+  const Template grows("{global l = repeat(1000, \"\")}{l[0] = l[0] + \"0123456789\"}", "layer_gcode");
+  grows.check(variables(), globals);
+  for (int layer = 0; layer < 2000; ++layer) grows.expand(variables(), scope);
+  CHECK(scope.held < 100'000);
+  const Template own("{local own = repeat(100000, 1)}", "layer_gcode");
+  own.check(variables(), globals);
+  const auto before = scope.held;
+  for (int layer = 0; layer < 20; ++layer) own.expand(variables(), scope);
+  CHECK(scope.held == before);
+}
+
+TEST_CASE("macro: a template of more steps than anyone waits for is refused with line and column", "[macro]") {
+  std::string long_one = "{local l = repeat(100000, 1)}{local n = 0}";
+  for (int i = 0; i < 200; ++i) long_one += "{n = size(l)}";
+  CHECK_THAT(message(long_one), Contains("takes too many steps"));
+  CHECK_THAT(message(long_one), Contains("start_gcode:1:"));
+  CHECK(expanded("{local x = (1, 2, 3)}{x[1] = x[1] + 5}{x[1]}") == "7");
+}

@@ -199,3 +199,10 @@ TEST_CASE("mesh: a 3MF cannot multiply itself beyond measure", "[mesh][3mf]") {
                Contains("unpacks to more than 64 MB"));
   }
 }
+
+TEST_CASE("mesh: a build of more items than could be printed is refused before they are made", "[mesh][3mf]") {
+  std::string items;
+  for (int i = 0; i < 100'000; ++i) items += item;
+  CHECK_THAT(refusal(three_mf(model(one, items))),
+             Contains("the build has 100000 items, of which 10000 could be printed"));
+}

@@ -202,3 +202,52 @@ TEST_CASE("mesh: a face that crosses itself still gives its triangles", "[mesh][
     CHECK(triangulated(face).size() == face.size() - 2);
   }
 }
+
+TEST_CASE("mesh: a face of very many corners is cut in n log n steps, into triangles that cover it once",
+          "[mesh][law]") {
+  constexpr int teeth = 150'000;  // a comb: cut ear by ear it takes minutes
+  std::vector<Point3> face;
+  for (int i = 0; i < teeth; ++i) face.push_back({20 * i, 0, 7}), face.push_back({20 * i + 10, 0, 7});
+  for (int i = teeth - 1; i >= 0; --i) face.push_back({20 * i + 10, 900, 7}), face.push_back({20 * i + 5, 100, 7});
+  double wanted = 0;
+  const auto twice_area = [&](std::size_t a, std::size_t b, std::size_t c) {
+    const double ux = face[b].x - face[a].x, uy = face[b].y - face[a].y;
+    const double vx = face[c].x - face[a].x, vy = face[c].y - face[a].y;
+    return ux * vy - uy * vx;
+  };
+  for (std::size_t i = 1; i + 1 < face.size(); ++i) wanted += twice_area(0, i, i + 1);
+  const auto triangles = triangulated(face);
+  REQUIRE(triangles.size() == face.size() - 2);
+  double sum = 0;
+  std::size_t wrong = 0;
+  for (const auto& t : triangles) {
+    const double area = twice_area(t[0], t[1], t[2]);
+    wrong += area <= 0;
+    sum += area;
+  }
+  CHECK(wrong == 0);
+  CHECK(sum == wanted);
+}
+
+TEST_CASE("mesh: a large face may have a hole that a side leads to and back from, and one that crosses itself is a fan",
+          "[mesh][law]") {
+  std::vector<Point3> face;
+  constexpr int n = 400;
+  for (int i = 0; i < n; ++i) face.push_back({100 * i, 0, 0});
+  for (int i = 0; i < n; ++i) face.push_back({100 * n, 100 * i, 0});
+  face.push_back({100 * n, 100 * n, 0}), face.push_back({0, 100 * n, 0}), face.push_back({0, 20'000, 0});
+  const std::vector<Point3> hole{{10'000, 20'000, 0}, {10'000, 30'000, 0}, {30'000, 30'000, 0}, {30'000, 10'000, 0},
+                                 {10'000, 10'000, 0}, {10'000, 20'000, 0}, {0, 20'000, 0}};
+  face.insert(face.end(), hole.begin(), hole.end());
+  const auto triangles = triangulated(face);
+  REQUIRE(triangles.size() == face.size() - 2);
+  double sum = 0;
+  for (const auto& t : triangles) {
+    const Point3 a = face[t[0]], b = face[t[1]], c = face[t[2]];
+    sum += (static_cast<double>(b.x) - a.x) * (static_cast<double>(c.y) - a.y) -
+           (static_cast<double>(b.y) - a.y) * (static_cast<double>(c.x) - a.x);
+  }
+  CHECK(sum == 2 * (4e4 * 4e4 - 2e4 * 2e4));
+  std::swap(face[100], face[500]);
+  CHECK(triangulated(face).size() == face.size() - 2);
+}

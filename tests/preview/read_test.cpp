@@ -130,3 +130,14 @@ TEST_CASE("preview: a picture without legend is the drawing alone", "[preview]")
   CHECK(width(png(paths, {.size = 400, .layer = 0})) > 600);
   CHECK(width(png(paths, {.size = 400, .layer = 0, .legend = false})) <= 400);
 }
+
+TEST_CASE("preview: an arc has as many pieces as a picture of it shows, however large it is", "[preview]") {
+  const auto pieces = [](double radius_mm, Chord chord) {
+    const auto gcode = fmt::format("M83\n;LAYER:0\nG1 Z0.2\nG1 X10 Y10 F900\nG2 X10 Y10 I{0} J0 E1\n", radius_mm);
+    return read(gcode, 1750, chord).layers.at(0).strokes.size();
+  };
+  CHECK(pieces(5, {}) >= 30);
+  CHECK(pieces(500, {}) <= 120);
+  CHECK(pieces(500, {}) >= 60);
+  CHECK(pieces(500, {.mm = 0.01, .share = 0}) >= 400);  // through a window
+}
