@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What scripts and other people's files throw at the program: each is an error of one line with the status of the
 // contract, at once.
 #include "cli/program.h"
