@@ -243,7 +243,8 @@ void walk(A& a, Ref<A, Step> v) {
 }
 template <class A>
 void walk(A& a, Ref<A, Mesh> v) {
-  static_assert(field_count<Mesh>() == 2, "a field of meshes is not written");
+  static_assert(field_count<Mesh>() == 3, "a field of meshes is not written");
+  walk(a, v.cut_through);
   auto count = std::uint64_t{v.vertices.size()};
   a.size(count, sizeof(Point3));
   if constexpr (reads<A>) v.vertices.resize(count);

@@ -79,7 +79,7 @@ TEST_CASE("profiles by name: what is inherited is found by name, too, and beside
   const Shelves s;
   Shelves::write(s.work / "mine.ini", "inherits = printers/two\nmachine_height = 120\n");
   Profile profile;
-  apply_file(profile, s.work / "mine.ini", {.folders = s.folders});
+  apply_file(profile, s.work / "mine.ini", {.folders = s.folders, .options = {}});
   CHECK(profile.settings.machine.machine_width == 100'000);
   CHECK(profile.settings.machine.machine_depth == 110'000);
   CHECK(profile.settings.machine.machine_height == 120'000);
