@@ -84,10 +84,11 @@ TEST_CASE("codec: results of stages come back as they were") {
       placed.push_back({std::move(notice.code),
                         std::move(notice.message),
                         {dice(-max_coord, max_coord), dice(-max_coord, max_coord)}});
-    const std::vector<WallLayer> walls{{beads(dice), regions(dice), placed}, {beads(dice), {}, {}}};
+    const std::vector<WallLayer> walls{{beads(dice), regions(dice), regions(dice), placed}, {beads(dice), {}, {}, {}}};
     const auto walls2 = there_and_back(walls);
     CHECK(walls2[0].beads == walls[0].beads);
     CHECK(walls2[0].inside == walls[0].inside);
+    CHECK(walls2[0].over_air == walls[0].over_air);
     CHECK(walls2[0].notices == walls[0].notices);
     const std::vector<FilledLayer> fills{{regions(dice), regions(dice), regions(dice), beads(dice), notices(dice)}};
     const auto fills2 = there_and_back(fills);
