@@ -2,6 +2,7 @@
 #include "gcode/digest.h"
 
 #include "gcode/dialect.h"
+#include "model/flow.h"
 
 #include <algorithm>
 
@@ -11,7 +12,7 @@ namespace {
 void take_in(LayerDigest& out, const Extrude& bead, Um z) {
   for (const auto& j : bead.path) {
     out.extents.add({j.at.x, j.at.y, z});
-    out.covered.add(Box{j.at, j.at}.grown(j.width / 2));
+    out.covered.add(Box{j.at, j.at}.grown(flow::line_width(j.width, bead.height) / 2));
   }
   out.bytes += 48 * bead.path.size();
   if (bead.path.size() < 2) return;

@@ -64,4 +64,9 @@ std::vector<LayerAreas> find_areas(const ShellSettings& settings, const InfillSe
 /// Cost: a Boolean a layer where there is something to combine.
 void combine_sparse(const InfillSettings& infill, const ShellObject& object, std::vector<LayerAreas>& areas);
 
+/// With infill_support_enabled sparse infill stays only straight below what of the shells does not carry itself: each
+/// layer's that stands beyond the one below by more than infill_support_angle allows. `areas` is that of all layers of
+/// the object. Cost: five Booleans and three offsets a layer.
+void keep_below_tops(const InfillSettings& infill, const ShellObject& object, std::vector<LayerAreas>& areas);
+
 }  // namespace weft::infill

@@ -26,12 +26,29 @@ Eigen::Rotation2Dd::Matrix2 turn(double degrees) {
   return result;
 }
 
-PlacedModel at_origin(Loaded loaded, double rotate_deg, Point3& home) {
+/// Each vertex where f puts it.
+template <class F>
+Mesh mapped(Mesh mesh, F f) {
+  Weld weld(mesh.vertices.size());
+  std::vector<std::uint32_t> welded;
+  welded.reserve(mesh.vertices.size());
+  for (const Point3& p : mesh.vertices) welded.push_back(weld.index(f(p)));
+  for (Triangle& triangle : mesh.triangles)
+    for (std::uint32_t& corner : triangle) corner = welded[corner];
+  mesh.vertices = weld.take_vertices();
+  if (drop_degenerate(mesh) > 0) drop_unused_vertices(mesh);
+  return mesh;
+}
+
+PlacedModel at_origin(Loaded loaded, const PlacementOptions& options, Point3& home) {
   PlacedModel model{std::move(loaded.path), {}, {}, {}, {}, {}};
   Box3 in_file;
   for (const Object& object : loaded.objects) in_file.add(box_of(object.mesh));
   const Point about = in_file.footprint().centre();
-  for (Object& object : loaded.objects) model.objects.push_back(rotated(std::move(object.mesh), rotate_deg, about));
+  for (Object& object : loaded.objects) {
+    Mesh mesh = stretched(std::move(object.mesh), options.stretch_xy, options.stretch_z, {about.x, about.y, 0});
+    model.objects.push_back(rotated(std::move(mesh), options.rotate_deg, about));
+  }
   Box3 turned;
   for (const Mesh& mesh : model.objects) turned.add(box_of(mesh));
   const Point centre = turned.footprint().centre();
@@ -63,18 +80,18 @@ void check_stands(const std::string& path, Um z) {
 Mesh rotated(Mesh mesh, double degrees, Point about) {
   const Eigen::Matrix2d matrix = turn(degrees);
   if (matrix.isIdentity(0)) return mesh;
-  Weld weld(mesh.vertices.size());
-  std::vector<std::uint32_t> welded;
-  welded.reserve(mesh.vertices.size());
-  for (const Point3& p : mesh.vertices) {
+  return mapped(std::move(mesh), [&](Point3 p) {
     const Eigen::Vector2d um = matrix * Eigen::Vector2d(p.x - about.x, p.y - about.y);
-    welded.push_back(weld.index({lattice(um.x() / 1000) + about.x, lattice(um.y() / 1000) + about.y, p.z}));
-  }
-  for (Triangle& triangle : mesh.triangles)
-    for (std::uint32_t& corner : triangle) corner = welded[corner];
-  mesh.vertices = weld.take_vertices();
-  if (drop_degenerate(mesh) > 0) drop_unused_vertices(mesh);
-  return mesh;
+    return Point3{lattice(um.x() / 1000) + about.x, lattice(um.y() / 1000) + about.y, p.z};
+  });
+}
+
+Mesh stretched(Mesh mesh, double xy, double z, Point3 about) {
+  if (xy == 1 && z == 1) return mesh;
+  const auto um = [](Um v, Um from, double factor) { return lattice((v - from) * factor / 1000) + from; };
+  return mapped(std::move(mesh), [&](Point3 p) {
+    return Point3{um(p.x, about.x, xy), um(p.y, about.y, xy), um(p.z, about.z, z)};
+  });
 }
 
 Mesh moved(Mesh mesh, Point3 by) {
@@ -88,8 +105,7 @@ std::vector<PlacedModel> place(std::vector<Loaded> models, const PlacementOption
                 "leave out --copies or --keep-position");
   std::vector<PlacedModel> placed;
   std::vector<Point3> homes(models.size());
-  for (std::size_t i = 0; i < models.size(); ++i)
-    placed.push_back(at_origin(std::move(models[i]), options.rotate_deg, homes[i]));
+  for (std::size_t i = 0; i < models.size(); ++i) placed.push_back(at_origin(std::move(models[i]), options, homes[i]));
   if (options.keep_position) {
     for (std::size_t i = 0; i < models.size(); ++i) {
       if (!options.drop) check_stands(placed[i].path, homes[i].z);

@@ -17,12 +17,13 @@ struct Plate {
 };
 
 struct PlacementOptions {
-  double rotate_deg = 0;          ///< counter-clockwise about a vertical axis through the middle of each model
-  bool keep_position = false;     ///< the file's coordinates stay; Pre: copies is 1
-  bool drop = false;              ///< … but what floats or dips is put down on the bed
-  std::optional<Point> center{};  ///< of the box of everything; none: the middle of the plate
-  int copies = 1;                 ///< of each model, > 0
-  Um spacing = 6_mm;              ///< between the boxes of two models or copies, >= 0
+  double stretch_xy = 1, stretch_z = 1;  ///< about the middle of each model, and the bed
+  double rotate_deg = 0;                 ///< counter-clockwise about a vertical axis through the middle of each model
+  bool keep_position = false;            ///< the file's coordinates stay; Pre: copies is 1
+  bool drop = false;                     ///< … but what floats or dips is put down on the bed
+  std::optional<Point> center{};         ///< of the box of everything; none: the middle of the plate
+  int copies = 1;                        ///< of each model, > 0
+  Um spacing = 6_mm;                     ///< between the boxes of two models or copies, >= 0
 };
 
 /// One file's objects, which keep their places among themselves. The model is sliced once, at its own origin; where its
@@ -53,6 +54,10 @@ void check_fits(std::span<const PlacedModel> models, const Plate& plate, Um tole
 
 /// The mesh turned about the z axis through `about`. Post: welded, no triangle has a corner twice.
 Mesh rotated(Mesh mesh, double degrees, Point about);
+
+/// The mesh stretched about a point: by one factor in X and Y, by another in Z. Pre: both > 0, and it stays on the
+/// lattice. Post: as of `rotated`.
+Mesh stretched(Mesh mesh, double xy, double z, Point3 about);
 
 /// The mesh moved. Pre: it stays on the lattice.
 Mesh moved(Mesh mesh, Point3 by);

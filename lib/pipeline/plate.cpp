@@ -65,7 +65,9 @@ std::vector<PlacedObject> place_models(const Job& job, Report& report, StageCach
   const auto& machine = job.settings.machine;
   const mesh::Plate plate{print_surface(machine), machine.bed_exclude_areas, height_of(machine)};
   auto placed = mesh::place(std::move(loaded),
-                            {.rotate_deg = job.placement.rotate_deg,
+                            {.stretch_xy = job.settings.material.material_shrinkage_percentage_xy / 100,
+                             .stretch_z = job.settings.material.material_shrinkage_percentage_z / 100,
+                             .rotate_deg = job.placement.rotate_deg,
                              .keep_position = job.placement.keep_position,
                              .drop = job.placement.drop,
                              .center = job.placement.centre,

@@ -59,7 +59,7 @@ using Fills = std::vector<FilledLayer>;
 
 Cuts slice_object(const Settings& settings, const PlacedObject& object) {
   const slice::Cutter cutter(object.mesh, slice::planes(settings.layers, box_of(object.mesh).max.z));
-  return tasks::parallel_map(cutter.size(), [&](std::size_t i) { return cutter.cut(i, settings.layers.resolution); });
+  return tasks::parallel_map(cutter.size(), [&](std::size_t i) { return cutter.cut(i, settings.layers); });
 }
 
 /// The settings of the first layer, whose lines may have a width of their own.
@@ -74,10 +74,12 @@ Settings of_first_layer(Settings settings) {
 Walls build_walls(const Settings& settings, const Settings& first, const Cuts& cuts) {
   return tasks::parallel_map(cuts.size(), [&](std::size_t i) {
     const Regions over_air = i > 0 ? geometry::subtract(cuts[i].layer.regions, cuts[i - 1].layer.regions) : Regions{};
-    return walls::build((i == 0 ? first : settings).walls, {.layer = cuts[i].layer,
-                                                            .index = i,
-                                                            .nozzle_diameter = settings.machine.nozzle_diameter,
-                                                            .over_air = &over_air});
+    return walls::build((i == 0 ? first : settings).walls,
+                        {.layer = cuts[i].layer,
+                         .index = i,
+                         .nozzle_diameter = settings.machine.nozzle_diameter,
+                         .over_air = &over_air,
+                         .above = i + 1 < cuts.size() ? &cuts[i + 1].layer.regions : nullptr});
   });
 }
 
@@ -95,6 +97,7 @@ std::vector<infill::LayerAreas> find_areas(const Settings& settings, const Cuts&
   std::vector<infill::LayerAreas> areas;
   areas.reserve(cuts.size());
   for (auto& part : runs) std::move(part.begin(), part.end(), std::back_inserter(areas));
+  infill::keep_below_tops(settings.infill, object, areas);
   infill::combine_sparse(settings.infill, object, areas);
   return areas;
 }

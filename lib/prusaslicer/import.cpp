@@ -2,6 +2,7 @@
 #include "prusaslicer/import.h"
 
 #include "core/error.h"
+#include "prusaslicer/bed.h"
 #include "prusaslicer/custom.h"
 #include "prusaslicer/import_support.h"
 #include "prusaslicer/keys.h"
@@ -106,25 +107,9 @@ class Translator {
 
   void machine() {
     if (const auto* e = lines_.find("bed_shape")) {
-      Ring bed;
-      try {
-        value::parse(e->value, Unit::mm, bed);
-      } catch (const std::invalid_argument&) {
-        lines_.refuse(*e, "a list of points in mm");
-      }
-      const Box box = box_of(bed);
-      const Point size = bed.empty() ? Point{} : box.max - box.min;
-      const bool four = bed.size() == 4 && std::abs(double_area(bed)) == 2 * std::int64_t{size.x} * size.y;
-      const bool centred = four && box.min.x == -box.max.x && box.min.y == -box.max.y;
-      const bool rectangle = four && (box.min == Point{} || centred);
-      set("bed_shape", rectangle ? "rectangle" : "polygon", *e);
-      set("bed_polygon", rectangle ? "" : value::print(bed, Unit::mm), *e);
-      set("machine_center_is_zero", centred ? "true" : "false", *e);
-      if (size.x >= 1000 &&
-          size.y >= 1000) {  // of another shape, what surrounds it; less is nobody's bed and refused as a polygon
-        set("machine_width", value::print(size.x, Unit::mm), *e);
-        set("machine_depth", value::print(size.y, Unit::mm), *e);
-      }
+      const auto bed = bed_of(e->value);
+      if (!bed) lines_.refuse(*e, "a list of points in mm");
+      for (const auto& [key, text] : *bed) set(key, text, *e);
     }
     for_each_reckoned(Form::limit, [&](const Key& row) {
       if (const auto* e = lines_.find(row.name)) limit(std::string(row.ours), *e);
@@ -398,6 +383,10 @@ class Translator {
       set("retraction_enable", lines_.figure(*e).v > 0 || (by_firmware && lines_.flag(*by_firmware)) ? "true" : "false",
           *e);
     }
+    for (const auto* axis : {"xy", "z"})  // the share of the model's size that is lost as the plastic cools
+      if (const auto* e = lines_.find(fmt::format("filament_shrinkage_compensation_{}", axis)))
+        set(fmt::format("material_shrinkage_percentage_{}", axis), number(100 / (1 - lines_.figure(*e).v / 100), 4),
+            *e);
     if (const auto* e = lines_.find("max_volumetric_extrusion_rate_slope_positive"))
       set("max_extrusion_rate_slope", lines_.figure(*e).v > 0 ? number(lines_.figure(*e).v) : "auto", *e);
     // While wiping, PrusaSlicer draws back at the usual speed and moves at 0.8 × that of travels: that gives the

@@ -74,6 +74,14 @@ void modernise(IniEntry& e) {
   }
 }
 
+/// A list of numbers, one for each filament or extruder, that is empty: vendors' bundles have `filament_cost =`, and
+/// PrusaSlicer then takes what it takes without the key.
+bool says_nothing(const IniEntry& e) {
+  const auto* row = find_key(e.key);
+  return row && e.value.empty() && row->written == Written::plain && row->form != Form::none &&
+         (row->of_filament || row->name.starts_with("filament_"));
+}
+
 }  // namespace
 
 std::string first_text(const IniEntry& e) {
@@ -94,7 +102,7 @@ Lines::Lines(std::vector<IniEntry> entries, const std::string& path) : path_(pat
       }
     if (spread) continue;
     modernise(e);
-    by_key_[e.key] = e;
+    if (!says_nothing(e)) by_key_[e.key] = e;
   }
   for (const auto& row : keys()) {
     if (!row.of_filament) continue;

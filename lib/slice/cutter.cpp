@@ -90,9 +90,17 @@ Regions solid_of(std::vector<Ring> rings, bool cut_through) {
   return geometry::regions_from_rings(rings, geometry::WindingRule::positive);
 }
 
+Regions solid_of(std::vector<Ring> rings, bool cut_through, SlicingMode mode) {
+  if (mode == SlicingMode::even_odd) return geometry::regions_from_rings(rings, geometry::WindingRule::even_odd);
+  Regions solid = solid_of(std::move(rings), cut_through);
+  if (mode == SlicingMode::regular) return solid;
+  for (Region& region : solid) region.holes.clear();
+  return geometry::unite(solid);  // what stood in a hole is within its region now
+}
+
 }  // namespace
 
-Cut Cutter::cut(std::size_t i, Um resolution) const {
+Cut Cutter::cut(std::size_t i, const LayerSettings& settings) const {
   const Plane& plane = planes_[i];
   Cut out{{plane.z, plane.height, {}}, {}, {}};
   Chains chains = stitch(*mesh_, triangles_of(i), plane.below);
@@ -100,9 +108,9 @@ Cut Cutter::cut(std::size_t i, Um resolution) const {
   StopNowAndThen stop(64);
   for (auto& ring : chains.rings) {
     stop.step();
-    ring = geometry::simplified(ring, resolution);
+    ring = geometry::simplified(ring, settings.resolution);
   }
-  out.layer.regions = solid_of(std::move(chains.rings), mesh_->cut_through);
+  out.layer.regions = solid_of(std::move(chains.rings), mesh_->cut_through, settings.slicing_mode);
   return out;
 }
 

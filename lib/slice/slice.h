@@ -21,8 +21,8 @@ struct Plane {
   friend bool operator==(const Plane&, const Plane&) = default;
 };
 
-/// The first layer, then layers of layer_height, upwards from 0, as long as the middle of a layer is inside the model or
-/// on its top: what remains at the top is a layer when it is at least half of one, and nothing otherwise.
+/// The first layer, then layers of layer_height, upwards from 0, as long as the middle of a layer is inside the model
+/// or on its top: what remains at the top is a layer when it is at least half of one, and nothing otherwise.
 std::vector<Plane> planes(const LayerSettings& settings, Um model_height);
 
 /// Places where the mesh has a hole and an outline had to be closed without it.
@@ -54,11 +54,11 @@ class Cutter {
     return {triangles_.data() + starts_[i], starts_[i + 1] - starts_[i]};
   }
 
-  /// The outlines of layer i, simplified up to `resolution`, united under the nonzero winding rule.
+  /// The outlines of layer i, simplified up to `resolution`, united as `slicing_mode` says.
   /// Post:   regions as for Booleans (geometry/boolean.h). Holes in the mesh are closed; no outline is left out.
   /// Cost:   O(n) for n triangles cut, about 80 ns each, unless outlines touch (then they are united by a sweep).
   /// Thread: any number at once.
-  Cut cut(std::size_t i, Um resolution) const;
+  Cut cut(std::size_t i, const LayerSettings& settings) const;
 
  private:
   const Mesh* mesh_;
@@ -67,8 +67,8 @@ class Cutter {
   std::vector<std::uint32_t> triangles_;  // ascending for each plane
 };
 
-/// At most one notice a kind of gap, over all layers: "open_contour_closed", "open_contour_bridged"; the place is that of
-/// the widest.
+/// At most one notice a kind of gap, over all layers: "open_contour_closed", "open_contour_bridged"; the place is that
+/// of the widest.
 /// @param of the object, as the user should read it
 std::vector<PlacedNotice> notices_of(std::span<const Cut> cuts, const std::string& of);
 

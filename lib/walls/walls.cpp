@@ -7,6 +7,7 @@
 #include "walls/kinds_of_parts.h"
 #include "walls/outline.h"
 #include "walls/part.h"
+#include "walls/slopes.h"
 
 #include <algorithm>
 #include <iterator>
@@ -105,12 +106,17 @@ WallLayer build(const WallSettings& settings, const WallInput& input) {
     out.inside = regions;
     return out;
   }
+  const auto extra = settings.wall_extra_on_slopes && input.above != nullptr
+                         ? extra_walls(widths, regions, offset_outlines(settings, *input.above, input.index + 1))
+                         : std::vector<int>(regions.size(), 0);
   KindsOfParts kinds;
   for (std::uint32_t i = 0; i < regions.size(); ++i) {
     stop_if_asked();
-    auto again = kinds.again(regions[i], i);
-    Part part = again ? *std::move(again) : whole_part(settings, widths, regions[i], input, i);
-    if (!again) kinds.add(regions[i], part);
+    auto again = extra[i] == 0 ? kinds.again(regions[i], i) : std::nullopt;
+    Widths own = widths;
+    own.walls += extra[i];
+    Part part = again ? *std::move(again) : whole_part(settings, own, regions[i], input, i);
+    if (!again && extra[i] == 0) kinds.add(regions[i], part);
     put_in_order(part.beads, settings.wall_order);
     if (!part.valid)
       out.notices.push_back(notice_of("walls_without_medial_axis", input, regions[i],

@@ -85,7 +85,7 @@ struct Bench {
   std::vector<SlicedLayer> slice_layers() const {
     const slice::Cutter cutter(mesh, planes);
     std::vector<SlicedLayer> out;
-    for (std::size_t i = 0; i < cutter.size(); ++i) out.push_back(cutter.cut(i, settings.layers.resolution).layer);
+    for (std::size_t i = 0; i < cutter.size(); ++i) out.push_back(cutter.cut(i, settings.layers).layer);
     return out;
   }
   std::vector<WallLayer> build_walls() const {

@@ -185,7 +185,7 @@ TEST_CASE("broken: every mesh of the series has the area that a person would exp
     for (std::size_t i = 0; i < planes.size(); ++i) {
       CAPTURE(i);
       double area = 0;
-      for (const auto& region : cutter.cut(i, 13).layer.regions) area += area_mm2(region);
+      for (const auto& region : cutter.cut(i, {.resolution = 13}).layer.regions) area += area_mm2(region);
       CHECK(area == Approx(broken.area_mm2[i]).margin(0.5));
     }
   }

@@ -20,7 +20,7 @@ namespace {
 std::vector<Cut> cut_all(const Mesh& mesh, const LayerSettings& settings = {}) {
   const Cutter cutter(mesh, planes(settings, box_of(mesh).max.z));
   std::vector<Cut> cuts;
-  for (std::size_t i = 0; i < cutter.size(); ++i) cuts.push_back(cutter.cut(i, settings.resolution));
+  for (std::size_t i = 0; i < cutter.size(); ++i) cuts.push_back(cutter.cut(i, settings));
   return cuts;
 }
 

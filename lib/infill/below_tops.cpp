@@ -1,0 +1,51 @@
+#include "core/stop.h"
+#include "geometry/boolean.h"
+#include "geometry/offset.h"
+#include "infill/shells.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace weft::infill {
+namespace {
+
+constexpr Um sliver =
+    50;  // half a cell of the grid that borders of solid follow: where these jitter nothing is carried
+
+Regions sparse_of(const LayerAreas& layer) {
+  Regions out;
+  for (const PartAreas& part : layer) out.insert(out.end(), part.sparse.begin(), part.sparse.end());
+  return out;
+}
+
+/// What of a layer's shell stands beyond the shell below by more than carries itself.
+Regions hanging(const Regions& shell, const Regions& below, double carries_um) {
+  constexpr double everything_um = 1e7;  // of 90°: no bed is as wide
+  if (carries_um > everything_um) return {};
+  const Regions carried = geometry::offset(below, {.by = static_cast<Um>(std::lround(carries_um))});
+  return geometry::opening(geometry::subtract(shell, carried), sliver);
+}
+
+}  // namespace
+
+void keep_below_tops(const InfillSettings& infill, const ShellObject& object, std::vector<LayerAreas>& areas) {
+  if (!infill.infill_support_enabled || infill.infill_sparse_density <= 0 || areas.empty()) return;
+  const double lean = std::tan(infill.infill_support_angle * std::numbers::pi / 180);
+  const Um line = infill.infill_line_width.value_or(object.nozzle);
+  Regions shell, wanted;  // of the layer above: all but its sparse inside, and what of that must be filled
+  for (std::size_t i = areas.size(); i-- > 0;) {
+    stop_if_asked();
+    const Regions sparse = sparse_of(areas[i]);
+    Regions own = geometry::subtract(*object.layers[i].outline, sparse);
+    if (i + 1 < areas.size()) {
+      wanted = geometry::unite(wanted, hanging(shell, own, lean * object.layers[i + 1].height));
+      wanted = geometry::intersect(wanted, sparse);
+    }
+    const Regions filled = geometry::opening(wanted, line / 2);
+    for (PartAreas& part : areas[i])
+      if (!part.sparse.empty()) part.sparse = geometry::intersect(part.sparse, filled);
+    shell = std::move(own);
+  }
+}
+
+}  // namespace weft::infill
