@@ -11,6 +11,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
+
 namespace weft::infill {
 namespace {
 
@@ -136,6 +138,19 @@ FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const 
     fill_all(areas.top, top, areas.part);
   }
   return layer;
+}
+
+Notices check(const InfillSettings& infill, Um nozzle_diameter, Um height) {
+  if (infill.infill_line_width || infill.infill_sparse_density <= 0 || infill.infill_sparse_density >= 100) return {};
+  const double d = to_mm(nozzle_diameter), h = to_mm(height);
+  const double strand_mm = std::numbers::pi / 4 * (d * d - h * h) / h + h,
+               widest_mm = to_mm(flow::automatic_width(nozzle_diameter, height, false));
+  if (strand_mm <= widest_mm) return {};
+  return {
+      {"infill_line_width_cut",
+       fmt::format("infill_line_width: auto would be {:.2f} mm, a strand of the nozzle's cross-section in layers of "
+                   "{:.2f} mm; a nozzle of {:.2f} mm presses none flat beyond {:.2f} mm, and lines are that wide",
+                   strand_mm, h, d, widest_mm)}};
 }
 
 }  // namespace weft::infill

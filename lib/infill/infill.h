@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include "core/notice.h"
 #include "infill/shells.h"
 #include "model/layer.h"
 #include "settings/groups/infill.h"
@@ -28,5 +29,9 @@ struct FillInput {
 ///       that of the area. A solid region's beads share a `sequence`.
 /// Cost: 7 to 13 µs a bead (tests/benchmark/RESULTS.md).
 FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const FillInput& input);
+
+/// What of the settings cannot have the effect the user may expect.
+/// @param height of the layers
+Notices check(const InfillSettings& infill, Um nozzle_diameter, Um height);
 
 }  // namespace weft::infill

@@ -153,6 +153,27 @@ TEST_CASE("prusaslicer keys: top and bottom fill patterns say how lines lie") {
   CHECK(turned != aligned);
 }
 
+TEST_CASE("prusaslicer keys: what of a plastic shrinks is made larger") {
+  Scratch scratch;
+  scratch.write("box.stl", box_stl(100, 50, 10));
+  scratch.write("p.ini", plain + "filament_shrinkage_compensation_xy = 1%\nfilament_shrinkage_compensation_z = 4%\n");
+  const auto run = weft({"slice", "box.stl", "-p", "p.ini", "-o", "-", "-q"}, scratch.path());
+  INFO(run.err);
+  REQUIRE(run.status == 0);
+  CHECK(facts_of(run.out).top_z == Approx(10.4));  // 10 / 0.96 = 10.417, in layers of 0.2
+  CHECK_THAT(run.out, Contains("; material_shrinkage_percentage_xy = 101.0101"));
+}
+
+TEST_CASE("prusaslicer keys: slicing_mode, extra_perimeters and infill_only_where_needed say what weft's settings do") {
+  Scratch scratch;
+  scratch.write("p.ini", plain + "slicing_mode = close_holes\nextra_perimeters = 1\ninfill_only_where_needed = 1\n");
+  const auto run = weft({"profile", "show", "p.ini"}, scratch.path());
+  INFO(run.err);
+  REQUIRE(run.status == 0);
+  CHECK_THAT(run.out, Contains("\nslicing_mode = close_holes\n") && Contains("\nwall_extra_on_slopes = true\n"));
+  CHECK_THAT(run.out, Contains("\ninfill_support_enabled = true\n"));
+}
+
 TEST_CASE("prusaslicer keys: skirt_height = 0 prints no skirt") {
   CHECK(facts_of(sliced("")).mm.count("Skirt/Brim") == 1);
   CHECK(facts_of(sliced("skirt_height = 0\n")).mm.count("Skirt/Brim") == 0);

@@ -35,6 +35,17 @@ Region turned(const Region& region, double angle) {
 
 }  // namespace
 
+TEST_CASE("infill: an automatic line width that is cut is said", "[infill]") {
+  InfillSettings settings;
+  CHECK(infill::check(settings, 400, 200).empty());
+  const auto cut = infill::check(settings, 400, 60);
+  REQUIRE(cut.size() == 1);
+  CHECK(cut[0].code == "infill_line_width_cut");
+  CHECK(cut[0].message.find("1.20 mm") != std::string::npos);
+  settings.infill_line_width = 450;
+  CHECK(infill::check(settings, 400, 60).empty());
+}
+
 TEST_CASE("infill: a straight-walled area is covered up to its walls", "[infill][law]") {
   const bool turns = GENERATE(true, false);
   const double angle = GENERATE(0.0, 12.3, 45.0, 81.7);

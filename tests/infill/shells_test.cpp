@@ -75,6 +75,35 @@ TEST_CASE("shells: a block has its solid layers below and above, and nothing els
   }
 }
 
+TEST_CASE("shells: infill_support_enabled keeps infill only below what does not carry itself", "[infill]") {
+  InfillSettings below_tops;
+  below_tops.infill_support_enabled = true;
+  const auto kept = [&](const Object& object, const InfillSettings& infill) {
+    auto areas = object.areas(skin(3, 2, 0, 0, 0), infill);
+    infill::keep_below_tops(infill, {object.layers, infill::box_of(object.layers), 400}, areas);
+    double mm2 = 0;
+    for (const LayerAreas& layer : areas) mm2 += sum(layer, &PartAreas::sparse);
+    return mm2;
+  };
+  // A flat roof is carried all over, down to the bottom.
+  const Object block(std::vector<Regions>(20, {rectangle(0, 0, 20000, 20000)}));
+  CHECK(kept(block, below_tops) == Approx(kept(block, {})).epsilon(0.001));
+  // A steep roof carries itself: 0.1 mm a layer of 0.2 mm is 27° from the vertical.
+  std::vector<Regions> steep;
+  for (Um i = 0; i < 90; ++i) steep.push_back({rectangle(100 * i, 100 * i, 20000 - 100 * i, 20000 - 100 * i)});
+  const Object roof(std::move(steep));
+  CHECK(kept(roof, {}) > 1000);
+  CHECK(kept(roof, below_tops) < 0.02 * kept(roof, {}));
+  below_tops.infill_support_angle = 20;
+  CHECK(kept(roof, below_tops) > 0.9 * kept(roof, {}));
+  // Half of a block is covered by a flat roof at half its height: only what stands below it, and the roof of the other.
+  below_tops.infill_support_angle = 40;
+  std::vector<Regions> steps(20, {rectangle(0, 0, 20000, 20000)});
+  steps.resize(40, {rectangle(0, 0, 8000, 20000)});
+  const Object two(std::move(steps));
+  CHECK(kept(two, below_tops) == Approx(kept(two, {})).epsilon(0.03));
+}
+
 TEST_CASE("shells: thickness asks for as many layers as it needs", "[infill]") {
   const Object block(std::vector<Regions>(20, {rectangle(0, 0, 20000, 20000)}));
   const auto solid_layers = [&](const ShellSettings& shells) {

@@ -216,3 +216,11 @@ TEST_CASE("placement: a shape lies in a ring, overlaps it, or does neither", "[m
   CHECK(overlap(at(0, 0, 100'000, 100'000), at(0, 0, 100'000, 100'000)));
   CHECK_FALSE(overlap(at(-100, 0, 0, 100), at(0, 0, 100, 100)));
 }
+
+TEST_CASE("placement: a model is stretched about the middle of its place, from the bed upwards", "[mesh][placement]") {
+  const auto models =
+      placed({box_model(20, 10, 5, {50, 60, 0})}, {.stretch_xy = 1.01, .stretch_z = 1.04, .keep_position = true});
+  CHECK(models[0].box.max.x - models[0].box.min.x == 20'200);
+  CHECK(models[0].box.max.z == 5'200);
+  CHECK(models[0].instances[0] == Point{60'000, 65'000});
+}

@@ -112,6 +112,13 @@ TEST_CASE("prusaslicer: zero means automatic, unlimited or never, and is said so
   CHECK(t.approximated.empty());  // at most max_print_speed, as PrusaSlicer's automatic speed without a limit of flow
 }
 
+TEST_CASE("prusaslicer: a list of a filament's that is empty says nothing, and a number that is empty is refused") {
+  const auto t = translated("filament_cost = \nderetract_speed =\nfilament_retract_length = \nretract_length = 1.2\n");
+  CHECK(value_of(t, "filament_cost") == "(absent)");
+  CHECK(value_of(t, "retraction_amount") == "1.2");
+  CHECK_THROWS_AS(translated("layer_height = \n"), Error);
+}
+
 TEST_CASE("prusaslicer: of vectors the first value holds, and beds of any shape are kept") {
   const auto t = translated(
       "temperature = 215,230\nmachine_max_feedrate_x = 500,200\nbed_shape = "

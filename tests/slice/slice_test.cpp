@@ -275,6 +275,25 @@ TEST_CASE("slice: layers of real parts hold the volume of their meshes", "[law][
   }
 }
 
+TEST_CASE("slice: slicing_mode says what shells within shells are") {
+  using namespace fixtures;
+  const Facets block = box({0, 0, 0}, {20, 20, 20}), core = box({5, 5, 0}, {15, 15, 20}),
+               well = reversed(box({5, 5, 0}, {15, 15, 20}));
+  const auto sliced = [](const Facets& facets, SlicingMode mode) {
+    LayerSettings settings;
+    settings.slicing_mode = mode;
+    return volume_mm3(cut_all(mesh::read(binary_stl(facets), "part", {}).objects.at(0).mesh, settings));
+  };
+  CHECK(sliced(block + core, SlicingMode::regular) == Approx(8000));
+  CHECK(sliced(block + core, SlicingMode::even_odd) == Approx(8000 - 2000));
+  CHECK(sliced(block + well, SlicingMode::regular) == Approx(8000 - 2000));
+  CHECK(sliced(block + well, SlicingMode::even_odd) == Approx(8000 - 2000));
+  CHECK(sliced(block + well, SlicingMode::close_holes) == Approx(8000));
+  // What stands in a hole goes into what fills it.
+  const Facets pin = box({9, 9, 0}, {11, 11, 20});
+  CHECK(sliced(block + well + pin, SlicingMode::close_holes) == Approx(8000));
+}
+
 TEST_CASE("slice: an open scan comes out whole", "[corpus]") {
   const auto path = corpus("models/stanford-bunny.stl");
   if (!path) return;
