@@ -2,11 +2,13 @@
 #include "infill/bridges.h"
 
 #include "core/stop.h"
+#include "geometry/offset.h"
 #include "infill/scan.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace weft::infill {
 namespace {
@@ -38,7 +40,75 @@ Hanging hanging(const Region& gap, const Mask& below, double angle_rad) {
   return {angle_rad, all > 0 ? resting / all : 0, resting > 0 ? fourths / cubes : 0};
 }
 
+/// Places along a line of a frame where beads cross it.
+struct Crossing {
+  int line = 0;
+  double x = 0;
+};
+
+std::vector<Crossing> crossings(const Beads& beads, const Frame& frame, const LineSet& lines) {
+  std::vector<Crossing> out;
+  for (const Bead& bead : beads)
+    for (std::size_t i = 1; i < bead.path.size() + (bead.closed ? 1 : 0); ++i) {
+      Turned a = frame.into(bead.path[i - 1].at), b = frame.into(bead.path[i % bead.path.size()].at);
+      if (a.y > b.y) std::swap(a, b);
+      const int first = std::max(0, static_cast<int>(std::ceil((a.y - lines.first) / lines.spacing)));
+      const int last = std::min(lines.count - 1, static_cast<int>(std::floor((b.y - lines.first) / lines.spacing)));
+      for (int k = first; k <= last && a.y < b.y; ++k)
+        out.push_back({k, a.x + (lines.y(k) - a.y) / (b.y - a.y) * (b.x - a.x)});
+    }
+  std::sort(out.begin(), out.end(),
+            [](const Crossing& a, const Crossing& b) { return a.line != b.line ? a.line < b.line : a.x < b.x; });
+  return out;
+}
+
+/// The mean free way of strands in that direction, µm, weighted by its length cubed: sag grows with the third power of
+/// a span and more, so the long ones decide.
+double mean_span_um(const Regions& areas, const Beads& held_by, double angle_rad) {
+  constexpr double spacing = 400;  // about a strand
+  const Frame frame(angle_rad, areas.front().outer.front());
+  const Outline outline(areas, frame);
+  const double height = outline.greatest_y() - outline.least_y();
+  const int count = std::clamp(static_cast<int>(height / spacing), 4, 200);
+  const LineSet lines{outline.least_y() + height / count / 2, height / count, count};
+  const auto met = crossings(held_by, frame, lines);
+  double cubes = 0, fourths = 0;
+  const auto span = [&](double length) { cubes += std::pow(length, 3), fourths += std::pow(length, 4); };
+  auto at = met.begin();
+  int line = -1;
+  for (const Interval& i : outline.cut(lines)) {
+    if (i.line != line)
+      line = i.line, at = std::find_if(at, met.end(), [&](const Crossing& c) { return c.line >= line; });
+    double from = i.from;
+    for (; at != met.end() && at->line == line && at->x < i.to; ++at)
+      if (at->x > from) span(at->x - from), from = at->x;
+    span(i.to - from);
+  }
+  return cubes > 0 ? fourths / cubes : 0;
+}
+
 }  // namespace
+
+std::optional<double> internal_bridge_angle_rad(const Region& area, const SparseStyle& below, Um nozzle) {
+  constexpr int directions = 18;
+  constexpr double short_way = 3;   // strands: lines that hang no further in any direction do not sag
+  constexpr double clearly = 0.95;  // of a span: directions that are as good as the infill's own give way to it
+  Beads infill;
+  fill_sparse(area, below, infill);
+  // A strand beside the edge, where no line of the infill ends yet, lies on what holds the edge.
+  Regions inner = geometry::offset({area}, {.by = -2 * nozzle});
+  if (inner.empty()) inner = {area};
+  const auto span_at = [&](double angle) { return mean_span_um(inner, infill, angle); };
+  double best = below.angle_rad, least = span_at(best), most = least;
+  for (int d = 1; d < directions; ++d) {
+    stop_if_asked();
+    const double angle = below.angle_rad + d * std::numbers::pi / directions, span = span_at(angle);
+    if (span < clearly * least) best = angle, least = span;
+    most = std::max(most, span);
+  }
+  if (most <= short_way * nozzle) return std::nullopt;
+  return best;
+}
 
 std::optional<double> bridge_angle_rad(const Region& gap, const Mask& below) {
   constexpr int directions = 36;

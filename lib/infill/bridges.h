@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "infill/mask.h"
+#include "infill/sparse.h"
 
 #include <optional>
 
@@ -11,5 +12,12 @@ namespace weft::infill {
 /// @param below  the layer that the strands can rest on
 /// Cost: 36 directions, each a scan of the gap.
 std::optional<double> bridge_angle_rad(const Region& gap, const Mask& below);
+
+/// The direction in which strands over the sparse infill below `area` span the shortest free ways from line to line;
+/// what is around the area holds them too. Nothing where no way is
+/// long in any direction: there ordinary lines do.
+/// @param nozzle diameter
+/// Cost: the infill of the area, and 18 scans of it.
+std::optional<double> internal_bridge_angle_rad(const Region& area, const SparseStyle& below, Um nozzle);
 
 }  // namespace weft::infill

@@ -2,6 +2,7 @@
 #include "infill/infill.h"
 
 #include "core/stop.h"
+#include "geometry/boolean.h"
 #include "infill/solid.h"
 #include "infill/sparse.h"
 #include "model/flow.h"
@@ -10,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -60,82 +62,98 @@ void spread_out(Um by, std::size_t from, Beads& beads) {
     for (Junction& j : beads[i].path) j.width = std::max(1, j.width - by);
 }
 
+/// Across the bridge that most of an area lies on: its strands then carry each line at many places.
+std::optional<double> angle_across_bridges(const Region& region, std::span<const BridgeArea> below) {
+  const Box box = weft::box_of(region.outer);
+  for (const BridgeArea& bridge : below) {
+    const Box other = weft::box_of(bridge.regions);
+    if (other.empty() || other.max.x < box.min.x || other.min.x > box.max.x || other.max.y < box.min.y ||
+        other.min.y > box.max.y)
+      continue;
+    if (area_mm2(geometry::intersect({region}, bridge.regions)) >= area_mm2(region) / 2)
+      return bridge.angle_rad + radians(90);
+  }
+  return std::nullopt;
+}
+
+/// How the areas of a layer are filled, but for what differs from area to area.
+struct Styles {
+  SolidStyle solid, top, bridge;
+  SparseStyle sparse;
+};
+
+Styles styles_of(const InfillSettings& infill, const ShellSettings& shells, const FillInput& input) {
+  const Um automatic = flow::automatic_width(input.nozzle, input.height);
+  const double overlap = infill.infill_overlap.of(input.wall_line_width > 0 ? input.wall_line_width : automatic);
+  const auto band = [&](Um width) { return flow::spacing(width, input.height, input.overlap_factor); };
+  Styles out;
+  out.solid = {.role = Role::solid_infill,
+               .band = band(shells.skin_line_width.value_or(automatic)),
+               .angle_rad = 0,
+               .overlap_um = overlap,
+               .connect = infill.infill_connect_lines,
+               .fixed_strand = false,
+               .flow = 1,
+               .origin = input.origin,
+               .part = 0,
+               .sequence = 0};
+  out.top = out.bridge = out.solid;
+  out.top.role = Role::top_skin, out.top.band = band(shells.top_skin_line_width.value_or(input.nozzle));
+  apply(shells.bottom_pattern, out.solid);
+  apply(shells.top_pattern, out.top);
+  out.bridge.role = Role::bridge, out.bridge.band = input.nozzle, out.bridge.fixed_strand = true;
+  out.bridge.flow = flow::bridge_flow(input.nozzle, input.height) * shells.bridge_flow / 100;
+  out.sparse = sparse_style(infill, {input.index, input.z, input.height, input.nozzle, input.origin});
+  out.sparse.overlap_um = overlap;
+  return out;
+}
+
 }  // namespace
 
 FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const FillInput& input) {
-  const Um automatic = flow::automatic_width(input.nozzle, input.height);
-  const Um skin_band = flow::spacing(shells.skin_line_width.value_or(automatic), input.height, input.overlap_factor);
-  const Um top_band =
-      flow::spacing(shells.top_skin_line_width.value_or(input.nozzle), input.height, input.overlap_factor);
-  const Um sparse_width = infill.infill_line_width.value_or(flow::automatic_width(input.nozzle, input.height, false));
-  const Um sparse_band = flow::band(sparse_width, input.height);
-  const double overlap = infill.infill_overlap.of(input.wall_line_width > 0 ? input.wall_line_width : automatic);
-  const bool turned_layer = input.index % 2 == 1;
-  const double turn = turned_layer ? radians(90) : 0;
-
+  const Styles styles = styles_of(infill, shells, input);
+  const double turn = input.index % 2 == 1 ? radians(90) : 0;
   FillLayer layer;
-  SolidStyle solid{.role = Role::solid_infill,
-                   .band = skin_band,
-                   .angle_rad = 0,
-                   .overlap_um = overlap,
-                   .connect = infill.infill_connect_lines,
-                   .fixed_strand = false,
-                   .flow = 1,
-                   .origin = input.origin,
-                   .part = 0,
-                   .sequence = 0};
-  SolidStyle top = solid;
-  top.role = Role::top_skin, top.band = top_band;
-  apply(shells.bottom_pattern, solid);
-  apply(shells.top_pattern, top);
-  SolidStyle bridge = solid;
-  bridge.role = Role::bridge, bridge.band = input.nozzle, bridge.fixed_strand = true;
-  bridge.flow = flow::bridge_flow(input.nozzle, input.height) * shells.bridge_flow / 100;
-  const SparseStyle sparse{.pattern = infill.infill_pattern,
-                           .density = infill.infill_sparse_density / 100,
-                           .band = sparse_band,
-                           .angle_rad = radians(infill.infill_angle),
-                           .overlap_um = overlap,
-                           .connect = infill.infill_connect_lines,
-                           .turned_layer = turned_layer,
-                           .z = input.z,
-                           .origin = input.origin,
-                           .part = 0};
   std::uint32_t sequence = 0;
-  const auto fill_all = [&](const Regions& regions, SolidStyle style, std::uint32_t part) {
+  const auto fill_all = [&](const Regions& regions, SolidStyle style, std::uint32_t part, const auto& angle_of) {
     style.part = part;
     for (const Region& region : regions) {
       stop_if_asked();
       style.sequence = style.ordered ? ++sequence : 0;
-      if (style.role != Role::bridge)
-        style.angle_rad =
-            (style.turned ? turn : 0) + (shells.skin_angle ? radians(*shells.skin_angle) : angle_along_walls(region));
+      style.angle_rad = angle_of(style, region);
       const std::size_t from = layer.beads.size();
       fill_solid(region, style, layer.beads);
       if (style.role != Role::bridge) spread_out(flow::spread(input.height, input.overlap_factor), from, layer.beads);
     }
   };
+  const auto own_angle = [&](const SolidStyle& style, const Region& region) {
+    return (style.turned ? turn : 0) + (shells.skin_angle ? radians(*shells.skin_angle) : angle_along_walls(region));
+  };
+  const auto solid_angle = [&](const SolidStyle& style, const Region& region) {
+    const auto across =
+        shells.skin_angle || !style.turned ? std::nullopt : angle_across_bridges(region, input.bridges_below);
+    return across ? *across : own_angle(style, region);
+  };
   for (const PartAreas& areas : input.areas) {
-    for (const BridgeArea& area : areas.bridges) {
-      bridge.angle_rad = area.angle_rad;
-      fill_all(area.regions, bridge, areas.part);
-    }
+    for (const BridgeArea& area : areas.bridges)
+      fill_all(area.regions, styles.bridge, areas.part, [&](const auto&...) { return area.angle_rad; });
     if (infill.infill_sparse_density > 0) {
-      SparseStyle style = sparse;
+      SparseStyle style = styles.sparse;
       style.part = areas.part;
       for (const Region& region : areas.sparse) {
         stop_if_asked();
         fill_sparse(region, style, layer.beads);
       }
       style.layers = areas.combined_layers;
-      style.band = flow::band(sparse_width, input.height * areas.combined_layers);
+      style.band =
+          flow::band(width_of_sparse(infill, input.nozzle, input.height), input.height * areas.combined_layers);
       for (const Region& region : areas.combined) {
         stop_if_asked();
         fill_sparse(region, style, layer.beads);
       }
     }
-    fill_all(areas.solid, solid, areas.part);
-    fill_all(areas.top, top, areas.part);
+    fill_all(areas.solid, styles.solid, areas.part, solid_angle);
+    fill_all(areas.top, styles.top, areas.part, own_angle);
   }
   return layer;
 }

@@ -7,6 +7,7 @@
 #include "settings/groups/shells.h"
 
 #include <cstddef>
+#include <span>
 
 namespace weft::infill {
 
@@ -16,10 +17,11 @@ struct FillInput {
   std::size_t index = 0;  ///< of the layer: directions alternate by it
   Um z = 0;               ///< top of the layer: patterns that change with height
   Um height = 0;
-  Um nozzle = 0;              ///< diameter
-  double overlap_factor = 1;  ///< how far lines side by side overlap (model/flow.h)
-  Um wall_line_width = 0;     ///< of the innermost wall; what a share of overlap is of. 0: automatic
-  Point origin{};             ///< where patterns are anchored: one point for all layers of an object
+  Um nozzle = 0;                                ///< diameter
+  double overlap_factor = 1;                    ///< how far lines side by side overlap (model/flow.h)
+  Um wall_line_width = 0;                       ///< of the innermost wall; what a share of overlap is of. 0: automatic
+  Point origin{};                               ///< where patterns are anchored: one point for all layers of an object
+  std::span<const BridgeArea> bridges_below{};  ///< of the layer below: solid lines cross their strands
 };
 
 /// Lays beads in the areas: sparse ones in the pattern, skin and solid ones as lines that fill the area's width

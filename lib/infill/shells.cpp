@@ -31,12 +31,12 @@ struct LayerRange {
   std::size_t from, to;
 };
 
-/// The masks that a run of layers needs, made once: insides of all layers within reach, outlines of the run and its
-/// neighbours.
+/// The masks that a run of layers needs, made once: insides of all layers within reach, outlines of the run, of two
+/// layers below and one above.
 class Window {
  public:
   Window(const ShellObject& object, LayerRange run, LayerRange within_reach)
-      : insides_from_(within_reach.from), outlines_from_(run.from - std::min<std::size_t>(run.from, 1)) {
+      : insides_from_(within_reach.from), outlines_from_(run.from - std::min<std::size_t>(run.from, 2)) {
     const Grid whole = Grid::over(object.box, finest_cell, 0, most_cells);
     Box box;
     for (std::size_t i = within_reach.from; i < within_reach.to; ++i)
@@ -103,62 +103,96 @@ Mask solid_cells(const Window& window, std::span<const ShellLayer> layers, std::
   return inside - core;
 }
 
-/// Bottoms over air that hang between supports become bridges.
-void find_bridges(const ShellSettings& settings, Kinds& kinds, const Mask& air, const Mask& below, Um nozzle) {
-  const Grid& grid = kinds.inside.grid();
-  const Mask gaps = air.opened(cells(nozzle / 2.0, grid));
-  if (!gaps.any()) return;
-  std::vector<Ring> rings = gaps.outlines();
-  for (Ring& ring : rings) ring = geometry::simplified(ring, grid.cell);
-  for (const Region& gap : geometry::regions_from_rings(rings)) {
-    stop_if_asked();
-    std::optional<double> angle = bridge_angle_rad(gap, below);
-    if (!angle) continue;
-    if (settings.bridge_angle) angle = *settings.bridge_angle * std::numbers::pi / 180;
-    Mask bridge = Mask(grid, {&gap, 1}).grown(cells(settings.bridge_anchor, grid)) & kinds.solid;
-    for (const Mask& other : kinds.bridges) bridge -= other;
-    if (!bridge.any()) continue;
-    kinds.solid -= bridge, kinds.top -= bridge;
-    kinds.bridges.push_back(std::move(bridge));
-    kinds.bridge_angles.push_back(*angle);
-  }
-}
+/// What of a layer is solid, and what is sparse, before it is looked at which way strands run.
+struct Split {
+  double line = 0;  ///< width of an ordinary one, µm
+  Mask solid, seen_above, air_below;
+  std::optional<Mask> sparse;  ///< present when any
+};
 
-Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, const ShellObject& object,
+Split split_of(const ShellSettings& settings, const InfillSettings& infill, const ShellObject& object,
                const Window& window, std::size_t index) {
   const ShellLayer& layer = object.layers[index];
   const Grid& grid = window.grid();
   const Mask& inside = window.inside(index);
   const Reach reach = reach_of(settings, object.layers, index);
-  const double line = flow::automatic_width(object.nozzle, layer.height);
-  Mask none(grid);
-  Kinds kinds{inside, none, none, {}, {}, std::nullopt};
-
-  const bool top = reach.above > 0, bottom = reach.below > 0 && index > 0;
-  Mask seen_above = none, air_below = none;
-  if (top) seen_above = index + 1 < object.layers.size() ? inside - window.outline(index + 1) : inside;
-  if (bottom) air_below = inside - window.outline(index - 1);
-
+  const Mask none(grid);
+  Split out{static_cast<double>(flow::automatic_width(object.nozzle, layer.height)), inside, none, none, std::nullopt};
+  if (reach.above > 0) out.seen_above = index + 1 < object.layers.size() ? inside - window.outline(index + 1) : inside;
+  if (reach.below > 0 && index > 0) out.air_below = inside - window.outline(index - 1);
   const bool whole =
       settings.infill_solid_every_layers && index % static_cast<std::size_t>(*settings.infill_solid_every_layers) == 0;
-  if (infill.infill_sparse_density >= 100 || whole) {
-    kinds.solid = inside;
-  } else {
-    const Mask wanted = solid_cells(window, object.layers, index, reach);
-    kinds.solid = wanted.opened(cells(0.3 * line, grid));
-    if (seen_above.any() || air_below.any()) kinds.solid |= (seen_above | air_below).grown(cells(line, grid)) & inside;
-    Mask sparse = inside - kinds.solid;
-    if (kinds.solid.any()) sparse = sparse.opened(cells(0.75 * line, grid)) & sparse;
-    kinds.solid = inside - sparse;
-    if (sparse.any()) kinds.sparse = std::move(sparse);
+  if (infill.infill_sparse_density >= 100 || whole) return out;
+  out.solid = solid_cells(window, object.layers, index, reach).opened(cells(0.3 * out.line, grid));
+  if (out.seen_above.any() || out.air_below.any())
+    out.solid |= (out.seen_above | out.air_below).grown(cells(out.line, grid)) & inside;
+  Mask sparse = inside - out.solid;
+  if (out.solid.any()) sparse = sparse.opened(cells(0.75 * out.line, grid)) & sparse;
+  out.solid = inside - sparse;
+  if (sparse.any()) out.sparse = std::move(sparse);
+  return out;
+}
+
+Regions regions_of(const Mask& cells) {
+  std::vector<Ring> rings = cells.outlines();
+  for (Ring& ring : rings) ring = geometry::simplified(ring, cells.grid().cell);
+  return geometry::regions_from_rings(rings);
+}
+
+/// A bridge takes what it covers from the other kinds.
+void add_bridge(Kinds& kinds, Mask bridge, double angle_rad) {
+  for (const Mask& other : kinds.bridges) bridge -= other;
+  if (!bridge.any()) return;
+  kinds.solid -= bridge, kinds.top -= bridge;
+  if (kinds.sparse) *kinds.sparse -= bridge;
+  kinds.bridges.push_back(std::move(bridge));
+  kinds.bridge_angles.push_back(angle_rad);
+}
+
+/// Bottoms over air that hang between supports become bridges. Their ends rest on what is below, also where there
+/// would be sparse infill beside the bottom.
+void find_bridges(const ShellSettings& settings, Kinds& kinds, const Mask& air, const Mask& below, Um nozzle) {
+  const Grid& grid = kinds.inside.grid();
+  const Mask gaps = air.opened(cells(nozzle / 2.0, grid));
+  if (!gaps.any()) return;
+  for (const Region& gap : regions_of(gaps)) {
+    stop_if_asked();
+    std::optional<double> angle = bridge_angle_rad(gap, below);
+    if (!angle) continue;
+    if (settings.bridge_angle) angle = *settings.bridge_angle * std::numbers::pi / 180;
+    add_bridge(kinds, Mask(grid, {&gap, 1}).grown(cells(settings.bridge_anchor, grid)) & kinds.inside, *angle);
   }
-  if (seen_above.any())
-    kinds.top = seen_above.opened(cells(0.4 * line, grid)).grown(cells(0.5 * line, grid)) & kinds.solid;
+}
+
+/// Solid over sparse infill hangs from line to line of it: strands run across the shortest free spans.
+void find_internal_bridges(const ShellSettings& settings, const SparseStyle& below, Kinds& kinds,
+                           const std::optional<Mask>& sparse, double line, Um nozzle) {
+  if (!sparse) return;
+  constexpr double narrowest = 1.5;  // lines: a narrower belt is held from its sides
+  const Grid& grid = kinds.inside.grid();
+  const Mask hanging = (kinds.solid & *sparse).opened(cells(narrowest / 2 * line, grid));
+  if (!hanging.any()) return;
+  for (const Region& area : regions_of(hanging)) {
+    stop_if_asked();
+    std::optional<double> angle = internal_bridge_angle_rad(area, below, nozzle);
+    if (!angle) continue;
+    if (settings.bridge_angle) angle = *settings.bridge_angle * std::numbers::pi / 180;
+    add_bridge(kinds, Mask(grid, {&area, 1}).grown(cells(settings.bridge_anchor, grid)) & kinds.solid, *angle);
+  }
+}
+
+Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, const ShellObject& object,
+               const Window& window, std::size_t index, Split split, const std::optional<Mask>& sparse_below) {
+  const Grid& grid = window.grid();
+  const double line = split.line;
+  Kinds kinds{window.inside(index), Mask(grid), std::move(split.solid), {}, {}, std::move(split.sparse)};
+  if (split.seen_above.any())
+    kinds.top = split.seen_above.opened(cells(0.4 * line, grid)).grown(cells(0.5 * line, grid)) & kinds.solid;
   kinds.solid -= kinds.top;
-  if (air_below.any()) {
+  if (split.air_below.any()) {
     kinds.solid |= kinds.top;  // what is bridge below is not top
     const Mask seen = kinds.top;
-    if (settings.bridges) find_bridges(settings, kinds, air_below, window.outline(index - 1), object.nozzle);
+    if (settings.bridges) find_bridges(settings, kinds, split.air_below, window.outline(index - 1), object.nozzle);
     kinds.top = seen & kinds.solid;
     kinds.solid -= kinds.top;
   }
@@ -168,6 +202,13 @@ Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, cons
     const Mask to_top = std::move(strips) & kinds.top.grown(cells(line, grid));
     kinds.top |= to_top, kinds.solid -= to_top;
   }
+  if (settings.bridges && index > 0) {
+    const ShellLayer& below = object.layers[index - 1];
+    find_internal_bridges(settings,
+                          sparse_style(infill, {index - 1, below.z, below.height, object.nozzle, object.box.centre()}),
+                          kinds, sparse_below, line, object.nozzle);
+  }
+  if (kinds.sparse && !kinds.sparse->any()) kinds.sparse.reset();
   return kinds;
 }
 
@@ -283,7 +324,8 @@ std::vector<LayerAreas> find_areas(const ShellSettings& settings, const InfillSe
                                    const ShellObject& object, std::size_t first, std::size_t count) {
   const LayerRange run{first, first + count};
   LayerRange within_reach = run;
-  for (std::size_t i = run.from; i < run.to; ++i) {
+  const std::size_t below_run = first - std::min<std::size_t>(first, 1);  // what is sparse there matters too
+  for (std::size_t i = below_run; i < run.to; ++i) {
     const Reach reach = reach_of(settings, object.layers, i);
     within_reach.from = std::min(within_reach.from, i - std::min(i, std::max<std::size_t>(reach.below, 1)));
     within_reach.to =
@@ -291,13 +333,21 @@ std::vector<LayerAreas> find_areas(const ShellSettings& settings, const InfillSe
   }
   const Window window(object, run, within_reach);
   std::vector<LayerAreas> result;
-  for (std::size_t i = run.from; i < run.to; ++i) {
+  std::optional<Mask> sparse_below;
+  for (std::size_t i = below_run; i < run.to; ++i) {
     stop_if_asked();
     if (object.layers[i].inside->empty()) {
-      result.emplace_back();
+      sparse_below.reset();
+      if (i >= run.from) result.emplace_back();
       continue;
     }
-    result.push_back(exact_areas(settings, infill, object.layers[i], kinds_of(settings, infill, object, window, i)));
+    Split split = split_of(settings, infill, object, window, i);
+    std::optional<Mask> sparse = split.sparse;
+    if (i >= run.from) {
+      const Kinds kinds = kinds_of(settings, infill, object, window, i, std::move(split), sparse_below);
+      result.push_back(exact_areas(settings, infill, object.layers[i], kinds));
+    }
+    sparse_below = std::move(sparse);
   }
   return result;
 }

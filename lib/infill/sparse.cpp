@@ -9,6 +9,7 @@
 #include "infill/fit_sides.h"
 #include "infill/gyroid.h"
 #include "infill/scan.h"
+#include "model/flow.h"
 
 #include <algorithm>
 #include <array>
@@ -428,6 +429,21 @@ static_assert(in_order(pattern_rows, &PatternRow::pattern), "row i of pattern_ro
 static_assert(pattern_rows.size() == choices_of(InfillPattern{}).size(), "a pattern has no row");
 
 }  // namespace
+
+Um width_of_sparse(const InfillSettings& infill, Um nozzle, Um height) {
+  return infill.infill_line_width.value_or(flow::automatic_width(nozzle, height, false));
+}
+
+SparseStyle sparse_style(const InfillSettings& infill, const SparseLayer& layer) {
+  return {.pattern = infill.infill_pattern,
+          .density = infill.infill_sparse_density / 100,
+          .band = flow::band(width_of_sparse(infill, layer.nozzle, layer.height), layer.height),
+          .angle_rad = infill.infill_angle * std::numbers::pi / 180,
+          .connect = infill.infill_connect_lines,
+          .turned_layer = layer.index % 2 == 1,
+          .z = layer.z,
+          .origin = layer.origin};
+}
 
 void fill_sparse(const Region& region, const SparseStyle& style, Beads& beads) {
   if (style.band <= 0 || style.density <= 0 || region.outer.size() < 3) return;

@@ -4,6 +4,8 @@
 #include "model/bead.h"
 #include "settings/groups/infill.h"
 
+#include <cstddef>
+
 namespace weft::infill {
 
 /// How an area is filled sparsely.
@@ -20,6 +22,17 @@ struct SparseStyle {
   int layers = 1;  ///< printed at once: as much higher are the beads
   std::uint32_t part = 0;
 };
+
+/// Of a layer: where it is, and the nozzle's diameter.
+struct SparseLayer {
+  std::size_t index = 0;
+  Um z = 0, height = 0, nozzle = 0;
+  Point origin{};
+};
+/// Of a line of sparse infill.
+Um width_of_sparse(const InfillSettings& infill, Um nozzle, Um height);
+/// As the settings ask for it, without overlap.
+SparseStyle sparse_style(const InfillSettings& infill, const SparseLayer& layer);
 
 /// Fills a region with the pattern. Lines that are neighbours along the edge are joined by a bead beside the edge; all
 /// beads are then narrowed a little, so that the joints do not raise the density.

@@ -107,6 +107,10 @@ Fills fill_object(const Settings& settings, const Settings& first, const Cuts& c
   auto areas = find_areas(settings, cuts, walls);
   Box box;  // patterns hang on its centre, so they move with the object
   for (const auto& cut : cuts) box.add(box_of(cut.layer.regions));
+  // Layers are let go of as they are filled: what the next one must know of their bridges is set aside.
+  std::vector<std::vector<infill::BridgeArea>> bridges(cuts.size());
+  for (std::size_t i = 0; i < cuts.size(); ++i)
+    for (const auto& part : areas[i]) bridges[i].insert(bridges[i].end(), part.bridges.begin(), part.bridges.end());
   return tasks::parallel_map(cuts.size(), [&](std::size_t i) {
     const auto& layer = cuts[i].layer;
     const auto& s = i == 0 ? first : settings;
@@ -118,7 +122,9 @@ Fills fill_object(const Settings& settings, const Settings& first, const Cuts& c
                                 .nozzle = settings.machine.nozzle_diameter,
                                 .overlap_factor = s.walls.overlap_factor,
                                 .wall_line_width = s.walls.wall_line_width_x.value_or(0),
-                                .origin = box.empty() ? Point{} : box.centre()});
+                                .origin = box.empty() ? Point{} : box.centre(),
+                                .bridges_below = i > 0 ? std::span<const infill::BridgeArea>(bridges[i - 1])
+                                                       : std::span<const infill::BridgeArea>{}});
     FilledLayer out{{}, {}, {}, std::move(filled.beads), std::move(filled.notices)};
     for (auto& part : std::exchange(areas[i], {})) {
       out.skin.insert(out.skin.end(), part.top.begin(), part.top.end());

@@ -120,6 +120,28 @@ TEST_CASE("infill: bridges are strands of the nozzle's diameter", "[infill]") {
   }
 }
 
+TEST_CASE("infill: solid lines cross the strands of the bridge below, unless a direction is asked for", "[infill]") {
+  const LayerAreas areas = solid_area(rectangle(0, 0, 20000, 20000));
+  const std::vector<infill::BridgeArea> below{{{rectangle(0, 0, 20000, 15000)}, degrees(30)}};
+  const auto direction = [&](const ShellSettings& shells, std::span<const infill::BridgeArea> bridges) {
+    auto in = input(areas);
+    in.bridges_below = bridges;
+    double best = 0, angle = 0;
+    for (const Bead& bead : infill::fill({}, shells, in).beads)
+      for (std::size_t i = 1; i < bead.path.size(); ++i) {
+        const Point a = bead.path[i - 1].at, b = bead.path[i].at;
+        if (distance(a, b) > best) best = distance(a, b), angle = std::atan2(b.y - a.y, b.x - a.x);
+      }
+    return angle;
+  };
+  CHECK(std::abs(std::cos(direction({}, below) - degrees(30))) < 0.02);
+  ShellSettings asked;
+  asked.skin_angle = 10;
+  CHECK(std::abs(std::sin(direction(asked, below) - direction(asked, {}))) < 1e-6);
+  const std::vector<infill::BridgeArea> beside{{{rectangle(0, 0, 20000, 5000)}, degrees(30)}};
+  CHECK(std::abs(std::sin(direction({}, beside) - direction({}, {}))) < 1e-6);
+}
+
 TEST_CASE("infill: settings of widths and directions do something", "[infill]") {
   LayerAreas areas = solid_area(rectangle(0, 0, 20000, 20000));
   areas[0].top.push_back(rectangle(30000, 0, 50000, 20000));

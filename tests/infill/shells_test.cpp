@@ -172,7 +172,7 @@ TEST_CASE("shells: a gap between two supports is bridged along its shorter span"
   const double angle = areas[10][0].bridges[0].angle_rad * 180 / std::numbers::pi;
   CHECK(angle == Approx(turned ? 90 : 0).margin(6));
   CHECK(bridged(areas[10]) > 12 * 28);  // the gap, and anchors on both sides
-  CHECK(bridged(areas[10]) < 14.4 * 28.2);
+  CHECK(bridged(areas[10]) < 16.4 * 28.2);
   CHECK(bridged(areas[11]) == 0);
 }
 
@@ -188,6 +188,52 @@ TEST_CASE("shells: a ceiling over a pit is bridged, a ledge is not", "[infill]")
   const auto hanging = Object(std::move(ledge)).areas({});
   CHECK(bridged(hanging[6]) == 0);
   CHECK(solid_at(hanging[6], {15000, 10000}));
+}
+
+TEST_CASE("shells: solid over sparse infill is a bridge across the lines of the infill, from edge to edge",
+          "[infill]") {
+  const Object block(std::vector<Regions>(20, {rectangle(0, 0, 30000, 30000)}));
+  InfillSettings infill;
+  infill.infill_pattern = InfillPattern::lines;
+  infill.infill_sparse_density = 10;
+  infill.infill_angle = GENERATE(0.0, 30.0, 45.0);
+  CAPTURE(infill.infill_angle);
+  const auto areas = block.areas(skin(4, 4, 0, 0), infill);
+  const double inside = 28 * 28;
+  REQUIRE(sum(areas[15], &PartAreas::sparse) == Approx(inside));  // lines turned by 90°: the layer's number is odd
+  REQUIRE(areas[16][0].bridges.size() == 1);
+  CHECK(bridged(areas[16]) == Approx(inside));
+  const double across = degrees(infill.infill_angle);
+  CHECK(std::abs(std::sin(areas[16][0].bridges[0].angle_rad - across)) < std::sin(degrees(6)));
+  for (const std::size_t other : {3U, 17U, 18U, 19U}) CHECK(bridged(areas[other]) == 0);
+}
+
+TEST_CASE("shells: dense infill carries ordinary lines, and bridges are laid only where they are asked for",
+          "[infill]") {
+  const Object block(std::vector<Regions>(20, {rectangle(0, 0, 30000, 30000)}));
+  InfillSettings infill;
+  infill.infill_sparse_density = 80, infill.infill_line_width = 450;
+  for (const LayerAreas& layer : block.areas({}, infill)) CHECK(bridged(layer) == 0);
+  infill.infill_sparse_density = 10;
+  ShellSettings none;
+  none.bridges = false;
+  for (const LayerAreas& layer : block.areas(none, infill)) CHECK(bridged(layer) == 0);
+}
+
+TEST_CASE("shells: a belt of solid narrower than a line and a half hangs on its own sides, wider ones are bridges",
+          "[infill]") {
+  const auto widest_bridge = [](Um step) {  // a roof that falls by that much a layer
+    std::vector<Regions> outlines;
+    for (int i = 0; i < 12; ++i) outlines.push_back({rectangle(0, 0, 40000 - i * step, 20000)});
+    InfillSettings infill;
+    infill.infill_sparse_density = 10;
+    double mm2 = 0;
+    const auto areas = Object(std::move(outlines)).areas(skin(2, 0, 0, 0), infill);
+    for (std::size_t i = 0; i + 2 < areas.size(); ++i) mm2 = std::max(mm2, bridged(areas[i]));
+    return mm2;
+  };
+  CHECK(widest_bridge(300) == 0);
+  CHECK(widest_bridge(2000) > 2 * 18);
 }
 
 TEST_CASE("shells: small patches of sparse infill become solid", "[infill]") {
