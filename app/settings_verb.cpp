@@ -49,13 +49,14 @@ std::string as_markdown(const std::vector<const CatalogueEntry*>& entries, const
   for (const auto* e : entries) {
     if (e->section != section) {
       section = e->section;
-      out += fmt::format("{}## {}\n\n| key |{} default | range | meaning |\n|---|{}---|---|---|\n",
+      out += fmt::format("{}## {}\n\n| key |{} default | range | differs by | meaning |\n|---|{}---|---|---|---|\n",
                          out.empty() ? "" : "\n", section, labels ? " label |" : "", labels ? "---|" : "");
     }
     std::string range = range_of(*e);
     for (auto at = range.find('|'); at != std::string::npos; at = range.find('|', at + 2)) range.replace(at, 1, "\\|");
-    out += fmt::format("| `{}` |{} {} | {} | {} |\n", e->key, labels ? fmt::format(" {} |", labels->of(e->key)) : "",
-                       e->default_text, range, e->meaning);
+    out +=
+        fmt::format("| `{}` |{} {} | {} | {} | {} |\n", e->key, labels ? fmt::format(" {} |", labels->of(e->key)) : "",
+                    e->default_text, range, name_of(e->scope), e->meaning);
   }
   return out;
 }
@@ -64,10 +65,10 @@ std::string as_plain(const std::vector<const CatalogueEntry*>& entries, const La
   std::string out, section;
   for (const auto* e : entries) {
     if (e->section != section) out += fmt::format("{}[{}]\n", out.empty() ? "" : "\n", section = e->section);
-    out += fmt::format("{} = {}{}{}\n    {}{} ({})\n", e->key, e->default_text,
+    out += fmt::format("{} = {}{}{}\n    {}{} ({}; {})\n", e->key, e->default_text,
                        e->unit.empty() || e->unit == "%" || e->default_text == "auto" ? "" : " ",
                        e->unit == "%" || e->default_text == "auto" ? "" : e->unit,
-                       labels ? labels->of(e->key) + ": " : "", e->meaning, range_of(*e));
+                       labels ? labels->of(e->key) + ": " : "", e->meaning, range_of(*e), name_of(e->scope));
   }
   return out;
 }

@@ -6,6 +6,7 @@
 #include "gcode/header.h"
 #include "gcode/layer_text.h"
 #include "gcode/left_by.h"
+#include "settings/first_layer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,13 +16,6 @@
 
 namespace weft::gcode {
 namespace {
-
-int first_nozzle(const MaterialSettings& m) {
-  return m.material_print_temperature_layer_0.value_or(m.material_print_temperature);
-}
-int first_bed(const MaterialSettings& m) {
-  return m.material_bed_temperature_layer_0.value_or(m.material_bed_temperature);
-}
 
 std::string with_newline(std::string code) {
   if (!code.empty() && code.back() != '\n') code += '\n';
@@ -45,6 +39,7 @@ std::uint64_t seed_of(std::string_view text) {
 Writer::Writer(const Job& job, bool lenient)
     : job_(job),
       lenient_(lenient),
+      first_(on_first_layer(job.settings).material),
       dialect_(dialect_of(job.settings.machine, job.settings.gcode)),
       names_(label_names(job.plan.objects)) {
   const auto& layers = job.plan.layers;
@@ -105,7 +100,8 @@ void Writer::expand_custom_code() {
 
 std::string Writer::head() const {
   const auto& m = job_.settings.material;
-  const bool sets_nozzle = !start_sets_nozzle_ && first_nozzle(m) > 0, sets_bed = !start_sets_bed_ && first_bed(m) > 0;
+  const int nozzle = first_.material_print_temperature, bed = first_.material_bed_temperature;
+  const bool sets_nozzle = !start_sets_nozzle_ && nozzle > 0, sets_bed = !start_sets_bed_ && bed > 0;
   const bool sets_chamber = !start_sets_chamber_ && m.build_volume_temperature > 0;
   Text out;
   out << top_comments(job_) << '\n';
@@ -114,12 +110,12 @@ std::string Writer::head() const {
   Comments{job_.settings.gcode.gcode_comment_dialect}.custom(out);
   if (job_.settings.gcode.gcode_machine_limits) out << dialect_.machine_limits(job_.settings.machine);
   if (sets_chamber) out << "M141 S" << std::int64_t{m.build_volume_temperature} << '\n';
-  if (sets_bed) out << "M140 S" << std::int64_t{first_bed(m)} << '\n';
-  if (sets_nozzle) out << "M104 S" << std::int64_t{first_nozzle(m)} << '\n';
-  if (sets_bed && m.material_bed_temp_wait) out << "M190 S" << std::int64_t{first_bed(m)} << '\n';
+  if (sets_bed) out << "M140 S" << std::int64_t{bed} << '\n';
+  if (sets_nozzle) out << "M104 S" << std::int64_t{nozzle} << '\n';
+  if (sets_bed && m.material_bed_temp_wait) out << "M190 S" << std::int64_t{bed} << '\n';
   if (sets_chamber && m.material_bed_temp_wait) out << "M191 S" << std::int64_t{m.build_volume_temperature} << '\n';
   out << start_;
-  if (sets_nozzle && m.material_print_temp_wait) out << "M109 S" << std::int64_t{first_nozzle(m)} << '\n';
+  if (sets_nozzle && m.material_print_temp_wait) out << "M109 S" << std::int64_t{nozzle} << '\n';
   out << "G21\nG90\n";
   if (job_.settings.gcode.write_extrusion) out << (job_.settings.gcode.relative_extrusion ? "M83\n" : "M82\n");
   return std::move(out).take();
@@ -130,10 +126,11 @@ std::string Writer::layer(std::size_t index) const {
   std::string preamble;
   const bool first = job_.plan.layers[index].time.first();
   if (index > 0 && job_.plan.layers[index - 1].time.first() != first) {  // the first layer is over, or another begins
-    if (m.material_print_temperature != first_nozzle(m))
-      preamble += fmt::format("M104 S{}\n", first ? first_nozzle(m) : m.material_print_temperature);
-    if (m.material_bed_temperature != first_bed(m))
-      preamble += fmt::format("M140 S{}\n", first ? first_bed(m) : m.material_bed_temperature);
+    const auto& now = first ? first_ : m;
+    if (m.material_print_temperature != first_.material_print_temperature)
+      preamble += fmt::format("M104 S{}\n", now.material_print_temperature);
+    if (m.material_bed_temperature != first_.material_bed_temperature)
+      preamble += fmt::format("M140 S{}\n", now.material_bed_temperature);
   }
   if (job_.settings.gcode.gcode_progress && index > 0) {
     const auto now = progress(elapsed_s_[index], elapsed_s_.back());

@@ -50,7 +50,8 @@ class Writer {
   void begin_where_start_ends();
 
   const Job& job_;
-  bool lenient_;  // a trial: the figures of the print are not the real ones
+  bool lenient_;            // a trial: the figures of the print are not the real ones
+  MaterialSettings first_;  // on the first layer
   Dialect dialect_;
   std::vector<MachineState> entries_;                    // when each layer begins
   std::vector<double> elapsed_s_;                        // then; one more for the end

@@ -133,12 +133,14 @@ Statistics count(const Rules& rules, const LayerPlan& layer, std::optional<Point
 
 }  // namespace
 
-Rules rules_of(const Settings& s) {
-  return {s.machine, s.material, s.layers, s.walls, s.retraction, s.speeds, s.cooling};
+Rules rules_of(const Settings& s, const Settings* above) {
+  const auto& usual = above ? *above : s;
+  return {s.machine, s.material, s.layers, usual.walls, s.retraction, s.speeds, s.cooling, usual.speeds.speed_travel};
 }
 
-PlannedLayer plan_layer(const Rules& rules, LayerPlan layer, std::optional<Point3> start) {
-  set_speeds(rules, layer, start);
+PlannedLayer plan_layer(AllRules all, LayerPlan layer, std::optional<Point3> start) {
+  set_speeds(all, layer, start);
+  const Rules& rules = of_scope(all, layer.scope);
   auto moves = moves_of(rules, layer, start);
   std::vector<double> seconds;
   seconds_of(rules.machine, moves, {}, seconds);
@@ -173,7 +175,7 @@ std::vector<std::optional<Point3>> starts_of(const PrintPlan& print) {
   return starts;
 }
 
-Planned plan(const Rules& rules, PrintPlan print) {
+Planned plan(AllRules rules, PrintPlan print) {
   Planned out;
   const auto starts = starts_of(print);
   for (std::size_t i = 0; i < print.layers.size(); ++i) {

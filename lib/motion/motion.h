@@ -5,10 +5,11 @@
 #include "settings/settings.h"
 
 #include <optional>
+#include <span>
 
 namespace weft::motion {
 
-/// The settings that motion reads.
+/// The settings that motion reads, of one scope.
 struct Rules {
   MachineSettings machine;
   MaterialSettings material;
@@ -17,14 +18,21 @@ struct Rules {
   RetractionSettings retraction;
   SpeedSettings speeds;
   CoolingSettings cooling;
+  /// Of travels above the first layer, mm/s: beads that follow their width get no faster. Absent: as in speeds.
+  std::optional<double> speed_travel_above{};
 };
-Rules rules_of(const Settings& settings);
+
+/// @param above what holds above the first layer: a bead's nominal width is that of the others. Null: the same
+Rules rules_of(const Settings& settings, const Settings* above = nullptr);
 
 /// A layer with speeds, accelerations and fan, and what it takes.
 struct PlannedLayer {
   LayerPlan plan;
   Statistics statistics;  ///< of this layer alone: layer_s has one value
 };
+
+/// Rules by scope: of the layer (LayerPlan::scope) and of its beads. A scope that is not there has the first's.
+using AllRules = std::span<const Rules>;
 
 /// Gives every step of a layer its speed and acceleration, slows the layer down to cool_min_layer_time, sets the fan.
 /// Beads are cut where their width changes, so that each segment may be printed at one width; mm³/s stay below
@@ -34,7 +42,10 @@ struct PlannedLayer {
 /// Cost: O(junctions); a few passes more where the layer is slowed down. Layers do not depend on each other: the
 /// estimate of
 ///       time lets each begin and end at rest, which costs a fraction of a second a layer.
-PlannedLayer plan_layer(const Rules& rules, LayerPlan layer, std::optional<Point3> start);
+PlannedLayer plan_layer(AllRules rules, LayerPlan layer, std::optional<Point3> start);
+inline PlannedLayer plan_layer(const Rules& rules, LayerPlan layer, std::optional<Point3> start) {
+  return plan_layer(AllRules(&rules, 1), std::move(layer), start);
+}
 
 /// Where the nozzle is when a layer is done that began at `start`; nothing as long as no layer has moved.
 std::optional<Point3> start_after(const LayerPlan& layer, std::optional<Point3> start);
@@ -47,6 +58,9 @@ struct Planned {
   PrintPlan plan;
   Statistics statistics;
 };
-Planned plan(const Rules& rules, PrintPlan print);
+Planned plan(AllRules rules, PrintPlan print);
+inline Planned plan(const Rules& rules, PrintPlan print) {
+  return plan(AllRules(&rules, 1), std::move(print));
+}
 
 }  // namespace weft::motion

@@ -89,15 +89,15 @@ void store(const std::vector<Segment>& segments, Extrude& bead) {
 
 }  // namespace
 
-double feature_speed_mm_s(const Rules& rules, Role role, bool first_layer) {
+double feature_speed_mm_s(const Rules& rules, Role role) {
   const auto& s = rules.speeds;
   const auto& from = row_of(role).speed;
   if (from.own && s.*from.own) return *(s.*from.own);
-  const double base = s.*from.speed, speed = from.share ? (s.*from.share).of(base) : base;
-  return first_layer ? std::min(speed, s.speed_layer_0.of(speed)) : speed;
+  const double base = s.*from.speed;
+  return from.share ? (s.*from.share).of(base) : base;
 }
 
-double feature_acceleration_mm_s2(const Rules& rules, Role role, bool first_layer) {
+double feature_acceleration_mm_s2(const Rules& rules, Role role) {
   const auto& s = rules.speeds;
   double a = s.acceleration_print;
   for (const auto own : row_of(role).acceleration)
@@ -105,7 +105,6 @@ double feature_acceleration_mm_s2(const Rules& rules, Role role, bool first_laye
       a = *(s.*own);
       break;
     }
-  if (first_layer && s.acceleration_layer_0) a = *s.acceleration_layer_0;
   return std::min({a, rules.machine.machine_max_acceleration_x, rules.machine.machine_max_acceleration_y});
 }
 
@@ -114,8 +113,8 @@ double travel_acceleration_mm_s2(const Rules& rules) {
                    rules.machine.machine_max_acceleration_x, rules.machine.machine_max_acceleration_y});
 }
 
-void set_bead_speed(const Rules& rules, Extrude& bead, bool first_layer) {
-  const double speed = with_small_perimeter(rules, bead, feature_speed_mm_s(rules, bead.role, first_layer));
+void set_bead_speed(const Rules& rules, Extrude& bead) {
+  const double speed = with_small_perimeter(rules, bead, feature_speed_mm_s(rules, bead.role));
   const double height_mm = to_mm(bead.height), share = rules.material.material_flow / 100.0;
   const double most_mm3_s = rules.material.material_max_volumetric_speed;
   const bool follows_width =
@@ -124,9 +123,10 @@ void set_bead_speed(const Rules& rules, Extrude& bead, bool first_layer) {
   const double nominal = follows_width ? nominal_area_mm2(rules, bead.role, bead.height) : 0;
   const auto wanted = [&](double area) {  // at one place, of that band's area (without material_flow)
     if (area <= 0) return speed;
-    const double v =
-        factor > 0 ? std::min(speed * (1 + factor * (nominal / area - 1)), std::max(speed, rules.speeds.speed_travel))
-                   : speed;
+    const double v = factor > 0
+                         ? std::min(speed * (1 + factor * (nominal / area - 1)),
+                                    std::max(speed, rules.speed_travel_above.value_or(rules.speeds.speed_travel)))
+                         : speed;
     return std::min(v, most_mm3_s / (area * share));
   };
 
@@ -163,11 +163,10 @@ void set_wipe(const Rules& rules, double speed_mm_s, std::optional<Point3> at, R
 }
 }  // namespace
 
-void set_speeds(const Rules& rules, LayerPlan& layer, std::optional<Point3> start) {
-  const bool first_layer = layer.time.first();
+void set_speeds(AllRules all, LayerPlan& layer, std::optional<Point3> start) {
+  const Rules& rules = of_scope(all, layer.scope);
   const bool write_accelerations = rules.speeds.acceleration_enabled;
-  const double travel_speed =
-      first_layer ? rules.speeds.speed_travel_layer_0.value_or(rules.speeds.speed_travel) : rules.speeds.speed_travel;
+  const double travel_speed = rules.speeds.speed_travel;
   const auto set_travel = [&](Travel& travel) {
     travel.speed_mm_s = travel_speed;
     travel.z_speed_mm_s = std::min(rules.speeds.speed_z_hop, rules.machine.machine_max_speed_z);
@@ -187,8 +186,9 @@ void set_speeds(const Rules& rules, LayerPlan& layer, std::optional<Point3> star
           steps.emplace_back(std::move(travel));
         }
         if (bead.below.empty()) resample(bead.path);
-        set_bead_speed(rules, bead, first_layer);
-        bead.acceleration_mm_s2 = write_accelerations ? feature_acceleration_mm_s2(rules, bead.role, first_layer) : 0;
+        const Rules& own = of_scope(all, bead.scope);
+        set_bead_speed(own, bead);
+        bead.acceleration_mm_s2 = write_accelerations ? feature_acceleration_mm_s2(own, bead.role) : 0;
         at = place_of(bead, bead.path.size() - 1, layer.z);
         return true;
       },

@@ -6,19 +6,23 @@
 
 namespace weft::motion {
 
+inline const Rules& of_scope(AllRules rules, ScopeId scope) {
+  return rules[scope < rules.size() ? scope : 0];
+}
+
 /// Speed of a feature before its beads' widths are looked at, mm/s.
-double feature_speed_mm_s(const Rules& rules, Role role, bool first_layer);
+double feature_speed_mm_s(const Rules& rules, Role role);
 
 /// Acceleration of a feature, mm/s², within what the machine bears.
-double feature_acceleration_mm_s2(const Rules& rules, Role role, bool first_layer);
+double feature_acceleration_mm_s2(const Rules& rules, Role role);
 double travel_acceleration_mm_s2(const Rules& rules);
 
 /// Sets the speed of a bead, one a segment where its width asks for it: mm³/s stay below material_max_volumetric_speed
 /// at every junction and change no faster than max_extrusion_rate_slope between them. Neighbouring segments whose
 /// speeds differ by less than 5 % share the lower one. Pre: the path has been cut.
-void set_bead_speed(const Rules& rules, Extrude& bead, bool first_layer);
+void set_bead_speed(const Rules& rules, Extrude& bead);
 
 /// Speeds, accelerations and resampling for every step; a Travel is put in where a bead begins away from the nozzle.
-void set_speeds(const Rules& rules, LayerPlan& layer, std::optional<Point3> start);
+void set_speeds(AllRules rules, LayerPlan& layer, std::optional<Point3> start);
 
 }  // namespace weft::motion

@@ -2,8 +2,12 @@
 #pragma once
 #include "core/build_id.h"
 #include "core/hash.h"
+#include "core/stop.h"
 #include "pipeline/codec.h"
+#include "pipeline/pipeline.h"
 #include "pipeline/stage_cache.h"
+#include "pipeline/stage_table.h"
+#include "pipeline/stopwatch.h"
 #include "settings/exact.h"
 
 #include <memory>
@@ -36,14 +40,11 @@ class StageKey {
     exact::add(bytes_, std::string(stage));
     exact::add(bytes_, version);
   }
+  template <class T, class Reads>
+  explicit StageKey(const StageRow<T, Reads>& row) : StageKey(row.name, row.version) {}
   template <class T>
   StageKey& with(const T& v) {
     exact::add(bytes_, v);
-    return *this;
-  }
-  template <class Group, class Schema>
-  StageKey& with(const Group& group, const Schema& rows) {
-    exact::add_group(bytes_, group, rows);
     return *this;
   }
   std::string_view stage() const { return stage_; }
@@ -72,6 +73,29 @@ auto cached(StageCache* cache, Key key, Make make) -> Result<std::invoke_result_
   const StageKey k = key();
   return Result<T>(std::static_pointer_cast<const T>(cache->get(
       k.stage(), k.hash(), kind, [&]() -> std::shared_ptr<const void> { return std::make_shared<const T>(make()); })));
+}
+
+/// A job on its way through the stages.
+struct Running {
+  const Watch& watch;
+  Report& report;
+  StageCache* cache;  ///< may be null
+};
+
+/// Says that a stage begins. @throws Stopped
+template <Stage stage>
+void begin(const Watch& watch) {
+  stop_if_asked();
+  constexpr const auto& row = row_of<stage>();
+  if (!row.says.empty()) watch.progress(row.says, row.share);
+}
+
+/// One stage of a job: announced, timed, and taken from the cache where that has it.
+template <Stage stage, class Key, class Make>
+Result<ResultOf<stage>> run_stage(const Running& job, Key key, Make make) {
+  begin<stage>(job.watch);
+  const Stopwatch stopwatch(job.report.timings_ms[stage]);
+  return cached(job.cache, key, make);
 }
 
 }  // namespace weft::pipeline

@@ -2,6 +2,7 @@
 #include "pipeline/codec.h"
 
 #include "model/model_fields.h"
+#include "pipeline/stage_table.h"
 
 #include <bit>
 #include <stdexcept>
@@ -279,12 +280,21 @@ std::size_t memory_of(const T& v) {
   return meter.bytes;
 }
 
-/// What is ever kept as bytes.
-template <class... T>
+/// What is ever kept as bytes: the results of stages, and layers that wait for theirs.
+template <class T>
 struct Kept {
-  static constexpr auto functions = std::tuple{std::tuple{&encode<T>, &decode<T>, &memory_of<T>}...};
+  static constexpr auto functions = std::tuple{&encode<T>, &decode<T>, &memory_of<T>};
 };
-template struct Kept<mesh::Loaded, std::vector<slice::Cut>, std::vector<WallLayer>, std::vector<FilledLayer>,
-                     LayerPlan>;
+template <>
+struct Kept<NotKept> {
+  static constexpr std::tuple functions{};
+};
+template <class Table>
+struct KeptOf;
+template <class... Rows>
+struct KeptOf<const std::tuple<Rows...>> {
+  static constexpr std::tuple all{Kept<LayerPlan>::functions, Kept<typename Rows::Result>::functions...};
+};
+template struct KeptOf<decltype(stage_table)>;
 
 }  // namespace weft::pipeline

@@ -6,7 +6,7 @@
 #include "core/stop.h"
 #include "gcode/digest.h"
 #include "gcode/writer.h"
-#include "pipeline/codec.h"
+#include "pipeline/cached.h"
 #include "pipeline/give_back.h"
 #include "pipeline/plate.h"
 #include "pipeline/provenance.h"
@@ -38,7 +38,7 @@ std::size_t room_for(const std::vector<gcode::LayerDigest>& layers) {
 /// text are never both there as a whole.
 void write_gcode(const gcode::Job& job, PrintPlan& plan, std::vector<std::string> packed, audit::Check& check,
                  Report& report) {
-  const Stopwatch stopwatch(report.timings_ms.gcode);
+  const Stopwatch stopwatch(report.timings_ms[Stage::gcode]);
   const gcode::Writer writer(job);
   check.reserve(room_for(job.digests));
   check.add(writer.head());
@@ -53,7 +53,7 @@ void write_gcode(const gcode::Job& job, PrintPlan& plan, std::vector<std::string
   };
   tasks::parallel_in_order(plan.layers.size(), write, [&](std::size_t i, const std::string& block) {
     if (i % layers_between_giving_back == 0) give_back_memory();
-    const Stopwatch audit(report.timings_ms.audit);
+    const Stopwatch audit(report.timings_ms[Stage::audit]);
     check.add(block);
   });
   check.add(tail);
@@ -117,7 +117,7 @@ void name_custom_code(const GcodeSettings& g, audit::Check& check) {
 }
 
 std::optional<audit::Passed> verdict_of(audit::Check& check, const Job& job, Report& report) {
-  const Stopwatch stopwatch(report.timings_ms.audit);
+  const Stopwatch stopwatch(report.timings_ms[Stage::audit]);
   try {
     auto passed = check.passed();
     note_audit(passed.report(), report);
@@ -134,7 +134,7 @@ std::optional<audit::Passed> verdict_of(audit::Check& check, const Job& job, Rep
 }
 
 /// A job that prints nothing is not done: a model in metres, or thinner than a layer, would pass every check.
-void refuse_emptiness(const Job& job, const Box3& box, const std::vector<PrintedLayers>& layers) {
+void refuse_emptiness(const std::string& name, const Box3& box, const std::vector<PrintedLayers>& layers) {
   for (const auto& object : layers)
     for (const auto& layer : object)
       if (!layer.beads.empty()) return;
@@ -143,70 +143,91 @@ void refuse_emptiness(const Job& job, const Box3& box, const std::vector<Printed
       Error::Kind::model,
       fmt::format("holds nothing to print: it is {:.3f} × {:.3f} × {:.3f} mm", to_mm(size.x), to_mm(size.y),
                   to_mm(size.z)),
-      job.models.front(),
+      name,
       "is it drawn in metres or inches? --scale 1000 or --scale 25.4; else look at layer_height and wall_line_count"};
 }
 
-std::size_t count_copies(const std::vector<PlacedObject>& objects) {
-  std::size_t copies = 0;
-  for (const auto& object : objects) copies += object.offsets.size();
-  return copies;
-}
+/// What is printed, and what it is called.
+struct Printing {
+  Plate plate;
+  Sequence sequence;
+  std::string name;  ///< for messages: of the first model as it was typed, or of the first object
+};
 
-/// The program.
-std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Report& report, StageCache* cache) {
-  const Stopwatch stopwatch(report.timings_ms.total);
-  const auto begin = [&](std::string_view stage, double share) {
-    stop_if_asked();
-    watch.progress(stage, share);
-  };
-  report.settings_sha256 = sha256(as_text(job.settings));
-  gcode::check_custom_code(job.settings);  // a typo in the start G-code is told before an hour of slicing
-  auto objects = place_models(job, report, cache);
+/// From the plate on.
+std::optional<audit::Passed> print(const Job& job, Printing what, const Watch& watch, Report& report,
+                                   StageCache* cache) {
+  auto& plate = what.plate;
+  Scopes scopes(job.settings);
+  std::vector<ObjectScopes> of_object;
+  for (const auto& object : plate.objects) of_object.push_back(scopes_of(object, scopes));
   std::vector<gcode::Thumbnail> thumbnails;
   // Pictures are drawn while the model is sliced.
-  tasks::Beside beside([&] { thumbnails = thumbnails_of(job.settings, objects); });
-  begin("slicing", 0.05);
+  tasks::Beside beside([&] { thumbnails = thumbnails_of(job.settings, plate); });
   std::vector<PrintedLayers> layers;
   Box3 box;
-  for (auto& object : objects) {
-    box.add(box_of(object.mesh));
-    layers.push_back(print_object(job.settings, object, watch, report, cache));
+  for (std::size_t o = 0; o < plate.objects.size(); ++o) {
+    for (const auto& volume : plate.objects[o].volumes) box.add(box_of(volume.mesh));
+    layers.push_back(print_object({watch, report, cache}, scopes, of_object[o], plate.objects[o]));
   }
   beside.wait();
-  for (auto& object : objects) object.mesh = {};
-  refuse_emptiness(job, box, layers);
+  for (auto& object : plate.objects)
+    for (auto& volume : object.volumes) volume.mesh = {};
+  refuse_emptiness(what.name, box, layers);
   give_back_memory();
-  begin("travel", 0.65);
-  auto [plan, packed, digests, statistics] =
-      plan_plate(job.settings, objects, by_layer(count_copies(objects)), std::move(layers), report);
+  begin<Stage::travel>(watch);
+  auto [plan, packed, digests, statistics] = plan_plate(scopes, plate, what.sequence, std::move(layers), report);
   note_statistics(job.settings, statistics, report);
   report.layers = plan.layers.size();
   for (const auto& layer : plan.layers)
     report.height_mm = std::max(report.height_mm, to_mm(layer.z - job.settings.machine.z_offset));
   report.warnings.insert(report.warnings.end(), plan.notices.begin(), plan.notices.end());
-  begin("G-code", 0.85);
+  begin<Stage::gcode>(watch);
   audit::Check check(job.settings.machine, job.settings.material, job.settings.audit, job.audit);
   name_custom_code(job.settings.gcode, check);
-  write_gcode({job.settings, plan, statistics, std::filesystem::path(job.models.front()).stem().string(),
-               std::move(thumbnails), provenance_lines(report.models, job.placement), std::move(digests)},
+  write_gcode({job.settings, plan, statistics, std::filesystem::path(what.name).stem().string(), std::move(thumbnails),
+               provenance_lines(report.models, job.placement) + overlay_lines(plate), std::move(digests)},
               plan, std::move(packed), check, report);
-  begin("audit", 0.95);
+  begin<Stage::audit>(watch);
   auto passed = verdict_of(check, job, report);
   watch.progress("done", 1.0);
   return passed;
 }
 
-}  // namespace
-
-std::optional<audit::Passed> run(const Job& job, const Watch& watch, Report& report, StageCache* cache) {
+/// The same for what `prepare` puts on the plate. Typos are told before an hour of slicing.
+template <class Prepare>
+std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Report& report, StageCache* cache,
+                                        const Prepare& prepare) {
   const tasks::ThreadLimit limit(job.threads);
   const StopWhen stop_when(&watch.cancelled);
   try {
-    return run_stages(job, watch, report, cache);
+    const Stopwatch stopwatch(report.timings_ms.total);
+    gcode::check_custom_code(job.settings);
+    Printing what = prepare();
+    if (what.sequence.empty()) what.sequence = by_layer(copies_on(what.plate));
+    report.settings_sha256 = sha256(as_text(job.settings) + overlay_lines(what.plate));
+    return print(job, std::move(what), watch, report, cache);
   } catch (const Stopped&) {
     throw Error{Error::Kind::interrupted, "interrupted", {}, "nothing was written"};
   }
+}
+
+}  // namespace
+
+std::optional<audit::Passed> run(const Job& job, const Watch& watch, Report& report, StageCache* cache) {
+  report.settings_sha256 = sha256(as_text(job.settings));
+  return run_stages(job, watch, report, cache, [&] {
+    return Printing{place_models(job, report, cache), {}, job.models.front()};
+  });
+}
+
+std::optional<audit::Passed> run(const Job& job, Plate plate, const Sequence& sequence, const Watch& watch,
+                                 Report& report, StageCache* cache) {
+  return run_stages(job, watch, report, cache, [&] {
+    check_printable(plate);
+    auto name = plate.objects.front().name;
+    return Printing{std::move(plate), sequence, std::move(name)};
+  });
 }
 
 }  // namespace weft

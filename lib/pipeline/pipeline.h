@@ -2,9 +2,11 @@
 #pragma once
 #include "audit/audit.h"
 #include "mesh/mesh.h"
+#include "model/sequence.h"
 #include "pipeline/report.h"
 #include "pipeline/stage_cache.h"
 #include "pipeline/write_gcode.h"
+#include "plate/plate.h"
 #include "settings/settings.h"
 
 #include <functional>
@@ -47,5 +49,11 @@ struct Watch {
 /// @return the G-code, or nothing when the audit rejected it; report.status and report.error say so
 /// @throws Error of any other kind
 std::optional<audit::Passed> run(const Job& job, const Watch& watch, Report& report, StageCache* cache = nullptr);
+
+/// The same of a plate that is there already: objects in their places, each volume's mesh on z = 0, with overlays of
+/// their own. Of the job the models and their placement are not looked at.
+/// @param sequence of the copies, numbered object by object; empty: all of them layer by layer
+std::optional<audit::Passed> run(const Job& job, Plate plate, const Sequence& sequence, const Watch& watch,
+                                 Report& report, StageCache* cache = nullptr);
 
 }  // namespace weft

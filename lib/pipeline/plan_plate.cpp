@@ -29,14 +29,14 @@ Beads moved(Beads beads, Point by) {
 }
 
 /// What firmware is told of each copy.
-std::vector<ObjectLabel> labels_of(const std::vector<PlacedObject>& objects) {
+std::vector<ObjectLabel> labels_of(const Plate& plate) {
   std::vector<ObjectLabel> out;
-  for (const auto& object : objects) {
-    for (std::size_t copy = 0; copy < object.offsets.size(); ++copy) {
+  for (const auto& object : plate.objects) {
+    for (std::size_t copy = 0; copy < object.copies.size(); ++copy) {
       Ring outline = object.hull;
-      for (auto& p : outline) p = p + object.offsets[copy];
+      for (auto& p : outline) p = p + object.copies[copy];
       const Point centre = box_of(outline).centre();
-      out.push_back({object.offsets.size() == 1 ? object.name : fmt::format("{}_{}", object.name, copy + 1), centre,
+      out.push_back({object.copies.size() == 1 ? object.name : fmt::format("{}_{}", object.name, copy + 1), centre,
                      std::move(outline)});
     }
   }
@@ -49,11 +49,11 @@ struct Copy {
   Point by;
   bool last = false;  ///< of that object
 };
-std::vector<Copy> copies_of(const std::vector<PlacedObject>& objects) {
+std::vector<Copy> copies_of(const Plate& plate) {
   std::vector<Copy> out;
-  for (std::size_t o = 0; o < objects.size(); ++o) {
-    for (const Point by : objects[o].offsets) out.push_back({o, by, false});
-    if (!objects[o].offsets.empty()) out.back().last = true;
+  for (std::size_t o = 0; o < plate.objects.size(); ++o) {
+    for (const Point by : plate.objects[o].copies) out.push_back({o, by, false});
+    if (!plate.objects[o].copies.empty()) out.back().last = true;
   }
   return out;
 }
@@ -123,7 +123,10 @@ void add_adhesion(const Settings& settings, std::span<travel::LayerInput> rise, 
   const Ring surface = print_surface(settings.machine);
   auto built = adhesion::build(
       settings.adhesion, {.layers = plate, .nozzle = settings.machine.nozzle_diameter, .print_surface = &surface});
-  for (std::size_t i = 0; i < built.layers.size(); ++i) bottoms[i]->adhesion = std::move(built.layers[i]);
+  for (std::size_t i = 0; i < built.layers.size(); ++i) {
+    bottoms[i]->adhesion = std::move(built.layers[i]);
+    for (auto& bead : bottoms[i]->adhesion) bead.scope = bottoms[i]->scope;
+  }
   std::move(built.notices.begin(), built.notices.end(), std::back_inserter(notices));
 }
 void add_adhesion_to_rises(const Settings& settings, std::span<travel::LayerInput> layers, Notices& notices) {
@@ -151,13 +154,18 @@ std::optional<Point> start_of(const Settings& settings) {
 }
 
 /// Ways, speeds and times. What a layer was made of is let go of as it goes.
-std::vector<PackedLayer> plan_moves(const Settings& settings, std::vector<travel::Prepared> prepared,
+std::vector<PackedLayer> plan_moves(const Scopes& scopes, std::vector<travel::Prepared> prepared,
                                     std::vector<travel::Ordered> ordered, Notices& notices) {
   const std::size_t count = prepared.size();
+  const Settings& settings = scopes[0];
   std::vector<std::optional<Point>> from(count);
   if (count > 0) from[0] = start_of(settings);
   for (std::size_t i = 1; i < count; ++i) from[i] = ordered[i - 1].end ? ordered[i - 1].end : from[i - 1];
-  const auto rules = motion::rules_of(settings);
+  std::vector<motion::Rules> rules;
+  for (std::size_t i = 0; i < scopes.size(); ++i) {
+    const auto id = static_cast<ScopeId>(i);
+    rules.push_back(motion::rules_of(scopes[id], &scopes[scopes.above_first_layer(id)]));
+  }
   std::vector<travel::Routed> departures(count);  // without their plans, which go on
   struct Begun {
     LayerPlan plan;
@@ -198,19 +206,24 @@ std::vector<Report::Tour> tours_of(const std::vector<travel::Prepared>& prepared
 
 }  // namespace
 
-PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects, const Sequence& sequence,
-                        std::vector<PrintedLayers> layers, Report& report) {
-  const Stopwatch stopwatch(report.timings_ms.travel);
-  const auto copies = copies_of(objects);
+PlannedPlate plan_plate(Scopes& scopes, const Plate& plate, const Sequence& sequence, std::vector<PrintedLayers> layers,
+                        Report& report) {
+  const Stopwatch stopwatch(report.timings_ms[Stage::travel]);
+  const ScopeId on_first_layer = scopes.on_first_layer(0);
+  const Settings& settings = scopes[0];
+  const auto copies = copies_of(plate);
   const auto timeline = timeline_of(sequence, stacks_of(copies, layers));
   const std::size_t count = timeline.size();
   const auto read = travel::areas_read(settings.travel);
-  auto inputs = tasks::parallel_map(
-      count, [&](std::size_t i) { return plate_layer(timeline[i], copies, sequence.size() == 1, layers, read); });
+  auto inputs = tasks::parallel_map(count, [&](std::size_t i) {
+    auto input = plate_layer(timeline[i], copies, sequence.size() == 1, layers, read);
+    input.scope = input.time.first() ? on_first_layer : 0;
+    return input;
+  });
 
   PlannedPlate out;
   auto& plan = out.plan;
-  plan.objects = labels_of(objects);
+  plan.objects = labels_of(plate);
   add_adhesion_to_rises(settings, inputs, plan.notices);
   const double filament_mm = to_mm(settings.material.filament_diameter);
   for (auto& input : inputs) {
@@ -234,7 +247,7 @@ PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject
   auto ordered =
       tasks::parallel_map(count, [&](std::size_t i) { return travel::order(settings.travel, prepared[i], linked[i]); });
   if (report.tours) *report.tours = tours_of(prepared, ordered);
-  auto planned = plan_moves(settings, std::move(prepared), std::move(ordered), plan.notices);
+  auto planned = plan_moves(scopes, std::move(prepared), std::move(ordered), plan.notices);
   for (auto& layer : planned) {
     out.statistics.append(layer.statistics);
     plan.layers.push_back(std::move(layer.bare));

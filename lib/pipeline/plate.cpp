@@ -45,25 +45,25 @@ mesh::Loaded read_model(const std::string& path, double scale, StageCache* cache
   const FileBytes file(path);
   const auto hash = sha256(file.view());
   return cached(
-             cache, [&] { return StageKey("read", 1).with(path).with(hash).with(scale); },
+             cache, [&] { return StageKey(row_of<Stage::read>()).with(path).with(hash).with(scale); },
              [&] { return mesh::read(file.view(), path, {.scale = scale, .sha256 = hash}); })
       .take();
 }
 
 }  // namespace
 
-std::vector<PlacedObject> place_models(const Job& job, Report& report, StageCache* cache) {
-  const Stopwatch stopwatch(report.timings_ms.read);
+Plate place_models(const Job& job, Report& report, StageCache* cache) {
+  const Stopwatch stopwatch(report.timings_ms[Stage::read]);
   auto loaded = tasks::parallel_map(
       job.models.size(), [&](std::size_t i) { return read_model(job.models[i], job.placement.scale, cache); });
-  std::vector<PlacedObject> out;
+  Plate out;
   for (const auto& model : loaded) {
     note_model(model, report);
-    for (std::size_t i = 0; i < model.objects.size(); ++i) out.push_back({name_of(model, i), {}, {}, {}});
+    for (std::size_t i = 0; i < model.objects.size(); ++i) out.objects.push_back({name_of(model, i), {Volume{}}});
   }
 
   const auto& machine = job.settings.machine;
-  const mesh::Plate plate{print_surface(machine), machine.bed_exclude_areas, height_of(machine)};
+  const mesh::Plate bed{print_surface(machine), machine.bed_exclude_areas, height_of(machine)};
   auto placed = mesh::place(std::move(loaded),
                             {.stretch_xy = job.settings.material.material_shrinkage_percentage_xy / 100,
                              .stretch_z = job.settings.material.material_shrinkage_percentage_z / 100,
@@ -73,28 +73,29 @@ std::vector<PlacedObject> place_models(const Job& job, Report& report, StageCach
                              .center = job.placement.centre,
                              .copies = job.placement.copies,
                              .spacing = job.placement.spacing},
-                            plate);
+                            bed);
   // What does not fit is told before an hour of slicing; to annotate, the audit must see it.
-  if (job.audit == audit::Mode::reject) mesh::check_fits(placed, plate, job.settings.audit.audit_tolerance);
+  if (job.audit == audit::Mode::reject) mesh::check_fits(placed, bed, job.settings.audit.audit_tolerance);
 
-  auto object = out.begin();
+  auto object = out.objects.begin();
   for (auto& model : placed)
     for (std::size_t i = 0; i < model.objects.size(); ++i, ++object) {
-      object->mesh = std::move(model.objects[i]);
+      object->volumes.front().mesh = std::move(model.objects[i]);
       object->hull = std::move(model.footprints[i]);
-      object->offsets = model.instances;
+      object->copies = model.instances;
     }
   return out;
 }
 
-std::vector<gcode::Thumbnail> thumbnails_of(const Settings& settings, const std::vector<PlacedObject>& objects) {
+std::vector<gcode::Thumbnail> thumbnails_of(const Settings& settings, const Plate& plate) {
   const auto& sizes = settings.gcode.thumbnails;
-  if (sizes.empty() || objects.empty()) return {};
-  std::vector<preview::Standing> plate;
-  for (const auto& object : objects) plate.push_back({&object.mesh, object.offsets.front()});
+  if (sizes.empty() || plate.objects.empty()) return {};
+  std::vector<preview::Standing> standing;
+  for (const auto& object : plate.objects)
+    for (const auto& volume : object.volumes) standing.push_back({&volume.mesh, object.copies.front()});
   return tasks::parallel_map(sizes.size(), [&](std::size_t i) {
     const auto size = sizes[i];
-    const auto png = preview::thumbnail(plate, {size.width, size.height});
+    const auto png = preview::thumbnail(standing, {size.width, size.height});
     return gcode::Thumbnail{size.width, size.height, std::string(png.begin(), png.end())};
   });
 }

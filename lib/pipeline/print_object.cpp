@@ -3,6 +3,7 @@
 #include "infill/infill.h"
 #include "infill/shells.h"
 #include "pipeline/cached.h"
+#include "pipeline/object_scopes.h"
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
 #include "slice/slice.h"
@@ -11,8 +12,10 @@
 
 #include <algorithm>
 #include <iterator>
-#include <optional>
+#include <span>
+#include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -29,104 +32,253 @@ void append(Notices& to, std::vector<PlacedNotice> from, Point offset) {
   }
 }
 
-// Versions of stages: a change of what a stage makes of the same input needs no new one, because keys hold the build of
-// weft; a change of what its key holds does.
-StageKey slice_key(const Settings& settings, const Mesh& mesh) {
+using Cuts = ResultOf<Stage::slice>;
+using Walls = ResultOf<Stage::walls>;
+using Fills = ResultOf<Stage::infill>;
+
+/// What a stage is handed of the settings that hold somewhere on the plate.
+template <Stage stage>
+using HandedTo = Handed<std::remove_const_t<decltype(RowOf<stage>::reads)>>;
+using SliceHands = HandedTo<Stage::slice>;
+using WallHands = HandedTo<Stage::walls>;
+using FillHands = HandedTo<Stage::infill>;
+template <Stage stage>
+HandedTo<stage> hand(const Scopes& scopes) {
+  return {row_of<stage>().reads, scopes};
+}
+
+/// The key of a stage, with what it is handed for each height and volume, and which volumes share their areas.
+template <Stage stage>
+StageKey key_of(const ObjectScopes& scopes, const HandedTo<stage>& handed) {
+  StageKey key(row_of<stage>());
+  key.with(std::uint64_t{scopes.size()});
+  for (const auto& from : scopes) {
+    key.with(from.bottom).with(std::uint64_t{from.of_volume.size()});
+    for (const ScopeId id : from.of_volume) {
+      std::uint64_t first = 0;
+      while (from.of_volume[first] != id) ++first;
+      key.with(first).with(handed.bytes_of(id));
+    }
+  }
+  return key;
+}
+
+StageKey slice_key(const Mesh& mesh, const ObjectScopes& scopes, const SliceHands& handed) {
   const auto bytes = [](const auto& items) {
     return std::string_view(reinterpret_cast<const char*>(items.data()), items.size() * sizeof(items[0]));
   };
-  return StageKey("slice", 1)
-      .with(sha256(bytes(mesh.vertices)))
-      .with(sha256(bytes(mesh.triangles)))
-      .with(settings.layers, layer_schema);
-}
-StageKey walls_key(const Settings& settings, const std::string& slice) {
-  return StageKey("walls", 1).with(slice).with(settings.walls, wall_schema).with(settings.machine.nozzle_diameter);
-}
-StageKey fill_key(const Settings& settings, const std::string& walls) {
-  return StageKey("infill", 1)
-      .with(walls)
-      .with(settings.shells, shell_schema)
-      .with(settings.infill, infill_schema)
-      .with(settings.machine.nozzle_diameter)
-      .with(settings.walls.wall_line_width_x)
-      .with(settings.walls.overlap_factor);
+  return key_of<Stage::slice>(scopes, handed).with(sha256(bytes(mesh.vertices))).with(sha256(bytes(mesh.triangles)));
 }
 
-using Cuts = std::vector<slice::Cut>;
-using Walls = std::vector<WallLayer>;
-using Fills = std::vector<FilledLayer>;
-
-Cuts slice_object(const Settings& settings, const PlacedObject& object) {
-  const slice::Cutter cutter(object.mesh, slice::planes(settings.layers, box_of(object.mesh).max.z));
-  return tasks::parallel_map(cutter.size(), [&](std::size_t i) { return cutter.cut(i, settings.layers); });
-}
-
-/// The settings of the first layer, whose lines may have a width of their own.
-Settings of_first_layer(Settings settings) {
-  if (const auto width = settings.layers.initial_layer_line_width) {
-    settings.walls.wall_line_width_0 = settings.walls.wall_line_width_x = width;
-    settings.infill.infill_line_width = settings.shells.skin_line_width = settings.shells.top_skin_line_width = width;
+Cuts slice_mesh(const SliceHands& handed, const ObjectScopes& scopes, const Mesh& mesh) {
+  std::vector<slice::HeightFrom> heights;
+  for (const auto& from : scopes) {
+    const auto& [layers] = handed[from.of_volume.front()];
+    heights.push_back({from.bottom, layers.layer_height});
   }
-  return settings;
+  const slice::Cutter cutter(mesh, slice::planes(heights, box_of(mesh).max.z));
+  const auto& [layers] = handed[scopes.front().of_volume.front()];
+  return tasks::parallel_map(cutter.size(), [&](std::size_t i) { return cutter.cut(i, layers); });
 }
 
-Walls build_walls(const Settings& settings, const Settings& first, const Cuts& cuts) {
+/// The scopes of a layer that a stage can tell apart, each with the regions that it holds for.
+struct Told {
+  ScopeId scope = 0;
+  std::vector<std::uint32_t> regions;
+};
+template <class T>
+std::vector<Told> told_apart(const Handed<T>& handed, const Areas& areas) {
+  std::vector<Told> out;
+  std::uint32_t region = 0;
+  for (const auto& area : areas) {
+    auto same = std::find_if(out.begin(), out.end(),
+                             [&](const Told& told) { return handed.alike(told.scope) == handed.alike(area.scope); });
+    if (same == out.end()) same = out.insert(out.end(), Told{area.scope, {}});
+    for (std::uint32_t i = 0; i < area.regions; ++i) same->regions.push_back(region++);
+  }
+  return out;
+}
+
+/// The walls of a layer of several areas: those of each are built as if the others were not there.
+template <class Build>
+WallLayer walls_of_areas(const std::vector<Told>& told, const SlicedLayer& layer, const Build& build) {
+  WallLayer out;
+  for (const auto& [scope, regions] : told) {
+    SlicedLayer own{layer.z, layer.height, {}};
+    for (const std::uint32_t r : regions) own.regions.push_back(layer.regions[r]);
+    auto walls = build(scope, own);
+    for (auto& bead : walls.beads) bead.part = regions[std::min<std::size_t>(bead.part, regions.size() - 1)];
+    std::move(walls.beads.begin(), walls.beads.end(), std::back_inserter(out.beads));
+    std::move(walls.inside.begin(), walls.inside.end(), std::back_inserter(out.inside));
+    std::move(walls.notices.begin(), walls.notices.end(), std::back_inserter(out.notices));
+  }
+  return out;
+}
+
+Walls build_walls(const WallHands& handed, const Scopes& scopes, const Cuts& cuts, const std::vector<Areas>& areas) {
   return tasks::parallel_map(cuts.size(), [&](std::size_t i) {
     const Regions over_air = i > 0 ? geometry::subtract(cuts[i].layer.regions, cuts[i - 1].layer.regions) : Regions{};
-    return walls::build((i == 0 ? first : settings).walls,
-                        {.layer = cuts[i].layer,
-                         .index = i,
-                         .nozzle_diameter = settings.machine.nozzle_diameter,
-                         .over_air = &over_air,
-                         .above = i + 1 < cuts.size() ? &cuts[i + 1].layer.regions : nullptr});
+    const Regions* above = i + 1 < cuts.size() ? &cuts[i + 1].layer.regions : nullptr;
+    const auto build = [&](ScopeId scope, const SlicedLayer& layer) {
+      const auto& [walls, nozzle] = handed[scope];
+      const auto& [walls_above, nozzle_above] = handed[scopes.above_first_layer(scope)];
+      return walls::build(walls, {.layer = layer,
+                                  .index = i,
+                                  .nozzle_diameter = nozzle,
+                                  .over_air = &over_air,
+                                  .above = above,
+                                  .settings_above = &walls_above});
+    };
+    if (areas[i].size() == 1) return build(areas[i].front().scope, cuts[i].layer);
+    return walls_of_areas(told_apart(handed, areas[i]), cuts[i].layer, build);
   });
 }
 
-/// What fills the inside of each layer. Layers are taken in runs, so that the skin's neighbours are looked at once a
-/// run.
-std::vector<infill::LayerAreas> find_areas(const Settings& settings, const Cuts& cuts, const Walls& walls) {
-  std::vector<infill::ShellLayer> seen(cuts.size());
-  for (std::size_t i = 0; i < cuts.size(); ++i)
-    seen[i] = {cuts[i].layer.z, cuts[i].layer.height, &cuts[i].layer.regions, &walls[i].inside};
-  const infill::ShellObject object{seen, infill::box_of(seen), settings.machine.nozzle_diameter};
+/// An object as shells look at it, and which scope each of its parts is asked for there: what is skin hangs on layers
+/// above and below, so lines that are wider on the first layer alone count for nothing.
+struct Shelled {
+  const FillHands& handed;
+  const Scopes& scopes;
+  const std::vector<Areas>& areas;
+  std::vector<infill::ShellLayer> layers;
+  Box box;
+
+  ScopeId scope_of(ScopeId id) const { return handed.alike(scopes.above_first_layer(id)); }
+};
+
+/// The different scopes of layers [first, first + count), as shells ask for them.
+std::vector<ScopeId> scopes_asked(const Shelled& object, std::size_t first, std::size_t count) {
+  std::vector<ScopeId> out;
+  for (std::size_t i = first; i < first + count; ++i)
+    for (const auto& area : object.areas[i])
+      if (const ScopeId id = object.scope_of(area.scope); std::find(out.begin(), out.end(), id) == out.end())
+        out.push_back(id);
+  return out;
+}
+
+/// Takes out of a layer's parts those of one scope.
+infill::LayerAreas taken(const Shelled& object, ScopeId id, std::size_t layer, infill::LayerAreas& parts) {
+  std::vector<char> own;  // by part
+  for (const auto& area : object.areas[layer]) own.resize(own.size() + area.regions, object.scope_of(area.scope) == id);
+  const auto rest = std::stable_partition(parts.begin(), parts.end(), [&](const infill::PartAreas& part) {
+    return part.part >= own.size() || own[part.part] == 0;
+  });
+  infill::LayerAreas out(std::make_move_iterator(rest), std::make_move_iterator(parts.end()));
+  parts.erase(rest, parts.end());
+  return out;
+}
+
+void put_back(infill::LayerAreas parts, infill::LayerAreas& to) {
+  std::move(parts.begin(), parts.end(), std::back_inserter(to));
+  std::sort(to.begin(), to.end(), [](const auto& a, const auto& b) { return a.part < b.part; });
+}
+
+/// What fills the inside of layers [first, first + count).
+std::vector<infill::LayerAreas> find_areas(const Shelled& object, std::size_t first, std::size_t count) {
+  const auto asked = scopes_asked(object, first, count);
+  std::vector<infill::LayerAreas> out(count);
+  for (const ScopeId id : asked) {
+    const auto& [shells, infill, nozzle, width, overlap] = object.handed[id];
+    auto found = infill::find_areas(shells, infill, {object.layers, object.box, nozzle}, first, count);
+    if (asked.size() == 1) return found;
+    for (std::size_t i = 0; i < count; ++i) put_back(taken(object, id, first + i, found[i]), out[i]);
+  }
+  return out;
+}
+
+/// What is decided of sparse parts by looking at all layers: each scope sees its own parts.
+void look_at_all(const Shelled& object, std::vector<infill::LayerAreas>& areas) {
+  const auto asked = scopes_asked(object, 0, areas.size());
+  for (const ScopeId id : asked) {
+    const auto& [shells, infill, nozzle, width, overlap] = object.handed[id];
+    const infill::ShellObject shelled{object.layers, object.box, nozzle};
+    const auto look = [&](std::vector<infill::LayerAreas>& parts) {
+      infill::keep_below_tops(infill, shelled, parts);
+      infill::combine_sparse(infill, shelled, parts);
+    };
+    if (asked.size() == 1) return look(areas);
+    std::vector<infill::LayerAreas> own;
+    for (std::size_t i = 0; i < areas.size(); ++i) own.push_back(taken(object, id, i, areas[i]));
+    look(own);
+    for (std::size_t i = 0; i < areas.size(); ++i) put_back(std::move(own[i]), areas[i]);
+  }
+}
+
+/// Layers are taken in runs, so that the skin's neighbours are looked at once a run.
+std::vector<infill::LayerAreas> find_all_areas(const Shelled& object) {
   constexpr std::size_t run = 8;
-  auto runs = tasks::parallel_map((cuts.size() + run - 1) / run, [&](std::size_t r) {
-    return infill::find_areas(settings.shells, settings.infill, object, r * run, std::min(run, cuts.size() - r * run));
+  const std::size_t count = object.layers.size();
+  auto runs = tasks::parallel_map((count + run - 1) / run, [&](std::size_t r) {
+    return find_areas(object, r * run, std::min(run, count - r * run));
   });
   std::vector<infill::LayerAreas> areas;
-  areas.reserve(cuts.size());
+  areas.reserve(count);
   for (auto& part : runs) std::move(part.begin(), part.end(), std::back_inserter(areas));
-  infill::keep_below_tops(settings.infill, object, areas);
-  infill::combine_sparse(settings.infill, object, areas);
+  look_at_all(object, areas);
   return areas;
 }
 
+/// The parts of a layer that lie in these regions.
+infill::LayerAreas parts_in(const infill::LayerAreas& parts, const std::vector<std::uint32_t>& regions) {
+  infill::LayerAreas out;
+  std::copy_if(parts.begin(), parts.end(), std::back_inserter(out),
+               [&](const auto& part) { return std::binary_search(regions.begin(), regions.end(), part.part); });
+  return out;
+}
+
+/// Of a layer of several areas. Sequences of one are not continued by the next.
+template <class Fill>
+FillLayer fill_of_areas(const std::vector<Told>& told, const infill::LayerAreas& parts, const Fill& fill) {
+  FillLayer out;
+  std::uint32_t sequences = 0;
+  for (const auto& [scope, regions] : told) {
+    auto filled = fill(scope, parts_in(parts, regions));
+    std::uint32_t most = sequences;
+    for (auto& bead : filled.beads) {
+      if (bead.sequence != 0) bead.sequence += sequences;
+      most = std::max(most, bead.sequence);
+    }
+    sequences = most;
+    std::move(filled.beads.begin(), filled.beads.end(), std::back_inserter(out.beads));
+    std::move(filled.notices.begin(), filled.notices.end(), std::back_inserter(out.notices));
+  }
+  return out;
+}
+
 /// Shells and infill.
-Fills fill_object(const Settings& settings, const Settings& first, const Cuts& cuts, const Walls& walls) {
-  auto areas = find_areas(settings, cuts, walls);
+Fills fill_object(const FillHands& handed, const Scopes& scopes, const Cuts& cuts, const std::vector<Areas>& areas,
+                  const Walls& walls) {
+  Shelled object{handed, scopes, areas, std::vector<infill::ShellLayer>(cuts.size()), {}};
+  for (std::size_t i = 0; i < cuts.size(); ++i)
+    object.layers[i] = {cuts[i].layer.z, cuts[i].layer.height, &cuts[i].layer.regions, &walls[i].inside};
+  object.box = infill::box_of(object.layers);
+  auto parts = find_all_areas(object);
   Box box;  // patterns hang on its centre, so they move with the object
   for (const auto& cut : cuts) box.add(box_of(cut.layer.regions));
   // Layers are let go of as they are filled: what the next one must know of their bridges is set aside.
   std::vector<std::vector<infill::BridgeArea>> bridges(cuts.size());
   for (std::size_t i = 0; i < cuts.size(); ++i)
-    for (const auto& part : areas[i]) bridges[i].insert(bridges[i].end(), part.bridges.begin(), part.bridges.end());
+    for (const auto& part : parts[i]) bridges[i].insert(bridges[i].end(), part.bridges.begin(), part.bridges.end());
   return tasks::parallel_map(cuts.size(), [&](std::size_t i) {
     const auto& layer = cuts[i].layer;
-    const auto& s = i == 0 ? first : settings;
-    auto filled = infill::fill(s.infill, s.shells,
-                               {.areas = areas[i],
-                                .index = i,
-                                .z = layer.z,
-                                .height = layer.height,
-                                .nozzle = settings.machine.nozzle_diameter,
-                                .overlap_factor = s.walls.overlap_factor,
-                                .wall_line_width = s.walls.wall_line_width_x.value_or(0),
-                                .origin = box.empty() ? Point{} : box.centre(),
-                                .bridges_below = i > 0 ? std::span<const infill::BridgeArea>(bridges[i - 1])
-                                                       : std::span<const infill::BridgeArea>{}});
+    const auto fill = [&](ScopeId scope, const infill::LayerAreas& own) {
+      const auto& [shells, infill, nozzle, wall_line_width, overlap_factor] = handed[scope];
+      return infill::fill(infill, shells,
+                          {.areas = own,
+                           .index = i,
+                           .z = layer.z,
+                           .height = layer.height,
+                           .nozzle = nozzle,
+                           .overlap_factor = overlap_factor,
+                           .wall_line_width = wall_line_width.value_or(0),
+                           .origin = box.empty() ? Point{} : box.centre(),
+                           .bridges_below = i > 0 ? std::span<const infill::BridgeArea>(bridges[i - 1])
+                                                  : std::span<const infill::BridgeArea>{}});
+    };
+    auto filled = areas[i].size() == 1 ? fill(areas[i].front().scope, parts[i])
+                                       : fill_of_areas(told_apart(handed, areas[i]), parts[i], fill);
     FilledLayer out{{}, {}, {}, std::move(filled.beads), std::move(filled.notices)};
-    for (auto& part : std::exchange(areas[i], {})) {
+    for (auto& part : std::exchange(parts[i], {})) {
       out.skin.insert(out.skin.end(), part.top.begin(), part.top.end());
       std::move(part.solid.begin(), part.solid.end(), std::back_inserter(out.skin));
       std::move(part.top.begin(), part.top.end(), std::back_inserter(out.top));
@@ -137,33 +289,23 @@ Fills fill_object(const Settings& settings, const Settings& first, const Cuts& c
   });
 }
 
-}  // namespace
+/// Each bead is told the scope of its part.
+void tell_scopes(const Areas& areas, Beads& beads) {
+  if (areas.size() == 1) {
+    for (auto& bead : beads) bead.scope = areas.front().scope;
+    return;
+  }
+  std::vector<ScopeId> of_part;
+  for (const auto& area : areas) of_part.resize(of_part.size() + area.regions, area.scope);
+  for (auto& bead : beads)
+    if (bead.part < of_part.size()) bead.scope = of_part[bead.part];
+}
 
-PrintedLayers print_object(const Settings& settings, const PlacedObject& object, const Watch& watch, Report& report,
-                           StageCache* cache) {
-  std::optional<Stopwatch> stopwatch(std::in_place, report.timings_ms.slice);
-  const auto sliced_by = [&] { return slice_key(settings, object.mesh); };
-  auto sliced = cached(cache, sliced_by, [&] { return slice_object(settings, object); });
-  append(report.warnings, slice::notices_of(*sliced, object.name), object.offsets.front());
-
-  watch.progress("walls", 0.15);
-  stopwatch.emplace(report.timings_ms.walls);
-  const auto walls_by = [&] { return walls_key(settings, sliced_by().hash()); };
-  const auto first =
-      of_first_layer(settings);  // a function of what the keys hold: all of layers, walls, shells and infill
-  auto walled = cached(cache, walls_by, [&] { return build_walls(settings, first, *sliced); });
-
-  watch.progress("infill", 0.5);
-  stopwatch.emplace(report.timings_ms.infill);
-  auto filled = cached(
-      cache, [&] { return fill_key(settings, walls_by().hash()); },
-      [&] { return fill_object(settings, first, *sliced, *walled); });
-
-  auto cuts = std::move(sliced).take();
-  auto walls = std::move(walled).take();
-  auto fills = std::move(filled).take();
+/// @param at where the object's first copy stands: places are told as they are on the bed
+PrintedLayers put_together(Cuts cuts, const std::vector<Areas>& areas, Walls walls, Fills fills, Point at,
+                           Notices& notices) {
   PrintedLayers out(cuts.size());
-  for (auto& layer : walls) append(report.warnings, std::move(layer.notices), object.offsets.front());
+  for (auto& layer : walls) append(notices, std::move(layer.notices), at);
   for (std::size_t i = 0; i < out.size(); ++i) {
     auto& layer = cuts[i].layer;
     auto& fill = fills[i];
@@ -175,9 +317,55 @@ PrintedLayers print_object(const Settings& settings, const PlacedObject& object,
               std::move(fill.sparse),
               std::move(walls[i].beads)};
     std::move(fill.beads.begin(), fill.beads.end(), std::back_inserter(out[i].beads));
-    std::move(fill.notices.begin(), fill.notices.end(), std::back_inserter(report.warnings));
+    tell_scopes(areas[i], out[i].beads);
+    std::move(fill.notices.begin(), fill.notices.end(), std::back_inserter(notices));
   }
   return out;
+}
+
+/// The object's layers, each with its areas.
+Result<Cuts> slice_object(const Running& job, const Object& object, const ObjectScopes& scopes,
+                          const SliceHands& handed, std::vector<Areas>& areas) {
+  std::vector<Result<Cuts>> of_volume;
+  for (const auto& volume : object.volumes)
+    of_volume.push_back(run_stage<Stage::slice>(
+        job, [&] { return slice_key(volume.mesh, scopes, handed); },
+        [&] { return slice_mesh(handed, scopes, volume.mesh); }));
+  if (of_volume.size() == 1) {
+    areas = areas_of_one(scopes, *of_volume.front());
+    return std::move(of_volume.front());
+  }
+  const Stopwatch stopwatch(job.report.timings_ms[Stage::slice]);
+  std::vector<const Cuts*> cuts;
+  for (const auto& result : of_volume) cuts.push_back(&*result);
+  return Result<Cuts>(united(scopes, cuts, areas));
+}
+
+}  // namespace
+
+PrintedLayers print_object(const Running& job, const Scopes& all_scopes, const ObjectScopes& scopes,
+                           const Object& object) {
+  auto& notices = job.report.warnings;
+  const Point at = object.copies.front();
+  const auto slice_hands = hand<Stage::slice>(all_scopes);
+  std::vector<Areas> areas;
+  auto sliced = slice_object(job, object, scopes, slice_hands, areas);
+  append(notices, slice::notices_of(*sliced, object.name), at);
+
+  const auto wall_hands = hand<Stage::walls>(all_scopes);
+  const auto walled_by = [&] {
+    auto key = key_of<Stage::walls>(scopes, wall_hands);
+    for (const auto& volume : object.volumes) key.with(slice_key(volume.mesh, scopes, slice_hands).hash());
+    return key;
+  };
+  auto walled =
+      run_stage<Stage::walls>(job, walled_by, [&] { return build_walls(wall_hands, all_scopes, *sliced, areas); });
+
+  const auto fill_hands = hand<Stage::infill>(all_scopes);
+  auto filled = run_stage<Stage::infill>(
+      job, [&] { return key_of<Stage::infill>(scopes, fill_hands).with(walled_by().hash()); },
+      [&] { return fill_object(fill_hands, all_scopes, *sliced, areas, *walled); });
+  return put_together(std::move(sliced).take(), areas, std::move(walled).take(), std::move(filled).take(), at, notices);
 }
 
 }  // namespace weft::pipeline

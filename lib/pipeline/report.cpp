@@ -122,16 +122,9 @@ std::string to_json(const Report& r) {
                    {"wall_crossings", r.travel.wall_crossings}};
   out["audit"] = audit_of(r.audit);
   out["warnings"] = warnings_of(r.warnings);
-  const auto& t = r.timings_ms;
-  out["timings_ms"] = {{"read", rounded3(t.read)},     {"slice", rounded3(t.slice)},   {"walls", rounded3(t.walls)},
-                       {"infill", rounded3(t.infill)}, {"travel", rounded3(t.travel)}, {"gcode", rounded3(t.gcode)},
-                       {"audit", rounded3(t.audit)},   {"total", rounded3(t.total)}};
-  if (r.tours) {
-    auto tours = Json::array();
-    for (const auto& tour : *r.tours)
-      tours.push_back({{"mm", rounded3(tour.mm)}, {"least_mm", rounded3(tour.least_mm)}});
-    out["debug"] = {{"tours", std::move(tours)}};
-  }
+  auto& times = out["timings_ms"];
+  pipeline::for_each_stage([&](const auto& row) { times[row.name] = rounded3(r.timings_ms[row.stage]); });
+  times["total"] = rounded3(r.timings_ms.total);
   out["peak_memory_mb"] = rounded3(r.peak_memory_mb);
   return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

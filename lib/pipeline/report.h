@@ -2,6 +2,7 @@
 #pragma once
 #include "core/notice.h"
 #include "model/bead.h"
+#include "pipeline/timings.h"
 #include "settings/cost.h"
 
 #include <array>
@@ -58,11 +59,6 @@ struct Report {
     std::vector<Gap> gaps;                                        ///< why moves were not audited
     std::vector<std::string> opaque;                              ///< macros that only the printer knows
   };
-  /// Wall-clock time of a stage, ms. The audit reads layers while others are written: its time counts in gcode, too.
-  struct Timings {
-    double read = 0, slice = 0, walls = 0, infill = 0, travel = 0, gcode = 0, audit = 0, total = 0;
-  };
-
   Status status = Status::failed;
   std::string error;  ///< why it failed or was rejected, as on standard error
   std::vector<Model> models;

@@ -2,11 +2,13 @@
 #pragma once
 #include "core/polygon.h"
 #include "gcode/digest.h"
-#include "mesh/mesh.h"
 #include "model/layer.h"
 #include "model/plan.h"
 #include "model/statistics.h"
+#include "pipeline/object_scopes.h"
 #include "pipeline/pipeline.h"
+#include "plate/plate.h"
+#include "settings/scopes.h"
 
 #include <string>
 #include <vector>
@@ -14,13 +16,7 @@
 /// The stages run over all layers of a plate, side by side.
 namespace weft::pipeline {
 
-/// A model on the bed: sliced once, printed at each offset.
-struct PlacedObject {
-  std::string name;
-  Mesh mesh;                   ///< where its first copy stands, on z = 0; empty once it is sliced
-  Ring hull;                   ///< of the mesh, seen from above
-  std::vector<Point> offsets;  ///< one a copy, the first is usually {0, 0}
-};
+struct Running;
 
 /// One layer of one object, in the coordinates of its first copy.
 struct PrintedLayer {
@@ -34,9 +30,8 @@ struct PrintedLayer {
 using PrintedLayers = std::vector<PrintedLayer>;
 
 /// Slice, walls, shells and infill of one object.
-/// @param cache may be null
-PrintedLayers print_object(const Settings& settings, const PlacedObject& object, const Watch& watch, Report& report,
-                           StageCache* cache);
+/// @param scopes those of the object (object_scopes.h), all of which are among `all`
+PrintedLayers print_object(const Running& job, const Scopes& all, const ObjectScopes& scopes, const Object& object);
 
 /// A plan of which each layer's steps wait as bytes (codec.h), which take a third of the memory.
 struct PlannedPlate {
@@ -49,7 +44,8 @@ struct PlannedPlate {
 /// The whole plate as steps: copies put in their places, adhesion around them, order, seams and travels, speeds and
 /// times.
 /// @param sequence of the copies, numbered object by object
-PlannedPlate plan_plate(const Settings& settings, const std::vector<PlacedObject>& objects, const Sequence& sequence,
-                        std::vector<PrintedLayers> layers, Report& report);
+/// @param scopes 0 is the plate's own; its first layer's is added
+PlannedPlate plan_plate(Scopes& scopes, const Plate& plate, const Sequence& sequence, std::vector<PrintedLayers> layers,
+                        Report& report);
 
 }  // namespace weft::pipeline

@@ -259,15 +259,7 @@ void apply_value(Profile& profile, const std::string& key, const std::string& te
     throw Error{Error::Kind::settings, fmt::format("unknown setting '{}'", key), where,
                 near.empty() ? "`weft settings` lists them all" : fmt::format("did you mean '{}'?", near)};
   }
-  try {
-    entry->parse(profile.settings, text);
-  } catch (const std::invalid_argument& problem) {
-    throw Error{Error::Kind::settings, fmt::format("{}: {}", entry->key, problem.what()), where,
-                entry->least.empty() ? fmt::format("default: {}", entry->default_text)
-                                     : fmt::format("range {} … {}{}{}, default {}{}", entry->least, entry->most,
-                                                   entry->unit.empty() ? "" : " ", entry->unit, entry->default_text,
-                                                   entry->automatic ? ", or auto" : "")};
-  }
+  entry->lay(profile.settings, read_value(*entry, text, where));
   profile.origins[std::string(entry->key)].push_back({where, text, {}});
 }
 

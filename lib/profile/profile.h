@@ -4,6 +4,7 @@
 #include "profile/named_profiles.h"
 #include "prusaslicer/bundle.h"
 #include "prusaslicer/import.h"
+#include "settings/origin.h"
 #include "settings/settings.h"
 
 #include <filesystem>
@@ -12,13 +13,6 @@
 #include <vector>
 
 namespace weft {
-
-/// Where a value came from.
-struct Origin {
-  std::string where;   ///< "farm.ini:12" or "--set"
-  std::string text;    ///< the value as it stood there
-  std::string source;  ///< what was translated: "[print:*common*] perimeter_speed = 45"; empty: nothing was
-};
 
 /// Settings on their way from defaults through profiles and options, with the history of each value.
 struct Profile {

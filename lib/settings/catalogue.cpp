@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "settings/catalogue.h"
 
+#include "core/error.h"
 #include "settings/near.h"
 
 #include <algorithm>
@@ -130,11 +131,14 @@ CatalogueEntry entry_of(const S& section, const Row& row) {
   const auto field = row.field;
   const Unit unit = row.unit;
   e.print = [=](const Settings& s) { return print_value((s.*group).*field, unit); };
-  e.parse = [=](Settings& s, std::string_view text) {
+  const auto read = [=](std::string_view text) {
     T v = parse_value<T>(text, unit);
     if constexpr (ranged) check_range(v, row.least, row.most, unit);
-    (s.*group).*field = std::move(v);
+    return v;
   };
+  e.parse = [=](Settings& s, std::string_view text) { (s.*group).*field = read(text); };
+  e.read = [=](std::string_view text) { return std::any(read(text)); };
+  e.lay = [=](Settings& s, const std::any& v) { (s.*group).*field = std::any_cast<const T&>(v); };
   e.default_text = e.print(Settings{});
   return e;
 }
@@ -172,6 +176,18 @@ const CatalogueEntry* find_setting(std::string_view key) {
   const auto at = std::lower_bound(by_key.begin(), by_key.end(), std::string_view(wanted),
                                    [](const auto& a, std::string_view k) { return a.first < k; });
   return at != by_key.end() && at->first == wanted ? at->second : nullptr;
+}
+
+std::any read_value(const CatalogueEntry& entry, const std::string& text, const std::string& where) {
+  try {
+    return entry.read(text);
+  } catch (const std::invalid_argument& problem) {
+    throw Error{Error::Kind::settings, fmt::format("{}: {}", entry.key, problem.what()), where,
+                entry.least.empty() ? fmt::format("default: {}", entry.default_text)
+                                    : fmt::format("range {} … {}{}{}, default {}{}", entry.least, entry.most,
+                                                  entry.unit.empty() ? "" : " ", entry.unit, entry.default_text,
+                                                  entry.automatic ? ", or auto" : "")};
+  }
 }
 
 std::string_view nearest_setting(std::string_view wrong, std::string_view (*also_called)(std::string_view)) {

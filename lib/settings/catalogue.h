@@ -2,6 +2,7 @@
 #pragma once
 #include "settings/settings.h"
 
+#include <any>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -19,6 +20,10 @@ struct CatalogueEntry {
   std::function<std::string(const Settings&)> print;
   /// @throws std::invalid_argument with one clause: wrong type, or out of range
   std::function<void(Settings&, std::string_view)> parse;
+  /// The value of a text, of the field's type. @throws as parse
+  std::function<std::any(std::string_view)> read;
+  /// Pre: the value is of the field's type.
+  std::function<void(Settings&, const std::any&)> lay;
 };
 
 /// Every setting, in the order of `sections`.
@@ -26,6 +31,10 @@ const std::vector<CatalogueEntry>& catalogue();
 
 /// The entry of a key, or null. Keys are compared exactly, but '-' counts as '_'.
 const CatalogueEntry* find_setting(std::string_view key);
+
+/// The value of a text. @throws Error{settings} for what is of the wrong type or out of range, with range and default
+/// @param where what to name in messages
+std::any read_value(const CatalogueEntry& entry, const std::string& text, const std::string& where);
 
 /// The known key nearest to a wrong one by edit distance, or empty when nothing is near.
 /// @param also_called another name of a key, which counts like the key itself; empty when it has none

@@ -21,8 +21,17 @@ struct Plane {
   friend bool operator==(const Plane&, const Plane&) = default;
 };
 
-/// The first layer, then layers of layer_height, upwards from 0, as long as the middle of a layer is inside the model
-/// or on its top: what remains at the top is a layer when it is at least half of one, and nothing otherwise.
+/// From the layer on that has its bottom there, layers are so high.
+struct HeightFrom {
+  Um bottom = 0;
+  Um layer_height = 0;
+};
+
+/// Layers upwards from 0, as long as the middle of a layer is inside the model or on its top: what remains at the top
+/// is a layer when it is at least half of one, and nothing otherwise. Pre: heights ascend by bottom, the first is at 0.
+std::vector<Plane> planes(std::span<const HeightFrom> heights, Um model_height);
+
+/// The same of the first layer, then layers of layer_height.
 std::vector<Plane> planes(const LayerSettings& settings, Um model_height);
 
 /// Places where the mesh has a hole and an outline had to be closed without it.

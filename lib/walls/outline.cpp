@@ -44,8 +44,8 @@ Regions lost(const Region& part, const Regions& moved, Um by) {
 
 }  // namespace
 
-Regions offset_outlines(const WallSettings& settings, const Regions& regions, std::size_t layer) {
-  const Um by = settings.xy_offset + (layer == 0 ? settings.xy_offset_layer_0 : 0);
+Regions offset_outlines(const WallSettings& settings, const Regions& regions) {
+  const Um by = settings.xy_offset;
   const Um holes_by = settings.hole_xy_offset - by;
   if (by == 0 && holes_by == 0) return regions;
   Regions solid, holes;

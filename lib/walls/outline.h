@@ -10,7 +10,7 @@
 namespace weft::walls {
 
 /// The regions with their outlines moved by the xy offsets.
-Regions offset_outlines(const WallSettings& settings, const Regions& regions, std::size_t layer);
+Regions offset_outlines(const WallSettings& settings, const Regions& regions);
 
 /// A part less what the rounded sides of its outermost beads stand out beyond their bands.
 struct Within {

@@ -101,14 +101,17 @@ WallLayer build(const WallSettings& settings, const WallInput& input) {
   constexpr double worth_a_notice_mm = 0.5;  // the last bit of every tip is thinner than any bead
   WallLayer out;
   const Widths widths = widths_of(settings, input.nozzle_diameter, input.layer.height, input.index);
-  const Regions regions = offset_outlines(settings, input.layer.regions, input.index);
+  const Regions regions = offset_outlines(settings, input.layer.regions);
   if (widths.walls == 0) {
     out.inside = regions;
     return out;
   }
-  const auto extra = settings.wall_extra_on_slopes && input.above != nullptr
-                         ? extra_walls(widths, regions, offset_outlines(settings, *input.above, input.index + 1))
-                         : std::vector<int>(regions.size(), 0);
+  const auto extra =
+      settings.wall_extra_on_slopes && input.above != nullptr
+          ? extra_walls(
+                widths, regions,
+                offset_outlines(input.settings_above != nullptr ? *input.settings_above : settings, *input.above))
+          : std::vector<int>(regions.size(), 0);
   KindsOfParts kinds;
   for (std::uint32_t i = 0; i < regions.size(); ++i) {
     stop_if_asked();

@@ -10,11 +10,12 @@ namespace weft::walls {
 /// What walls are built from, besides their settings.
 struct WallInput {
   const SlicedLayer& layer;
-  std::size_t index = 0;        ///< of the layer; 0 lies on the bed
+  std::size_t index = 0;        ///< of the layer in its object: extra walls alternate by it
   Um nozzle_diameter = 0.4_mm;  ///< what automatic widths and shares are measured against
   const Regions* over_air =
       nullptr;  ///< where nothing lies below, if the caller knows; there beads keep the nozzle's own strand
-  const Regions* above = nullptr;  ///< outlines of the layer above; read with wall_extra_on_slopes
+  const Regions* above = nullptr;                ///< outlines of the layer above; read with wall_extra_on_slopes
+  const WallSettings* settings_above = nullptr;  ///< that hold there; absent: the same
 };
 
 /// Lays beads along the outlines of one layer, widening or narrowing them so that no gap is left.

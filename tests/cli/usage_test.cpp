@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/program.h"
 
+#include <set>
+#include <string>
+
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -65,7 +68,18 @@ TEST_CASE("command line: every setting is listed with type, range and meaning") 
   for (const auto& row : rows) {
     CHECK_FALSE(row["meaning"].get<std::string>().empty());
     CHECK_FALSE(row["type"].get<std::string>().empty());
+    static const std::set<std::string> scopes{"machine", "plate", "tool", "object", "layer", "region"};
+    CHECK(scopes.count(row["scope"].get<std::string>()) == 1);
   }
+  const auto scope_of = [&](const char* key) {
+    const auto row = nlohmann::json::parse(weft({"settings", "--format", "json", key}).out);
+    return row[0]["scope"].get<std::string>();
+  };
+  CHECK(scope_of("material_bed_temperature") == "plate");
+  CHECK(scope_of("layer_height") == "layer");
+  CHECK(scope_of("wall_line_count") == "region");
+  CHECK_THAT(weft({"settings", "retraction_amount"}).out, Contains("; tool)"));
+  CHECK_THAT(weft({"settings", "retraction_amount", "--format", "markdown"}).out, Contains("| tool |"));
   CHECK_THAT(weft({"settings", "layer_height"}).out, Contains("0.02 … 2 mm"));
   CHECK(weft({"settings", "layer_hight"}).status == 3);
 }

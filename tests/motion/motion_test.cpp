@@ -6,7 +6,9 @@
 #include "motion/kinematics.h"
 #include "motion/resample.h"
 #include "motion/speeds.h"
+#include "settings/first_layer.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -288,9 +290,9 @@ TEST_CASE("motion: mm³/s change no faster along a bead than max_extrusion_rate_
       line({{0, 300}, {10'000, 300}, {10'400, 900}, {30'000, 900}, {30'200, 200}, {60'000, 200}}, Role::inner_wall);
   cut_where_width_changes(bead.path);
   Extrude free = bead;
-  set_bead_speed(rules, bead, false);
+  set_bead_speed(rules, bead);
   rules.speeds.max_extrusion_rate_slope.reset();
-  set_bead_speed(rules, free, false);
+  set_bead_speed(rules, free);
   CHECK(free.speed_mm_s == Approx(100));
   REQUIRE(bead.segment_speed_mm_s.size() + 1 == bead.path.size());
   for (std::size_t i = 1; i + 1 < bead.path.size(); ++i) {
@@ -313,7 +315,7 @@ TEST_CASE("motion: where the width jumps, speed is not lowered below cool_min_sp
   rules.speeds.max_extrusion_rate_slope = 5;
   rules.cooling.cool_min_speed = 12;
   auto bead = line({{0, 20}, {1'000, 20}, {1'010, 900}, {2'000, 900}}, Role::inner_wall);
-  set_bead_speed(rules, bead, false);
+  set_bead_speed(rules, bead);
   CHECK(bead.speed_mm_s == 12);
 }
 
@@ -324,34 +326,83 @@ TEST_CASE("motion: with full equalisation walls of any width are printed at one 
   const double nominal = flow::area_mm2(0.42, 0.2) * rules.speeds.speed_wall_0;
   for (const Um band : {200, 377, 700}) {
     auto bead = line({{0, band}, {30'000, band}}, Role::outer_wall);
-    set_bead_speed(rules, bead, false);
+    set_bead_speed(rules, bead);
     CHECK(bead.speed_mm_s * to_mm(band) * 0.2 == Approx(nominal));
   }
 }
 
 TEST_CASE("motion: the first layer is slow, a share is of the feature's own speed, and travels have theirs") {
-  auto rules = plain_rules();
-  rules.speeds.speed_layer_0 = {20, false};
-  rules.speeds.speed_bridge = 15;
-  CHECK(feature_speed_mm_s(rules, Role::infill, true) == 20);
-  CHECK(feature_speed_mm_s(rules, Role::bridge, true) == 15);
-  rules.speeds.speed_layer_0 = {50, true};
-  CHECK(feature_speed_mm_s(rules, Role::infill, true) == 40);
-  rules.speeds.speed_travel_layer_0 = 70;
+  Settings settings;
+  settings.speeds.speed_layer_0 = {20, false};
+  settings.speeds.speed_bridge = 15;
+  settings.speeds.speed_travel_layer_0 = 70;
+  const auto rules_for = [&] { return rules_of(on_first_layer(settings), &settings); };
+  CHECK(feature_speed_mm_s(rules_for(), Role::infill) == 20);
+  CHECK(feature_speed_mm_s(rules_for(), Role::bridge) == 15);
+  CHECK(feature_speed_mm_s(rules_for(), Role::overhang_wall) == 20);
+  CHECK(feature_speed_mm_s(rules_for(), Role::skirt) == 20);
+  settings.speeds.skirt_brim_speed = 33;
+  CHECK(feature_speed_mm_s(rules_for(), Role::skirt) == 33);
+  settings.speeds.speed_layer_0 = {50, true};
+  CHECK(feature_speed_mm_s(rules_for(), Role::infill) == 40);
+  CHECK(feature_speed_mm_s(rules_for(), Role::overhang_wall) == 10);  // half of half of 40
+  const std::array rules{rules_of(settings), rules_for()};
   LayerPlan layer = layer_of({Travel{{{0, 0, 400}, {50'000, 0, 400}}}});
   CHECK(std::get<Travel>(plan_layer(rules, layer, {}).plan.steps.back()).speed_mm_s == 150);
-  layer.time.number = 0;  // of whatever index: another object may have been printed before
+  layer.scope = 1;
   CHECK(std::get<Travel>(plan_layer(rules, layer, {}).plan.steps.back()).speed_mm_s == 70);
+}
+
+TEST_CASE("motion: no role is faster or harder pushed on the first layer than the settings for it allow") {
+  Settings settings;
+  settings.speeds.acceleration_enabled = true;
+  settings.speeds.acceleration_layer_0 = 321;
+  for (const auto share : {SpeedOrShare{20, false}, SpeedOrShare{50, true}, SpeedOrShare{5000, false}}) {
+    settings.speeds.speed_layer_0 = share;
+    const auto above = rules_of(settings), first = rules_of(on_first_layer(settings), &settings);
+    for (const auto& row : roles) {
+      INFO(row.key);
+      const double usual = feature_speed_mm_s(above, row.role);
+      CHECK(feature_speed_mm_s(first, row.role) == std::min(usual, share.of(usual)));
+      CHECK(feature_acceleration_mm_s2(first, row.role) == 321);
+    }
+  }
+}
+
+TEST_CASE("motion: accelerations of the first layer are for what is printed, travels keep theirs") {
+  Settings settings;
+  settings.speeds.acceleration_enabled = true;
+  settings.speeds.acceleration_print = 1500, settings.speeds.acceleration_infill = 2000;
+  settings.speeds.acceleration_layer_0 = 500;
+  const auto rules = rules_of(on_first_layer(settings), &settings);
+  for (const auto role : {Role::outer_wall, Role::infill, Role::top_skin, Role::support})
+    CHECK(feature_acceleration_mm_s2(rules, role) == 500);
+  CHECK(travel_acceleration_mm_s2(rules) == 1500);
+  settings.speeds.acceleration_enabled = false;  // the estimate takes the firmware's to be acceleration_print
+  CHECK(on_first_layer(settings).speeds.acceleration_print == 1500);
+}
+
+TEST_CASE("motion: beads of one layer are printed by the rules of their scopes") {
+  Settings settings;
+  settings.cooling.cool_min_layer_time = 0;
+  std::vector<Rules> rules{rules_of(settings)};
+  settings.speeds.speed_infill = 25;
+  rules.push_back(rules_of(settings));
+  Extrude slow = line({{0, 400}, {20'000, 400}}, Role::infill, 2'000);
+  slow.scope = 1;
+  const auto planned = plan_layer(rules, layer_of({line({{0, 400}, {20'000, 400}}), slow}), Point3{0, 0, 400});
+  CHECK(bead_in(planned.plan, 0).speed_mm_s == 80);
+  CHECK(bead_in(planned.plan, 1).speed_mm_s == 25);
 }
 
 TEST_CASE("motion: small closed walls are slowed, long and open ones are not") {
   auto rules = plain_rules();
   auto small = square(3'000), large = square(30'000);
-  set_bead_speed(rules, small, false), set_bead_speed(rules, large, false);
+  set_bead_speed(rules, small), set_bead_speed(rules, large);
   CHECK(small.speed_mm_s == 20);
   CHECK(large.speed_mm_s == 40);
   auto open = line({{0, 400}, {3'000, 400}}, Role::outer_wall);
-  set_bead_speed(rules, open, false);
+  set_bead_speed(rules, open);
   CHECK(open.speed_mm_s == 40);
 }
 

@@ -1,0 +1,19 @@
+#pragma once
+#include "core/scope_id.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace weft {
+
+/// A run of a layer's regions that are printed with the same settings.
+struct Area {
+  ScopeId scope = 0;
+  std::uint32_t regions = 0;  ///< how many of the layer's, behind those of the areas before
+  friend bool operator==(const Area&, const Area&) = default;
+};
+
+/// All regions of a layer. No two have the same scope.
+using Areas = std::vector<Area>;
+
+}  // namespace weft

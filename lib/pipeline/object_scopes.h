@@ -1,0 +1,37 @@
+#pragma once
+#include "model/area.h"
+#include "plate/plate.h"
+#include "settings/scopes.h"
+#include "slice/slice.h"
+
+#include <vector>
+
+/// Which settings hold where in an object: overlays become scopes, and layers get their areas.
+namespace weft::pipeline {
+
+/// From one height on, the scope of each volume.
+struct ScopesFrom {
+  Um bottom = 0;                   ///< of the lowest layer
+  std::vector<ScopeId> of_volume;  ///< beside Object::volumes
+};
+
+/// Upwards from the bed. The first is that of the first layer alone.
+using ObjectScopes = std::vector<ScopesFrom>;
+
+/// Lays the object's overlays over the plate's settings. @throws Error{settings} where a layer would be higher than the
+/// nozzle is wide
+ObjectScopes scopes_of(const Object& object, Scopes& scopes);
+
+/// What holds for a layer that has its bottom there.
+const ScopesFrom& at(const ObjectScopes& scopes, Um bottom);
+
+/// The layers of several volumes put together: where they overlap the later one has it, and those of one scope are
+/// united. Beside them goes what areas each has.
+/// @param cuts beside the volumes; all at the same heights, each as far up as its volume reaches
+std::vector<slice::Cut> united(const ObjectScopes& scopes, const std::vector<const std::vector<slice::Cut>*>& cuts,
+                               std::vector<Areas>& areas);
+
+/// The areas of layers of one volume: one each.
+std::vector<Areas> areas_of_one(const ObjectScopes& scopes, const std::vector<slice::Cut>& cuts);
+
+}  // namespace weft::pipeline

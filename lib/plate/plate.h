@@ -1,0 +1,68 @@
+#pragma once
+#include "core/polygon.h"
+#include "mesh/mesh.h"
+#include "settings/overlay.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// What is to be printed, before anything of it is sliced: what a command line, a line of a job list or a 3MF says.
+namespace weft {
+
+/// What a volume does to its object.
+enum class VolumeKind : std::uint8_t {
+  model,             ///< is printed
+  negative,          ///< cuts a hole
+  modifier,          ///< gives what it meets other settings
+  support_enforcer,  ///< asks for support
+  support_blocker,   ///< keeps support away
+  support,           ///< is printed as support
+};
+std::string_view name_of(VolumeKind kind);
+
+struct Volume {
+  std::string name{};
+  Mesh mesh;  ///< in the coordinates of the object's first copy; let go of once it is sliced
+  VolumeKind kind = VolumeKind::model;
+  Overlay overlay{};
+};
+
+/// Settings of the layers whose bottoms lie in [from, to).
+struct HeightRange {
+  Um from = 0, to = 0;
+  Overlay overlay{};
+};
+
+/// Printed as one: its volumes are in one place, and firmware can cancel it.
+struct Object {
+  std::string name;
+  std::vector<Volume> volumes;  ///< where they overlap, the later one wins
+  Overlay overlay{};
+  std::vector<HeightRange> ranges{};
+  std::vector<Point> copies{{}};  ///< where each stands, against the first, which is usually {0, 0}
+  Ring hull{};                    ///< of what is printed, seen from above
+};
+
+struct Plate {
+  std::vector<Object> objects;
+};
+
+/// How many objects a printer sees.
+std::size_t copies_on(const Plate& plate);
+
+/// @throws Error{model} for a plate without objects, an object without copies, and volumes of kinds that are not
+/// printed
+void check_printable(const Plate& plate);
+
+/// Comment lines that say what is laid over the plate's settings where; empty where nothing is.
+std::string overlay_lines(const Plate& plate);
+
+/// The heights of an object from which on other overlays hold, ascending, the first at 0.
+std::vector<Um> heights_of_change(const Object& object);
+
+/// What is laid over the plate's settings for a volume at a height: the object's, its ranges', the volume's own.
+std::vector<const Overlay*> overlays_at(const Object& object, const Volume& volume, Um bottom);
+
+}  // namespace weft

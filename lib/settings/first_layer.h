@@ -1,0 +1,14 @@
+#pragma once
+#include "settings/overlay.h"
+
+namespace weft {
+
+/// What the first layer has of its own, as an overlay over what holds above it: height, line widths, outlines, speeds,
+/// accelerations and temperatures. It follows from settings such as initial_layer_height and speed_layer_0, so it is
+/// made of the settings that hold at the place, and laid last.
+Overlay first_layer_of(const Settings& settings);
+
+/// The settings with it.
+Settings on_first_layer(Settings settings);
+
+}  // namespace weft
