@@ -21,8 +21,10 @@ Laying Planner::run() {
   stop_if_asked();
   ramps();
   stop_if_asked();
-  for (std::uint32_t e = 0; e < core_.size(); ++e) set_core_bounds(e);
+  for (std::uint32_t e = 0; e < edges_.size(); ++e) set_core_bounds(e);
   run_into_corners();
+  out_.spans.reserve(edges_.size());
+  for (const Edge& edge : edges_) out_.spans.push_back(edge.span);
   return std::move(out_);
 }
 

@@ -22,6 +22,8 @@ class Planner {
   Laying run();
 
  private:
+  static constexpr std::uint32_t none = ~0U;
+
   /// How a core edge's bounds approach those of a neighbouring count.
   struct Blend {
     Count other;
@@ -46,6 +48,17 @@ class Planner {
   struct Throat {
     int pairs;             ///< of that part
     std::uint32_t bounds;  ///< where those of the part begin in Laying::bounds
+  };
+  /// What is decided of an edge. The parts of one that is split begin alike.
+  struct Edge {
+    bool core = true;      ///< beads follow the thickness; else they run into a corner or a mouth
+    bool steep = false;    ///< no middles but a single one
+    bool mouth = false;    ///< where a thin part opens into a thick one
+    bool reached = false;  ///< from the core down
+    Count count{};         ///< of the core
+    Blend blend{};
+    std::uint32_t passage = none, throat = none;  ///< index of it
+    Span span{};
   };
   struct Descent {
     std::uint32_t half;
@@ -110,7 +123,7 @@ class Planner {
   /// a wall that turns back: the walls go on as wide as they come, and a bead in the middle fills what they leave.
   void pass_junctions();
   /// Steep, and longer than what rounding makes of one place.
-  bool is_climb(std::uint32_t e) const { return steep_[e] && s_.length(e) > one_place; }
+  bool is_climb(std::uint32_t e) const { return edges_[e].steep && s_.length(e) > one_place; }
   /// Whether steep ways lead up from a node, or down, but not both: it does not lie on a slope, nor in the flat.
   bool steep_around(std::uint32_t node) const;
   /// The place around a node that no steep way leads up from, if it is small, with the steep ways down from it.
@@ -121,7 +134,7 @@ class Planner {
   bool alike(const std::vector<std::vector<std::uint32_t>>& arms, Count& count);
   /// Makes an edge core of so many beads, along which the walls fill what the passage says.
   void pass(std::uint32_t e, Count count, Passage passage);
-  bool passes(std::uint32_t e) const { return e < passage_.size() && passage_[e] != none; }
+  bool passes(std::uint32_t e) const { return edges_[e].passage != none; }
   /// Half the thickness that walls fill where the clearance is that; all of it but in a passage.
   double walled(std::uint32_t e, double clearance) const;
 
@@ -140,7 +153,7 @@ class Planner {
   void find_throats();
   /// None where the mouth has none.
   const Throat* throat_at(std::uint32_t edge) const {
-    return edge < throat_.size() && throat_[edge] != none ? &throats_[throat_[edge]] : nullptr;
+    return edges_[edge].throat != none ? &throats_[edges_[edge].throat] : nullptr;
   }
   /// Walls that go on where another has turned back fill the room beside its tip, and no more: at an edge of a mouth,
   /// and down into the part below it as far as they would meet the tip.
@@ -150,7 +163,9 @@ class Planner {
   std::uint32_t split_core(std::uint32_t h, double t);
   /// The bounds of those walls where the axis has come so far, steep by `slope`; as in `span`, but no less than that.
   std::uint32_t bounds_beside(const Throat& throat, const Span& span, const Turn& turn, double slope, double clearance);
-  bool climbs_mouth(std::uint32_t h) const { return mouth_[h / 2] && s_.end(h).clearance > s_.start(h).clearance; }
+  bool climbs_mouth(std::uint32_t h) const {
+    return edges_[h / 2].mouth && s_.end(h).clearance > s_.start(h).clearance;
+  }
   void run_into_corners();
   /// Descends from a node with the most beads that its core has, into corners and mouths or into mouths only; does
   /// nothing where the node has no core.
@@ -179,7 +194,6 @@ class Planner {
   /// The bounds of a span with that innermost bound.
   std::uint32_t bounds_up_to(const Span& span, double innermost);
 
-  static constexpr std::uint32_t none = ~0U;
   static constexpr double outer_spread =
       1.25;  // of its width: an outer wall alone on its side grows to this in a taper
   static constexpr std::size_t fewest_arms = 4, most_arms = 5;  // of three the walls fill it; of six much stays bare
@@ -198,14 +212,10 @@ class Planner {
   const Widths& w_;
   const LayingOptions& o_;
   std::vector<std::uint32_t> any_, peaks_, tops_;  // a half that leaves each node; nodes with corners all around
-  std::vector<std::uint8_t> core_, steep_, mouth_, reached_;
+  std::vector<Edge> edges_;
   std::vector<std::vector<std::uint32_t>> runs_;  // halves of each mouth, climbing
-  std::vector<Count> count_;
-  std::vector<Blend> blend_;
   std::vector<Passage> passages_;
-  std::vector<std::uint32_t> passage_;  // by edge: its passage, or none
   std::vector<Throat> throats_;
-  std::vector<std::uint32_t> throat_;  // by edge: its throat, or none
   std::vector<double> scratch_;
   std::vector<std::optional<double>> crowded_;  // as far as it was asked for
   std::vector<Descent> leave_;

@@ -10,12 +10,11 @@ namespace weft::walls {
 
 void Planner::find_core() {
   const auto edges = static_cast<std::uint32_t>(s_.edge_count());
-  core_.assign(edges, 1);
-  steep_.assign(edges, 0);
+  edges_.assign(edges, {});
   std::vector<int> degree(s_.nodes.size(), 0);
   std::vector<double> shallow(s_.nodes.size(), 0);  // length of flat stretches cut off so far
   for (std::uint32_t e = 0; e < edges; ++e) {
-    steep_[e] = slope(e) > o_.steep;
+    edges_[e].steep = slope(e) > o_.steep;
     ++degree[s_.halves[2 * e].from];
     ++degree[s_.halves[2 * e + 1].from];
   }
@@ -42,7 +41,7 @@ void Planner::find_core() {
     if (degree[n] != 1) continue;
     std::uint32_t h = any_[n];
     for_each_leaving(any_[n], [&](std::uint32_t g) {
-      if (core_[g / 2]) h = g;
+      if (edges_[g / 2].core) h = g;
     });
     const std::uint32_t m = s_.to(h);
     const double rise = s_.nodes[m].clearance - s_.nodes[n].clearance;
@@ -50,7 +49,7 @@ void Planner::find_core() {
     double flat = shallow[n];
     if (slope(h / 2) <= o_.corner || rise < 0) flat += s_.length(h / 2);
     if (flat > stub_share * s_.nodes[m].clearance) continue;
-    core_[h / 2] = 0;
+    edges_[h / 2].core = false;
     --degree[n];
     shallow[m] = std::max(shallow[m], flat);
     if (--degree[m] == 1) add_leaf(m);
@@ -61,13 +60,13 @@ void Planner::find_core() {
 }
 
 void Planner::cut_mouths(std::vector<int>& degree) {
-  mouth_.assign(core_.size(), 0);
   const auto climbs = [&](std::uint32_t h) {
-    return core_[h / 2] && !mouth_[h / 2] && slope(h / 2) > o_.corner && s_.end(h).clearance > s_.start(h).clearance;
+    return edges_[h / 2].core && !edges_[h / 2].mouth && slope(h / 2) > o_.corner &&
+           s_.end(h).clearance > s_.start(h).clearance;
   };
   // All that are found in one look are cut together, so that it does not matter which is found first; where one is cut,
   // another may lead on.
-  std::vector<std::uint8_t> seen(core_.size());
+  std::vector<std::uint8_t> seen(edges_.size());
   std::vector<std::uint32_t> run;
   for (std::size_t done = 0;;) {
     std::fill(seen.begin(), seen.end(), 0);
@@ -93,8 +92,8 @@ void Planner::cut_mouths(std::vector<int>& degree) {
     if (done == runs_.size()) break;
     for (; done < runs_.size(); ++done) {
       for (const std::uint32_t h : runs_[done]) {
-        core_[h / 2] = 0;
-        mouth_[h / 2] = 1;
+        edges_[h / 2].core = false;
+        edges_[h / 2].mouth = true;
         --degree[s_.halves[h].from];
         --degree[s_.to(h)];
       }
@@ -115,7 +114,7 @@ int Planner::beads_of_arm(std::uint32_t h) const {
   for (std::uint32_t g = onward(h); g != h && gentle < o_.filter && s_.end(g).clearance < s_.start(g).clearance;
        g = onward(h)) {
     h = g;
-    if (!steep_[h / 2]) gentle += s_.length(h / 2);
+    if (!edges_[h / 2].steep) gentle += s_.length(h / 2);
   }
   const int there = beads();
   double length = 0;
@@ -130,7 +129,7 @@ int Planner::beads_of_arm(std::uint32_t h) const {
 bool Planner::leads_to_arm(std::uint32_t h, int beads) const {
   bool found = false;
   for_each_leaving(Skeleton::twin(h), [&](std::uint32_t g) {
-    found = found || (core_[g / 2] && g != Skeleton::twin(h) && beads_of_arm(g) >= beads);
+    found = found || (edges_[g / 2].core && g != Skeleton::twin(h) && beads_of_arm(g) >= beads);
   });
   return found;
 }
@@ -141,17 +140,17 @@ void Planner::cut_bent_tips(std::vector<int>& degree) {
     if (degree[n] != 1 || s_.nodes[n].clearance > 5) continue;
     std::uint32_t h = any_[n];
     for_each_leaving(any_[n], [&](std::uint32_t g) {
-      if (core_[g / 2]) h = g;
+      if (edges_[g / 2].core) h = g;
     });
     std::vector<std::uint32_t> chain;
-    while (steep_[h / 2]) {
+    while (edges_[h / 2].steep) {
       chain.push_back(h);
       if (degree[s_.to(h)] != 2) break;
       const std::uint32_t g = onward(h);
       if (g == h) break;
       const Place u = direction(h), v = direction(g);
-      if (!steep_[g / 2] && u.x * v.x + u.y * v.y < most_bend_cos) {
-        for (const std::uint32_t c : chain) core_[c / 2] = 0;
+      if (!edges_[g / 2].steep && u.x * v.x + u.y * v.y < most_bend_cos) {
+        for (const std::uint32_t c : chain) edges_[c / 2].core = false;
         degree[n] = 0;
         degree[s_.to(h)] = 1;
         break;

@@ -9,17 +9,16 @@
 namespace weft::walls {
 
 void Planner::find_throats() {
-  throat_.assign(core_.size(), none);
   for (const auto& run : runs_) {
     std::uint32_t below = none;
     int ways = 0;
     for_each_leaving(run.front(), [&](std::uint32_t h) {
-      if (core_[h / 2]) below = h, ++ways;
+      if (edges_[h / 2].core) below = h, ++ways;
     });
-    if (ways != 1 || !mouth_[run.front() / 2]) continue;
-    const Span& span = out_.spans[below / 2];
+    if (ways != 1 || !edges_[run.front() / 2].mouth) continue;
+    const Span& span = edges_[below / 2].span;
     if (span.middle || span.open) continue;
-    for (const std::uint32_t h : run) throat_[h / 2] = static_cast<std::uint32_t>(throats_.size());
+    for (const std::uint32_t h : run) edges_[h / 2].throat = static_cast<std::uint32_t>(throats_.size());
     throats_.push_back({span.pairs, below % 2 == 0 ? span.at_start : span.at_end});
   }
 }
@@ -51,14 +50,14 @@ std::uint32_t Planner::bounds_beside(const Throat& throat, const Span& span, con
 
 void Planner::fill_beside(std::uint32_t h, const Turn& turn) {
   const Throat* throat = throat_at(h / 2);
-  const Span span = out_.spans[h / 2];
+  const Span span = edges_[h / 2].span;
   if (throat == nullptr || turn.reach <= 0 || span.pairs != throat->pairs || span.pairs == 0) return;
   const double m = std::min(1.0, slope(h / 2));
   const Turn later{turn.reach, turn.past + s_.length(h / 2)};
   const std::uint32_t from = bounds_beside(*throat, span, turn, m, s_.start(h).clearance);
   const std::uint32_t to = bounds_beside(*throat, span, later, m, s_.end(h).clearance);
-  out_.spans[h / 2].at_start = h % 2 == 0 ? from : to;
-  out_.spans[h / 2].at_end = h % 2 == 0 ? to : from;
+  edges_[h / 2].span.at_start = h % 2 == 0 ? from : to;
+  edges_[h / 2].span.at_end = h % 2 == 0 ? to : from;
 }
 
 void Planner::yield_below(std::uint32_t h, const Span& span, Turn turn) {
@@ -66,17 +65,17 @@ void Planner::yield_below(std::uint32_t h, const Span& span, Turn turn) {
   if (throat == nullptr || span.pairs != throat->pairs || span.pairs == 0) return;
   std::uint32_t g = none;
   for_each_leaving(Skeleton::twin(h), [&](std::uint32_t x) {
-    if (core_[x / 2]) g = x;
+    if (edges_[x / 2].core) g = x;
   });
   const double reach = 2 * turn.reach;  // no disc of a wall touches the tip further away
   while (turn.past < reach - same_um) {
-    const Span& own = out_.spans[g / 2];
+    const Span& own = edges_[g / 2].span;
     const double high = s_.start(g).clearance, length = s_.length(g / 2);
     if (own.pairs != span.pairs || own.middle || own.open || s_.end(g).clearance > high || length < same_um) return;
     if (turn.past + length > reach) g = split_core(g, (reach - turn.past) / length);
     const double m = std::min(1.0, slope(g / 2));
     const Turn later{turn.reach, turn.past + s_.length(g / 2)};
-    Span& cut = out_.spans[g / 2];
+    Span& cut = edges_[g / 2].span;
     std::uint32_t &from = g % 2 == 0 ? cut.at_start : cut.at_end, &to = g % 2 == 0 ? cut.at_end : cut.at_start;
     // Where another tip is nearer they have yielded more already.
     const auto yielded = [&](std::uint32_t bounds, const Turn& at, double clearance) {
@@ -95,9 +94,7 @@ void Planner::yield_below(std::uint32_t h, const Span& span, Turn turn) {
 
 std::uint32_t Planner::split_core(std::uint32_t h, double t) {
   const std::uint32_t e = h / 2, f = split(e, h % 2 == 0 ? t : 1 - t);
-  out_.spans.resize(core_.size());
-  Span &first = out_.spans[e], &second = out_.spans[f];
-  second = first;
+  Span &first = edges_[e].span, &second = edges_[f].span;
   const auto at = static_cast<std::uint32_t>(out_.bounds.size());
   const double share = h % 2 == 0 ? t : 1 - t;
   for (std::size_t i = 0; i <= static_cast<std::size_t>(first.pairs); ++i) {
@@ -137,10 +134,10 @@ void Planner::run_into_corners() {
 void Planner::leave_core(std::uint32_t n, bool only_mouths) {
   std::uint32_t core = none;
   for_each_leaving(any_[n], [&](std::uint32_t h) {
-    if (core_[h / 2] && (core == none || out_.spans[h / 2].pairs > out_.spans[core / 2].pairs)) core = h;
+    if (edges_[h / 2].core && (core == none || edges_[h / 2].span.pairs > edges_[core / 2].span.pairs)) core = h;
   });
   if (core == none) return;
-  Span span = out_.spans[core / 2];
+  Span span = edges_[core / 2].span;
   const std::uint32_t at = core % 2 == 0 ? span.at_start : span.at_end;
   span.core = span.middle = false;
   span.at_start = span.at_end = at;
@@ -149,7 +146,8 @@ void Planner::leave_core(std::uint32_t n, bool only_mouths) {
 
 void Planner::descend_from(std::uint32_t n, const Span& span, bool only_mouths) {
   for_each_leaving(any_[n], [&](std::uint32_t h) {
-    if (!core_[h / 2] && !climbs_mouth(h) && (mouth_[h / 2] || !only_mouths)) leave_.push_back({h, span, {}});
+    if (!edges_[h / 2].core && !climbs_mouth(h) && (edges_[h / 2].mouth || !only_mouths))
+      leave_.push_back({h, span, {}});
   });
   while (!leave_.empty()) {
     const Descent d = leave_.back();
@@ -184,8 +182,7 @@ void Planner::descend(std::uint32_t h, Span span, Turn turn) {
     turn = {(b[1] - b[0]) / 2, 0};
   };
   for (;;) {
-    if (reached_.size() < core_.size()) reached_.resize(core_.size(), 0);
-    if (reached_[h / 2]) return;
+    if (edges_[h / 2].reached) return;
     const double from = s_.start(h).clearance, to = s_.end(h).clearance, low = std::min(from, to);
     while (span.open && innermost() > from + same_um) end_innermost();
     auto narrowing = narrowing_of(span, sharp);
@@ -199,20 +196,18 @@ void Planner::descend(std::uint32_t h, Span span, Turn turn) {
       const double t = (from - cut) / (from - to);
       if (t > 1e-9) {
         const std::uint32_t e = h / 2, f = split(e, h % 2 == 0 ? t : 1 - t);
-        reached_.push_back(0);
         if (h % 2 == 1) h = 2 * f + 1;
         rest = s_.halves[h].next;
       }
     }
-    if (out_.spans.size() < core_.size()) out_.spans.resize(core_.size());
     if (rest == h && ends) {  // begins exactly where a bead ends
       end_innermost();
       continue;
     }
-    out_.spans[h / 2] = in_corner(h, span, narrowing);
-    if (mouth_[h / 2]) fill_beside(h, turn);
+    edges_[h / 2].span = in_corner(h, span, narrowing);
+    if (edges_[h / 2].mouth) fill_beside(h, turn);
     turn.past += s_.length(h / 2);
-    reached_[h / 2] = 1;
+    edges_[h / 2].reached = true;
     if (rest != h) {
       if (ends) end_innermost();
       h = rest;
@@ -220,9 +215,9 @@ void Planner::descend(std::uint32_t h, Span span, Turn turn) {
     }
     const std::uint32_t back = Skeleton::twin(h);
     bool at_core = false;
-    for_each_leaving(back, [&](std::uint32_t g) { at_core = at_core || core_[g / 2]; });
+    for_each_leaving(back, [&](std::uint32_t g) { at_core = at_core || edges_[g / 2].core; });
     if (at_core) {
-      if (mouth_[h / 2]) yield_below(h, span, turn);
+      if (edges_[h / 2].mouth) yield_below(h, span, turn);
       return;
     }
     for_each_leaving(back, [&](std::uint32_t g) {

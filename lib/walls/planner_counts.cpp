@@ -13,17 +13,7 @@ std::uint32_t Planner::split(std::uint32_t e, double t) {
   const std::uint32_t f = s_.split(e, t);
   any_[s_.halves[2 * f + 1].from] = 2 * f + 1;
   any_.push_back(2 * f);
-  core_.push_back(core_[e]);
-  steep_.push_back(steep_[e]);
-  mouth_.push_back(mouth_[e]);
-  if (passes(e)) {
-    passage_.resize(core_.size(), none);
-    passage_[f] = passage_[e];
-  }
-  if (throat_at(e) != nullptr) {
-    throat_.resize(core_.size(), none);
-    throat_[f] = throat_[e];
-  }
+  edges_.push_back(Edge(edges_[e]));
   return f;
 }
 
@@ -43,24 +33,24 @@ double Planner::crowded(int beads) {
 
 Count Planner::count_of(std::uint32_t e) {
   const double thickness = s_.start(2 * e).clearance + s_.end(2 * e).clearance;
-  if (!steep_[e]) return count_for(w_, thickness, false);
+  if (!edges_[e].steep) return count_for(w_, thickness, false);
   const Count even = count_for(w_, thickness, true);
   return !even.middle && even.pairs > 0 && thickness >= crowded(even.beads()) ? count_for(w_, thickness, false) : even;
 }
 
 void Planner::cut_at_thresholds() {
-  const auto edges = static_cast<std::uint32_t>(core_.size());
+  const auto edges = static_cast<std::uint32_t>(edges_.size());
   std::vector<double> cuts;
   StopNowAndThen stop(256);
   for (std::uint32_t e = 0; e < edges; ++e) {
     stop.step();
-    if (!core_[e]) continue;
+    if (!edges_[e].core) continue;
     const double a = 2 * s_.start(2 * e).clearance, b = 2 * s_.end(2 * e).clearance;
     const double low = std::min(a, b), high = std::max(a, b);
     if (high - low < same_um) continue;
     cuts.clear();
     for (int n = std::max(0, count_for(w_, low, false).beads() - 1); n <= 2 * w_.walls; ++n) {
-      const bool late = steep_[e] && n % 2 == 0 && n > 0 && n < 2 * w_.walls;
+      const bool late = edges_[e].steep && n % 2 == 0 && n > 0 && n < 2 * w_.walls;
       const double t = late ? crowded(n) : threshold(w_, n);
       if (t >= high) break;
       if (t > low) cuts.push_back((t - low) / (high - low));
@@ -76,10 +66,9 @@ void Planner::cut_at_thresholds() {
       done = t;
     }
   }
-  count_.resize(core_.size());
-  for (std::uint32_t e = 0; e < core_.size(); ++e) {
+  for (std::uint32_t e = 0; e < edges_.size(); ++e) {
     stop.step();
-    if (core_[e]) count_[e] = count_of(e);
+    if (edges_[e].core) edges_[e].count = count_of(e);
   }
 }
 
@@ -93,7 +82,7 @@ double Planner::widest(Count count, double thickness) {
 
 void Planner::filter() {
   for (int round = 0; round < 4; ++round) {
-    const auto edges = static_cast<std::uint32_t>(core_.size());
+    const auto edges = static_cast<std::uint32_t>(edges_.size());
     std::vector<std::uint32_t> root(edges);
     std::iota(root.begin(), root.end(), 0U);
     auto find = [&](std::uint32_t e) {
@@ -103,14 +92,15 @@ void Planner::filter() {
     StopNowAndThen stop(256);
     for (std::uint32_t h = 0; h < s_.halves.size(); ++h) {
       stop.step();
-      if (!core_[h / 2]) continue;
+      if (!edges_[h / 2].core) continue;
       std::uint32_t g = s_.halves[h].next;  // the next core edge around the end
-      while (!core_[g / 2]) g = s_.halves[Skeleton::twin(g)].next;
-      if (count_[g / 2] == count_[h / 2]) root[std::max(find(g / 2), find(h / 2))] = std::min(find(g / 2), find(h / 2));
+      while (!edges_[g / 2].core) g = s_.halves[Skeleton::twin(g)].next;
+      if (edges_[g / 2].count == edges_[h / 2].count)
+        root[std::max(find(g / 2), find(h / 2))] = std::min(find(g / 2), find(h / 2));
     }
     std::vector<double> length(edges, 0), low(edges, 1e18), high(edges, 0);
     for (std::uint32_t e = 0; e < edges; ++e) {
-      if (!core_[e]) continue;
+      if (!edges_[e].core) continue;
       const std::uint32_t r = find(e);
       length[r] += s_.length(e);
       for (const std::uint32_t h : {2 * e, 2 * e + 1}) {
@@ -124,9 +114,9 @@ void Planner::filter() {
     std::vector<Border> borders;
     for (std::uint32_t h = 0; h < s_.halves.size(); ++h) {
       stop.step();
-      if (!core_[h / 2]) continue;
+      if (!edges_[h / 2].core) continue;
       std::uint32_t g = s_.halves[h].next;
-      while (!core_[g / 2]) g = s_.halves[Skeleton::twin(g)].next;
+      while (!edges_[g / 2].core) g = s_.halves[Skeleton::twin(g)].next;
       if (find(g / 2) != find(h / 2)) {
         borders.push_back({find(h / 2), find(g / 2)});
         borders.push_back({find(g / 2), find(h / 2)});
@@ -145,7 +135,7 @@ void Planner::filter() {
     for (const Border& b : borders) {
       if (length[b.region] >= o_.filter || fixed[b.region] || fixed[b.other]) continue;
       if (length[b.other] <= length[b.region]) continue;
-      const Count mine = count_[b.region], other = count_[b.other];
+      const Count mine = edges_[b.region].count, other = edges_[b.other].count;
       if (std::abs(mine.beads() - other.beads()) != 1) continue;
       const double t = threshold(w_, std::min(mine.beads(), other.beads()));
       if (mine.beads() == 0 || other.beads() == 0) continue;
@@ -165,7 +155,7 @@ void Planner::filter() {
     }
     if (!any) return;
     for (std::uint32_t e = 0; e < edges; ++e)
-      if (core_[e] && fixed[find(e)] == 2) count_[e] = changed[find(e)];
+      if (edges_[e].core && fixed[find(e)] == 2) edges_[e].count = changed[find(e)];
   }
 }
 
@@ -174,16 +164,16 @@ void Planner::open_needless_mouths() {
     Count below, above;
     int ways_below = 0, ways_above = 0;
     for_each_leaving(run.front(), [&](std::uint32_t h) {
-      if (core_[h / 2]) below = count_[h / 2], ++ways_below;
+      if (edges_[h / 2].core) below = edges_[h / 2].count, ++ways_below;
     });
     for_each_leaving(Skeleton::twin(run.back()), [&](std::uint32_t h) {
-      if (core_[h / 2]) above = count_[h / 2], ++ways_above;
+      if (edges_[h / 2].core) above = edges_[h / 2].count, ++ways_above;
     });
     if (ways_below != 1 || ways_above == 0 || below != above) continue;
     for (const std::uint32_t h : run) {
-      core_[h / 2] = 1;
-      mouth_[h / 2] = 0;
-      count_[h / 2] = below;
+      edges_[h / 2].core = true;
+      edges_[h / 2].mouth = false;
+      edges_[h / 2].count = below;
     }
   }
 }

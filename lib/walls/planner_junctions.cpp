@@ -34,7 +34,7 @@ void Planner::pass_junctions() {
 bool Planner::steep_around(std::uint32_t node) const {
   bool up = false, down = false;
   for_each_leaving(any_[node], [&](std::uint32_t h) {
-    if (!is_climb(h / 2) || (!core_[h / 2] && !mouth_[h / 2])) return;
+    if (!is_climb(h / 2) || (!edges_[h / 2].core && !edges_[h / 2].mouth)) return;
     (s_.end(h).clearance < s_.start(h).clearance ? down : up) = true;
   });
   return up != down;
@@ -50,7 +50,7 @@ std::optional<Planner::Summit> Planner::summit_at(std::uint32_t node) const {
     bool up = false, down = false;
     for_each_leaving(any_[nodes[i]], [&](std::uint32_t h) {
       const std::uint32_t e = h / 2;
-      if ((!core_[e] && !mouth_[e]) || std::find(edges.begin(), edges.end(), e) != edges.end()) return;
+      if ((!edges_[e].core && !edges_[e].mouth) || std::find(edges.begin(), edges.end(), e) != edges.end()) return;
       if (is_climb(e) && s_.end(h).clearance < s_.start(h).clearance) {
         out.arms.push_back({h});
         down = true;
@@ -71,10 +71,10 @@ void Planner::down_to_level(std::vector<std::uint32_t>& arm) const {
     std::uint32_t found = none;
     int ways = 0;
     for_each_leaving(Skeleton::twin(arm.back()), [&](std::uint32_t g) {
-      if (g != Skeleton::twin(arm.back()) && (core_[g / 2] || mouth_[g / 2])) found = g, ++ways;
+      if (g != Skeleton::twin(arm.back()) && (edges_[g / 2].core || edges_[g / 2].mouth)) found = g, ++ways;
     });
     if (ways != 1 || s_.end(found).clearance >= s_.start(found).clearance) return;
-    if (!steep_[found / 2] && !count_[found / 2].middle) return;
+    if (!edges_[found / 2].steep && !edges_[found / 2].count.middle) return;
     arm.push_back(found);
   }
 }
@@ -84,26 +84,26 @@ bool Planner::alike(const std::vector<std::vector<std::uint32_t>>& arms, Count& 
   bool same = true;
   for (const auto& arm : arms)
     for_each_leaving(Skeleton::twin(arm.back()), [&](std::uint32_t h) {
-      if (!core_[h / 2] || h == Skeleton::twin(arm.back())) return;
-      same = same && (ways == 0 || count_[h / 2] == count);
-      count = count_[h / 2];
+      if (!edges_[h / 2].core || h == Skeleton::twin(arm.back())) return;
+      same = same && (ways == 0 || edges_[h / 2].count == count);
+      count = edges_[h / 2].count;
       ++ways;
     });
   return same && ways == static_cast<int>(arms.size()) && count.pairs > 0 && !count.middle;
 }
 
 void Planner::pass(std::uint32_t e, Count count, Passage passage) {
-  core_[e] = 1;
-  mouth_[e] = 0;
-  count_[e] = count;
-  if (passage_.size() < core_.size()) passage_.resize(core_.size(), none);
-  passage_[e] = static_cast<std::uint32_t>(passages_.size());
+  Edge& edge = edges_[e];
+  edge.core = true;
+  edge.mouth = false;
+  edge.count = count;
+  edge.passage = static_cast<std::uint32_t>(passages_.size());
   passages_.push_back(passage);
 }
 
 double Planner::walled(std::uint32_t e, double clearance) const {
   if (!passes(e)) return clearance;
-  const Passage& p = passages_[passage_[e]];
+  const Passage& p = passages_[edges_[e].passage];
   if (p.high - p.low < same_um) return p.walls_high;
   return p.walls_low + (p.walls_high - p.walls_low) * (clearance - p.low) / (p.high - p.low);
 }

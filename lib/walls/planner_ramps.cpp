@@ -8,16 +8,16 @@
 namespace weft::walls {
 
 void Planner::ramps() {
-  blend_.assign(core_.size(), Blend{});
   // The stretch of equal count that begins with a half, until its count changes, branches, or the core ends. A ramp
   // at one end of an edge leaves its other end to a new edge, which is looked at in its turn.
   for (std::uint32_t h = 0; h < s_.halves.size(); ++h) {
-    if (!core_[h / 2]) continue;
-    const Count mine = count_[h / 2];
+    if (!edges_[h / 2].core) continue;
+    const Count mine = edges_[h / 2].count;
     Count other = mine;
     for_each_leaving(h, [&](std::uint32_t g) {
-      if (!core_[g / 2] || count_[g / 2] == mine) return;
-      if (other == mine || count_[g / 2].beads() > other.beads()) other = count_[g / 2];  // whatever comes first
+      if (!edges_[g / 2].core || edges_[g / 2].count == mine) return;
+      if (other == mine || edges_[g / 2].count.beads() > other.beads())
+        other = edges_[g / 2].count;  // whatever comes first
     });
     if (other == mine || other.beads() == 0 || mine.beads() == 0) continue;
     const double reach = std::min(o_.ramp / 2, stretch(h) / 2);
@@ -29,40 +29,38 @@ std::uint32_t Planner::onward(std::uint32_t h) const {
   std::uint32_t found = h;
   int count = 0;
   for_each_leaving(Skeleton::twin(h), [&](std::uint32_t g) {
-    if (g != Skeleton::twin(h) && core_[g / 2]) found = g, ++count;
+    if (g != Skeleton::twin(h) && edges_[g / 2].core) found = g, ++count;
   });
   return count == 1 ? found : h;
 }
 
 double Planner::stretch(std::uint32_t h) const {
   double length = 0;
-  const Count mine = count_[h / 2];
+  const Count mine = edges_[h / 2].count;
   for (;;) {
     length += s_.length(h / 2);
     if (length > 2 * o_.ramp) return length;
     const std::uint32_t g = onward(h);
-    if (g == h || count_[g / 2] != mine) return g == h ? 2 * length : length;  // a free end takes the whole ramp
+    if (g == h || edges_[g / 2].count != mine) return g == h ? 2 * length : length;  // a free end takes the whole ramp
     h = g;
   }
 }
 
 void Planner::blend_along(std::uint32_t h, Count other, double reach) {
   double done = 0;
-  const Count mine = count_[h / 2];
+  const Count mine = edges_[h / 2].count;
   while (done < reach - same_um) {
-    if (count_[h / 2] != mine || blend_[h / 2].at_start > 0 || blend_[h / 2].at_end > 0) return;
+    if (edges_[h / 2].count != mine || edges_[h / 2].blend.at_start > 0 || edges_[h / 2].blend.at_end > 0) return;
     const double length = s_.length(h / 2);
     if (done + length > reach + same_um) {  // ends within this edge
       const double t = (reach - done) / length;
       const std::uint32_t e = h / 2, f = split(e, h % 2 == 0 ? t : 1 - t);
-      count_.push_back(mine);
-      blend_.push_back({});
       if (h % 2 == 1) h = 2 * f + 1;
     }
     const double from = 0.5 * (1 - done / reach);
     done += s_.length(h / 2);
     const double to = std::max(0.0, 0.5 * (1 - done / reach));
-    blend_[h / 2] = h % 2 == 0 ? Blend{other, from, to} : Blend{other, to, from};
+    edges_[h / 2].blend = h % 2 == 0 ? Blend{other, from, to} : Blend{other, to, from};
     const std::uint32_t g = onward(h);
     if (g == h) return;
     h = g;
@@ -70,20 +68,20 @@ void Planner::blend_along(std::uint32_t h, Count other, double reach) {
 }
 
 void Planner::set_core_bounds(std::uint32_t e) {
-  if (out_.spans.size() <= e) out_.spans.resize(core_.size());
-  if (!core_[e]) return;
-  Span& span = out_.spans[e];
-  const Blend& blend = blend_[e];
+  if (!edges_[e].core) return;
+  Span& span = edges_[e].span;
+  const Blend& blend = edges_[e].blend;
   const bool blended = blend.at_start > 0 || blend.at_end > 0;
-  Count shape = count_[e];
+  Count shape = edges_[e].count;
   // Towards one bead more a middle opens; a middle that will split stays one until the change itself.
   if (blended && blend.other.pairs == shape.pairs && blend.other.middle) shape.middle = true;
   span.core = true;
   span.pairs = shape.pairs;
   span.open = is_open(w_, shape);
-  span.middle = passes(e) || (shape.middle && !span.open && count_[e].beads() > 0);
-  span.at_start = bounds_at(count_[e], blend.other, blended ? blend.at_start : 0, walled(e, s_.start(2 * e).clearance));
-  span.at_end = bounds_at(count_[e], blend.other, blended ? blend.at_end : 0, walled(e, s_.end(2 * e).clearance));
+  span.middle = passes(e) || (shape.middle && !span.open && edges_[e].count.beads() > 0);
+  span.at_start =
+      bounds_at(edges_[e].count, blend.other, blended ? blend.at_start : 0, walled(e, s_.start(2 * e).clearance));
+  span.at_end = bounds_at(edges_[e].count, blend.other, blended ? blend.at_end : 0, walled(e, s_.end(2 * e).clearance));
 }
 
 std::uint32_t Planner::bounds_at(Count mine, Count other, double share, double half) {

@@ -8,7 +8,7 @@
 namespace weft::walls {
 
 double Planner::sharp_from(std::uint32_t h) const {
-  if (o_.corner_width >= 1 || mouth_[h / 2]) return 0;
+  if (o_.corner_width >= 1 || edges_[h / 2].mouth) return 0;
   const std::uint32_t first = h;
   for (;;) {
     if (s_.end(h).clearance >= s_.start(h).clearance) return 0;
@@ -18,7 +18,7 @@ double Planner::sharp_from(std::uint32_t h) const {
       if (g != Skeleton::twin(h)) next = g, ++ways;
     });
     if (ways == 0) break;
-    if (ways > 1 || core_[next / 2] || mouth_[next / 2]) return 0;
+    if (ways > 1 || edges_[next / 2].core || edges_[next / 2].mouth) return 0;
     h = next;
   }
   const double sine = slope(h / 2);
@@ -51,7 +51,7 @@ double Planner::turn_at(const Span& span, const std::optional<Narrowing>& narrow
 
 Span Planner::in_corner(std::uint32_t h, const Span& span, const std::optional<Narrowing>& narrowing) {
   Span out = span;
-  out.mouth = mouth_[h / 2] != 0;
+  out.mouth = edges_[h / 2].mouth;
   if (!narrowing || s_.start(h).clearance > narrowing->from + same_um) return out;
   const double own = out_.bounds[span.at_start + static_cast<std::size_t>(span.pairs)];
   const double above = narrowing->inner_bound(own, s_.start(h).clearance);
