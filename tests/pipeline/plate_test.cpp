@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Plates as a program that embeds weft makes them: objects with settings of their own.
 #include "core/error.h"
 #include "cuboid.h"

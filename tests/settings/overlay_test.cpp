@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "settings/overlay.h"
 
 #include "settings/first_layer.h"
