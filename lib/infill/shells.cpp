@@ -192,7 +192,15 @@ Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, cons
   if (split.air_below.any()) {
     kinds.solid |= kinds.top;  // what is bridge below is not top
     const Mask seen = kinds.top;
-    if (settings.bridges) find_bridges(settings, kinds, split.air_below, window.outline(index - 1), object.nozzle);
+    if (settings.bridges) {
+      const Regions* on_support = object.layers[index].held;
+      if (on_support != nullptr && !on_support->empty()) {
+        const Mask held(grid, *on_support);
+        find_bridges(settings, kinds, split.air_below - held, window.outline(index - 1) | held, object.nozzle);
+      } else {
+        find_bridges(settings, kinds, split.air_below, window.outline(index - 1), object.nozzle);
+      }
+    }
     kinds.top = seen & kinds.solid;
     kinds.solid -= kinds.top;
   }

@@ -17,6 +17,7 @@ struct ShellLayer {
   Um height = 0;
   const Regions* outline = nullptr;  ///< the slice
   const Regions* inside = nullptr;   ///< what the walls left of it
+  const Regions* held = nullptr;     ///< what of it rests on support, where something does
 };
 
 /// An object from the bed upwards, and the box of all its outlines.

@@ -24,6 +24,7 @@ struct Source {
 struct Body {
   std::string name;
   Mesh mesh;
+  std::vector<Mark> marks{};  ///< what is no part of it
 };
 
 struct Contents {

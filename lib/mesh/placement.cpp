@@ -41,13 +41,18 @@ Mesh mapped(Mesh mesh, F f) {
 }
 
 PlacedModel at_origin(Loaded loaded, const PlacementOptions& options, Point3& home) {
-  PlacedModel model{std::move(loaded.path), {}, {}, {}, {}, {}};
+  PlacedModel model{std::move(loaded.path), {}, {}, {}, {}, {}, {}};
   Box3 in_file;
   for (const Object& object : loaded.objects) in_file.add(box_of(object.mesh));
   const Point about = in_file.footprint().centre();
   for (Object& object : loaded.objects) {
-    Mesh mesh = stretched(std::move(object.mesh), options.stretch_xy, options.stretch_z, {about.x, about.y, 0});
-    model.objects.push_back(rotated(std::move(mesh), options.rotate_deg, about));
+    const auto turned_in_place = [&](Mesh mesh) {
+      mesh = stretched(std::move(mesh), options.stretch_xy, options.stretch_z, {about.x, about.y, 0});
+      return rotated(std::move(mesh), options.rotate_deg, about);
+    };
+    model.objects.push_back(turned_in_place(std::move(object.mesh)));
+    for (Mark& mark : object.marks) mark.mesh = turned_in_place(std::move(mark.mesh));
+    model.marks.push_back(std::move(object.marks));
   }
   Box3 turned;
   for (const Mesh& mesh : model.objects) turned.add(box_of(mesh));
@@ -61,6 +66,8 @@ PlacedModel at_origin(Loaded loaded, const PlacementOptions& options, Point3& ho
     const Ring& footprint = model.footprints.emplace_back(footprint_of(mesh));
     corners.insert(corners.end(), footprint.begin(), footprint.end());
   }
+  for (auto& marks : model.marks)
+    for (Mark& mark : marks) mark.mesh = moved(std::move(mark.mesh), by);
   model.hull = convex_hull(std::move(corners));
   return model;
 }

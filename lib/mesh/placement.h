@@ -32,9 +32,10 @@ struct PlacedModel {
   std::string path;
   std::vector<Mesh>
       objects;  ///< as many as were loaded; the middle of their box is x = y = 0, their lowest point z = 0
-  Box3 box;     ///< of all objects
-  std::vector<Ring> footprints;  ///< of each object: the convex hull, counter-clockwise
-  Ring hull;                     ///< of all of them
+  std::vector<std::vector<Mark>> marks;  ///< of each object, placed with it
+  Box3 box;                              ///< of all objects
+  std::vector<Ring> footprints;          ///< of each object: the convex hull, counter-clockwise
+  Ring hull;                             ///< of all of them
   std::vector<Point>
       instances;  ///< where the origin of each copy is on the plate; in rows from the front, from the left
   friend bool operator==(const PlacedModel&, const PlacedModel&) = default;

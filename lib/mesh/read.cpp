@@ -85,7 +85,8 @@ Loaded loaded_from(Contents contents, Format format, const std::string& path_as_
     loaded.triangles_in_file += body.mesh.triangles.size();
     Repaired repaired = repair(std::move(body.mesh));
     if (!repaired.mesh.triangles.empty())
-      loaded.objects.push_back({std::move(body.name), std::move(repaired.mesh), repaired.repairs});
+      loaded.objects.push_back(
+          {std::move(body.name), std::move(repaired.mesh), repaired.repairs, std::move(body.marks)});
     else
       loaded.notices.push_back({"mesh_object_empty", fmt::format("{}: an object '{}' without a triangle was left out",
                                                                  path_as_typed, body.name)});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include "mesh/mark.h"
 #include "mesh/mesh.h"
 #include "mesh/repair.h"
 
@@ -15,9 +16,10 @@ std::string_view name_of(Format format);
 /// A body of the file. Of an STL or OBJ there is one, whatever number of solids or groups it lists: they are shells of
 /// one body. Of a 3MF there is one for each item of its build.
 struct Object {
-  std::string name;  ///< as the file has it; may be empty
-  Mesh mesh;         ///< welded and repaired, in the coordinates of the file (of the build, for 3MF)
-  Repairs repairs;   ///< what was done to it and what is still odd
+  std::string name;           ///< as the file has it; may be empty
+  Mesh mesh;                  ///< welded and repaired, in the coordinates of the file (of the build, for 3MF)
+  Repairs repairs;            ///< what was done to it and what is still odd
+  std::vector<Mark> marks{};  ///< what of the file is no part of it, but says something of it
 };
 
 struct Loaded {

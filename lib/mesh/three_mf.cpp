@@ -31,6 +31,9 @@ struct Unit {
 constexpr std::array<Unit, 6> units = {
     {{"micron", 0.001}, {"millimeter", 1}, {"centimeter", 10}, {"inch", 25.4}, {"foot", 304.8}, {"meter", 1000}}};
 
+/// PrusaSlicer's namespace is an address, and the attribute of what is painted for support in it.
+constexpr std::string_view painted_by_prusaslicer = "http://schemas.slic3r.org/3mf/2017/06|custom_supports";
+
 std::string part_name(std::string_view target) {
   while (target.starts_with('/')) target.remove_prefix(1);
   return std::string(target);
@@ -119,7 +122,23 @@ class ModelPart {
                            object_->triangles.size() + 1, names[i], corners[i], object_->vertices.size()),
                "export the model again");
     }
+    paint(attributes, corners);
     object_->triangles.push_back(corners);
+  }
+
+  void paint(const XmlAttributes& attributes, const Triangle& corners) {
+    for (const std::string_view name : {std::string_view(painted_by_prusaslicer), std::string_view("paint_supports")}) {
+      const auto text = attributes.find(name);
+      if (!text || text->empty()) continue;
+      const auto& v = object_->vertices;
+      const auto facets = painted_facets(*text, {v[corners[0]], v[corners[1]], v[corners[2]]});
+      if (!facets)
+        refuse(fmt::format("object {}, triangle {}: {} {} ends inside a split triangle, or is not hexadecimal",
+                           object_id_, object_->triangles.size() + 1, local(name), escape::message(*text)),
+               "export the model again");
+      object_->painted.insert(object_->painted.end(), facets->begin(), facets->end());
+      return;
+    }
   }
 
   void item(const XmlAttributes& attributes) {
@@ -226,6 +245,8 @@ ThreeMf parse_3mf(Archive& archive, const std::string& path) {
   for (const Reference& item : document.items) others.insert(item.object.first);
   others.erase(root);
   for (const std::string& part : others) ModelPart(document, part, path, false).parse(archive);
+  document.root = root;
+  document.parts = parts_of(archive, path);
   return document;
 }
 

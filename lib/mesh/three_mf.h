@@ -3,6 +3,8 @@
 #include "core/notice.h"
 #include "mesh/archive.h"
 #include "mesh/mesh.h"
+#include "mesh/three_mf_paint.h"
+#include "mesh/three_mf_parts.h"
 
 #include <cstdint>
 #include <map>
@@ -30,6 +32,7 @@ struct Resource {
   std::vector<Eigen::Vector3d> vertices;  ///< in the file's unit
   std::vector<Triangle> triangles;        ///< indices are checked
   std::vector<Reference> components;
+  std::vector<PaintedFacet> painted;  ///< for support, in the file's unit
 };
 
 struct ThreeMf {
@@ -37,6 +40,8 @@ struct ThreeMf {
   double mm_per_unit = 1;
   std::map<ObjectKey, Resource> objects;
   std::vector<Reference> items;
+  std::string root;    ///< the part that the build is in
+  ThreeMfParts parts;  ///< which volumes are no parts
   Notices notices;
 };
 

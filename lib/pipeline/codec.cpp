@@ -21,7 +21,10 @@ inline constexpr auto fields<mesh::Repairs> = listed(&mesh::Repairs::degenerate,
                                                      &mesh::Repairs::open_edges, &mesh::Repairs::non_manifold_edges,
                                                      &mesh::Repairs::one_sided_shells);
 template <>
-inline constexpr auto fields<mesh::Object> = listed(&mesh::Object::name, &mesh::Object::mesh, &mesh::Object::repairs);
+inline constexpr auto fields<mesh::Mark> = listed(&mesh::Mark::kind, &mesh::Mark::painted, &mesh::Mark::mesh);
+template <>
+inline constexpr auto fields<mesh::Object> = listed(&mesh::Object::name, &mesh::Object::mesh, &mesh::Object::repairs,
+                                                    &mesh::Object::marks);
 template <>
 inline constexpr auto fields<mesh::Loaded> = listed(&mesh::Loaded::path, &mesh::Loaded::format, &mesh::Loaded::sha256,
                                                     &mesh::Loaded::unit, &mesh::Loaded::triangles_in_file,

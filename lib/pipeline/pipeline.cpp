@@ -12,6 +12,7 @@
 #include "pipeline/provenance.h"
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
+#include "pipeline/support_object.h"
 #include "preview/thumbnail.h"
 #include "settings/catalogue.h"
 #include "tasks/parallel.h"
@@ -166,9 +167,10 @@ std::optional<audit::Passed> print(const Job& job, Printing what, const Watch& w
   tasks::Beside beside([&] { thumbnails = thumbnails_of(job.settings, plate); });
   std::vector<PrintedLayers> layers;
   Box3 box;
+  auto supports = rooms_of(scopes, plate);
   for (std::size_t o = 0; o < plate.objects.size(); ++o) {
     for (const auto& volume : plate.objects[o].volumes) box.add(box_of(volume.mesh));
-    layers.push_back(print_object({watch, report, cache}, scopes, of_object[o], plate.objects[o]));
+    layers.push_back(print_object({watch, report, cache}, scopes, of_object[o], plate.objects[o], supports[o]));
   }
   beside.wait();
   for (auto& object : plate.objects)
@@ -176,7 +178,8 @@ std::optional<audit::Passed> print(const Job& job, Printing what, const Watch& w
   refuse_emptiness(what.name, box, layers);
   give_back_memory();
   begin<Stage::travel>(watch);
-  auto [plan, packed, digests, statistics] = plan_plate(scopes, plate, what.sequence, std::move(layers), report);
+  auto [plan, packed, digests, statistics] =
+      plan_plate(scopes, plate, what.sequence, std::move(layers), std::move(supports), report);
   note_statistics(job.settings, statistics, report);
   report.layers = plan.layers.size();
   for (const auto& layer : plan.layers)

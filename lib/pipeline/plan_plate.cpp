@@ -4,10 +4,12 @@
 #include "gcode/digest.h"
 #include "model/sequence.h"
 #include "motion/motion.h"
+#include "pipeline/add_raft.h"
 #include "pipeline/check.h"
 #include "pipeline/codec.h"
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
+#include "pipeline/support_object.h"
 #include "tasks/parallel.h"
 #include "travel/travel.h"
 
@@ -43,19 +45,59 @@ std::vector<ObjectLabel> labels_of(const Plate& plate) {
   return out;
 }
 
-/// Where a copy's layers come from.
+/// Where a copy's layers come from. What stands under a copy is a copy of its own, which firmware knows as the same.
 struct Copy {
-  std::size_t of = 0;  ///< index into the objects
+  std::size_t of = 0;  ///< index into the lists of layers
   Point by;
-  bool last = false;  ///< of that object
+  bool last = false;   ///< of that list
+  ObjectId label = 0;  ///< of the copy that it is, or stands under
 };
 std::vector<Copy> copies_of(const Plate& plate) {
   std::vector<Copy> out;
   for (std::size_t o = 0; o < plate.objects.size(); ++o) {
-    for (const Point by : plate.objects[o].copies) out.push_back({o, by, false});
+    for (const Point by : plate.objects[o].copies) out.push_back({o, by, false, static_cast<ObjectId>(out.size())});
     if (!plate.objects[o].copies.empty()) out.back().last = true;
   }
   return out;
+}
+
+constexpr ObjectId any_object = ~ObjectId{0};  // none
+
+/// Support goes with the copies that it stands under: its layers and copies follow those of the objects.
+Sequence with_supports(Sequence sequence, std::vector<SupportOf> supports, std::vector<Copy>& copies,
+                       std::vector<PrintedLayers>& layers) {
+  const std::size_t own = copies.size();
+  std::vector<ObjectId> below(own, any_object);
+  for (std::size_t o = 0; o < supports.size(); ++o) {
+    if (supports[o].layers.empty()) continue;
+    layers.push_back(std::move(supports[o].layers));
+    for (ObjectId c = 0; c < own; ++c) {
+      if (copies[c].of != o) continue;
+      below[c] = static_cast<ObjectId>(copies.size());
+      copies.push_back({layers.size() - 1, copies[c].by, false, c});
+    }
+    copies.back().last = true;
+  }
+  for (auto& pass : sequence)
+    for (std::size_t i = 0, count = pass.objects.size(); i < count; ++i)
+      if (const auto under = below[pass.objects[i]]; under != any_object) pass.objects.push_back(under);
+  return sequence;
+}
+
+/// A raft lies under everything, which it lifts; it belongs to no object.
+void put_on_raft(const Settings& settings, Sequence& sequence, std::vector<Copy>& copies,
+                 std::vector<PrintedLayers>& layers) {
+  const Um lift = raft_lift(settings);
+  if (lift == 0 || sequence.empty()) return;
+  Regions standing;
+  for (const Copy& copy : copies)
+    if (!layers[copy.of].empty())
+      for (auto& region : weft::moved(layers[copy.of].front().outline, copy.by)) standing.push_back(std::move(region));
+  for (auto& list : layers)
+    for (auto& layer : list) layer.z += lift;
+  layers.push_back(make_raft(settings, standing));
+  sequence.front().objects.push_back(static_cast<ObjectId>(copies.size()));
+  copies.push_back({layers.size() - 1, {}, true, any_object});
 }
 
 /// Objects whose layers begin alike are one stack: it is as high as the tallest of them.
@@ -89,7 +131,11 @@ travel::LayerInput plate_layer(const TimelineLayer& moment, const std::vector<Co
     const auto& copy = copies[part.object];
     auto& kept = layers[copy.of][part.layer];
     auto layer = copy.last && only_use ? std::move(kept) : kept;
-    input.objects.push_back({.object = part.object,
+    if (copy.label == any_object) {
+      input.adhesion = std::move(layer.beads);
+      continue;
+    }
+    input.objects.push_back({.object = copy.label,
                              .stack = part.stack,
                              .height = layer.height,
                              .beads = moved(std::move(layer.beads), copy.by),
@@ -110,7 +156,9 @@ travel::Room room_at(const MachineSettings& machine, Um z) {
 
 /// Skirt and brim around everything that rises together, put before the other beads of their layers.
 void add_adhesion(const Settings& settings, std::span<travel::LayerInput> rise, Notices& notices) {
-  const std::size_t needed = adhesion::layers_needed(settings.adhesion);
+  const auto wanted = adhesion_of(settings.adhesion);
+  const std::size_t needed = adhesion::layers_needed(wanted);
+  if (needed == 0) return;
   std::vector<adhesion::PlateLayer> plate;
   std::vector<travel::LayerInput*> bottoms;  // of each height the first that is printed
   for (auto& layer : rise) {
@@ -121,8 +169,8 @@ void add_adhesion(const Settings& settings, std::span<travel::LayerInput> rise, 
       outlines.insert(outlines.end(), object.outline.begin(), object.outline.end());
   }
   const Ring surface = print_surface(settings.machine);
-  auto built = adhesion::build(
-      settings.adhesion, {.layers = plate, .nozzle = settings.machine.nozzle_diameter, .print_surface = &surface});
+  auto built =
+      adhesion::build(wanted, {.layers = plate, .nozzle = settings.machine.nozzle_diameter, .print_surface = &surface});
   for (std::size_t i = 0; i < built.layers.size(); ++i) {
     bottoms[i]->adhesion = std::move(built.layers[i]);
     for (auto& bead : bottoms[i]->adhesion) bead.scope = bottoms[i]->scope;
@@ -207,17 +255,20 @@ std::vector<Report::Tour> tours_of(const std::vector<travel::Prepared>& prepared
 }  // namespace
 
 PlannedPlate plan_plate(Scopes& scopes, const Plate& plate, const Sequence& sequence, std::vector<PrintedLayers> layers,
-                        Report& report) {
+                        std::vector<SupportOf> supports, Report& report) {
   const Stopwatch stopwatch(report.timings_ms[Stage::travel]);
   const ScopeId on_first_layer = scopes.on_first_layer(0);
   const Settings& settings = scopes[0];
-  const auto copies = copies_of(plate);
-  const auto timeline = timeline_of(sequence, stacks_of(copies, layers));
+  auto copies = copies_of(plate);
+  auto with_all = with_supports(sequence, std::move(supports), copies, layers);
+  put_on_raft(settings, with_all, copies, layers);
+  const auto timeline = timeline_of(with_all, stacks_of(copies, layers));
   const std::size_t count = timeline.size();
   const auto read = travel::areas_read(settings.travel);
   auto inputs = tasks::parallel_map(count, [&](std::size_t i) {
     auto input = plate_layer(timeline[i], copies, sequence.size() == 1, layers, read);
     input.scope = input.time.first() ? on_first_layer : 0;
+    for (auto& bead : input.adhesion) bead.scope = input.scope;
     return input;
   });
 

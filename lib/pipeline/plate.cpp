@@ -82,6 +82,7 @@ Plate place_models(const Job& job, Report& report, StageCache* cache) {
     for (std::size_t i = 0; i < model.objects.size(); ++i, ++object) {
       object->volumes.front().mesh = std::move(model.objects[i]);
       object->hull = std::move(model.footprints[i]);
+      object->marks = std::move(model.marks[i]);
       object->copies = model.instances;
     }
   return out;

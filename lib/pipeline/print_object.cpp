@@ -6,6 +6,7 @@
 #include "pipeline/object_scopes.h"
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
+#include "pipeline/support_object.h"
 #include "slice/slice.h"
 #include "tasks/parallel.h"
 #include "walls/walls.h"
@@ -63,14 +64,40 @@ StageKey key_of(const ObjectScopes& scopes, const HandedTo<stage>& handed) {
   return key;
 }
 
-StageKey slice_key(const Mesh& mesh, const ObjectScopes& scopes, const SliceHands& handed) {
+StageKey slice_key(const Mesh& mesh, const std::vector<mesh::Mark>& marks, const ObjectScopes& scopes,
+                   const SliceHands& handed) {
   const auto bytes = [](const auto& items) {
     return std::string_view(reinterpret_cast<const char*>(items.data()), items.size() * sizeof(items[0]));
   };
-  return key_of<Stage::slice>(scopes, handed).with(sha256(bytes(mesh.vertices))).with(sha256(bytes(mesh.triangles)));
+  auto key = key_of<Stage::slice>(scopes, handed);
+  key.with(sha256(bytes(mesh.vertices))).with(sha256(bytes(mesh.triangles)));
+  for (const auto& mark : marks)
+    if (mark.kind == mesh::MarkKind::negative)
+      key.with(sha256(bytes(mark.mesh.vertices))).with(sha256(bytes(mark.mesh.triangles)));
+  return key;
 }
 
-Cuts slice_mesh(const SliceHands& handed, const ObjectScopes& scopes, const Mesh& mesh) {
+/// What rests on support is printed otherwise than what hangs.
+StageKey with_held(StageKey key, const std::vector<Regions>& held) {
+  std::string bytes;
+  const auto add = [&](const Ring& ring) {
+    const auto size = static_cast<std::uint32_t>(ring.size());
+    bytes.append(reinterpret_cast<const char*>(&size), sizeof(size));
+    bytes.append(reinterpret_cast<const char*>(ring.data()), ring.size() * sizeof(Point));
+  };
+  for (const auto& regions : held) {
+    for (const auto& region : regions) {
+      add(region.outer);
+      for (const auto& hole : region.holes) add(hole);
+    }
+    add({});
+  }
+  if (!held.empty()) key.with(sha256(bytes));
+  return key;
+}
+
+Cuts slice_mesh(const SliceHands& handed, const ObjectScopes& scopes, const Mesh& mesh,
+                const std::vector<mesh::Mark>& marks) {
   std::vector<slice::HeightFrom> heights;
   for (const auto& from : scopes) {
     const auto& [layers] = handed[from.of_volume.front()];
@@ -78,7 +105,16 @@ Cuts slice_mesh(const SliceHands& handed, const ObjectScopes& scopes, const Mesh
   }
   const slice::Cutter cutter(mesh, slice::planes(heights, box_of(mesh).max.z));
   const auto& [layers] = handed[scopes.front().of_volume.front()];
-  return tasks::parallel_map(cutter.size(), [&](std::size_t i) { return cutter.cut(i, layers); });
+  auto cuts = tasks::parallel_map(cutter.size(), [&](std::size_t i) { return cutter.cut(i, layers); });
+  for (const auto& mark : marks) {
+    if (mark.kind != mesh::MarkKind::negative) continue;
+    const slice::Cutter away(mark.mesh, {cutter.planes().begin(), cutter.planes().end()});
+    tasks::for_each_index(cuts.size(), [&](std::size_t i) {
+      const auto hole = away.cut(i, layers).layer.regions;
+      if (!hole.empty()) cuts[i].layer.regions = geometry::subtract(cuts[i].layer.regions, hole);
+    });
+  }
+  return cuts;
 }
 
 /// The scopes of a layer that a stage can tell apart, each with the regions that it holds for.
@@ -115,9 +151,11 @@ WallLayer walls_of_areas(const std::vector<Told>& told, const SlicedLayer& layer
   return out;
 }
 
-Walls build_walls(const WallHands& handed, const Scopes& scopes, const Cuts& cuts, const std::vector<Areas>& areas) {
+Walls build_walls(const WallHands& handed, const Scopes& scopes, const Cuts& cuts, const std::vector<Areas>& areas,
+                  const std::vector<Regions>& held) {
   return tasks::parallel_map(cuts.size(), [&](std::size_t i) {
-    const Regions over_air = i > 0 ? geometry::subtract(cuts[i].layer.regions, cuts[i - 1].layer.regions) : Regions{};
+    Regions over_air = i > 0 ? geometry::subtract(cuts[i].layer.regions, cuts[i - 1].layer.regions) : Regions{};
+    if (i < held.size() && !held[i].empty()) over_air = geometry::subtract(over_air, held[i]);
     const Regions* above = i + 1 < cuts.size() ? &cuts[i + 1].layer.regions : nullptr;
     const auto build = [&](ScopeId scope, const SlicedLayer& layer) {
       const auto& [walls, nozzle] = handed[scope];
@@ -247,10 +285,11 @@ FillLayer fill_of_areas(const std::vector<Told>& told, const infill::LayerAreas&
 
 /// Shells and infill.
 Fills fill_object(const FillHands& handed, const Scopes& scopes, const Cuts& cuts, const std::vector<Areas>& areas,
-                  const Walls& walls) {
+                  const Walls& walls, const std::vector<Regions>& held) {
   Shelled object{handed, scopes, areas, std::vector<infill::ShellLayer>(cuts.size()), {}};
   for (std::size_t i = 0; i < cuts.size(); ++i)
-    object.layers[i] = {cuts[i].layer.z, cuts[i].layer.height, &cuts[i].layer.regions, &walls[i].inside};
+    object.layers[i] = {cuts[i].layer.z, cuts[i].layer.height, &cuts[i].layer.regions, &walls[i].inside,
+                        i < held.size() ? &held[i] : nullptr};
   object.box = infill::box_of(object.layers);
   auto parts = find_all_areas(object);
   Box box;  // patterns hang on its centre, so they move with the object
@@ -329,8 +368,8 @@ Result<Cuts> slice_object(const Running& job, const Object& object, const Object
   std::vector<Result<Cuts>> of_volume;
   for (const auto& volume : object.volumes)
     of_volume.push_back(run_stage<Stage::slice>(
-        job, [&] { return slice_key(volume.mesh, scopes, handed); },
-        [&] { return slice_mesh(handed, scopes, volume.mesh); }));
+        job, [&] { return slice_key(volume.mesh, object.marks, scopes, handed); },
+        [&] { return slice_mesh(handed, scopes, volume.mesh, object.marks); }));
   if (of_volume.size() == 1) {
     areas = areas_of_one(scopes, *of_volume.front());
     return std::move(of_volume.front());
@@ -344,7 +383,7 @@ Result<Cuts> slice_object(const Running& job, const Object& object, const Object
 }  // namespace
 
 PrintedLayers print_object(const Running& job, const Scopes& all_scopes, const ObjectScopes& scopes,
-                           const Object& object) {
+                           const Object& object, SupportOf& support) {
   auto& notices = job.report.warnings;
   const Point at = object.copies.front();
   const auto slice_hands = hand<Stage::slice>(all_scopes);
@@ -352,19 +391,22 @@ PrintedLayers print_object(const Running& job, const Scopes& all_scopes, const O
   auto sliced = slice_object(job, object, scopes, slice_hands, areas);
   append(notices, slice::notices_of(*sliced, object.name), at);
 
+  support_object(all_scopes, scopes, object, *sliced, support, job.report);
+
   const auto wall_hands = hand<Stage::walls>(all_scopes);
   const auto walled_by = [&] {
     auto key = key_of<Stage::walls>(scopes, wall_hands);
-    for (const auto& volume : object.volumes) key.with(slice_key(volume.mesh, scopes, slice_hands).hash());
-    return key;
+    for (const auto& volume : object.volumes)
+      key.with(slice_key(volume.mesh, object.marks, scopes, slice_hands).hash());
+    return with_held(std::move(key), support.held);
   };
-  auto walled =
-      run_stage<Stage::walls>(job, walled_by, [&] { return build_walls(wall_hands, all_scopes, *sliced, areas); });
+  auto walled = run_stage<Stage::walls>(
+      job, walled_by, [&] { return build_walls(wall_hands, all_scopes, *sliced, areas, support.held); });
 
   const auto fill_hands = hand<Stage::infill>(all_scopes);
   auto filled = run_stage<Stage::infill>(
       job, [&] { return key_of<Stage::infill>(scopes, fill_hands).with(walled_by().hash()); },
-      [&] { return fill_object(fill_hands, all_scopes, *sliced, areas, *walled); });
+      [&] { return fill_object(fill_hands, all_scopes, *sliced, areas, *walled, support.held); });
   return put_together(std::move(sliced).take(), areas, std::move(walled).take(), std::move(filled).take(), at, notices);
 }
 

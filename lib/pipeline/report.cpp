@@ -116,6 +116,12 @@ std::string to_json(const Report& r) {
                   {"flow_compensated_mm", rounded3(r.walls.flow_compensated_mm)},
                   {"min_flow_ratio", rounded3(r.walls.min_flow_ratio)},
                   {"min_width_mm", rounded3(r.walls.min_width_mm)}};
+  if (r.support.needed_mm2 > 0 || r.support.bridged_mm2 > 0)
+    out["support"] = {{"needed_mm2", rounded3(r.support.needed_mm2)},
+                      {"bridged_mm2", rounded3(r.support.bridged_mm2)},
+                      {"left_mm2", rounded3(r.support.left_mm2)},
+                      {"tips", r.support.tips},
+                      {"trunks", r.support.trunks}};
   out["travel"] = {{"mm", rounded3(r.travel.mm)},
                    {"moves", r.travel.moves},
                    {"retractions", r.travel.retractions},

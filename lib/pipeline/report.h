@@ -39,6 +39,10 @@ struct Report {
     double mm = 0;
     std::size_t moves = 0, retractions = 0, wall_crossings = 0;
   };
+  struct Support {
+    double needed_mm2 = 0, bridged_mm2 = 0, left_mm2 = 0;  ///< of overhang: all, crossed by strands, out of reach
+    std::size_t tips = 0, trunks = 0;                      ///< of branches: where they begin, and on what they stand
+  };
   struct Violation {
     std::string move, feature, side, object, line_text, setting;  ///< setting: the custom G-code it came from, or ""
     std::array<double, 3> at_mm{};
@@ -76,6 +80,7 @@ struct Report {
     double mm = 0, least_mm = 0;
   };
   std::optional<std::vector<Tour>> tours;  ///< one a layer, where they are asked for: put an empty list there
+  Support support;
   Travel travel;
   Audit audit;
   Notices warnings;

@@ -17,6 +17,7 @@
 namespace weft::pipeline {
 
 struct Running;
+struct SupportOf;
 
 /// One layer of one object, in the coordinates of its first copy.
 struct PrintedLayer {
@@ -31,7 +32,9 @@ using PrintedLayers = std::vector<PrintedLayer>;
 
 /// Slice, walls, shells and infill of one object.
 /// @param scopes those of the object (object_scopes.h), all of which are among `all`
-PrintedLayers print_object(const Running& job, const Scopes& all, const ObjectScopes& scopes, const Object& object);
+/// @param support what stands under it (support_object.h): its room is given, the rest is made
+PrintedLayers print_object(const Running& job, const Scopes& all, const ObjectScopes& scopes, const Object& object,
+                           SupportOf& support);
 
 /// A plan of which each layer's steps wait as bytes (codec.h), which take a third of the memory.
 struct PlannedPlate {
@@ -44,8 +47,9 @@ struct PlannedPlate {
 /// The whole plate as steps: copies put in their places, adhesion around them, order, seams and travels, speeds and
 /// times.
 /// @param sequence of the copies, numbered object by object
+/// @param supports of each object
 /// @param scopes 0 is the plate's own; its first layer's is added
 PlannedPlate plan_plate(Scopes& scopes, const Plate& plate, const Sequence& sequence, std::vector<PrintedLayers> layers,
-                        Report& report);
+                        std::vector<SupportOf> supports, Report& report);
 
 }  // namespace weft::pipeline

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "core/polygon.h"
+#include "mesh/mark.h"
 #include "mesh/mesh.h"
 #include "settings/overlay.h"
 
@@ -42,8 +43,9 @@ struct Object {
   std::vector<Volume> volumes;  ///< where they overlap, the later one wins
   Overlay overlay{};
   std::vector<HeightRange> ranges{};
-  std::vector<Point> copies{{}};  ///< where each stands, against the first, which is usually {0, 0}
-  Ring hull{};                    ///< of what is printed, seen from above
+  std::vector<Point> copies{{}};    ///< where each stands, against the first, which is usually {0, 0}
+  Ring hull{};                      ///< of what is printed, seen from above
+  std::vector<mesh::Mark> marks{};  ///< what is not printed but says something of it, in its coordinates
 };
 
 struct Plate {

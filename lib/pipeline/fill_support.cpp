@@ -1,0 +1,172 @@
+#include "pipeline/fill_support.h"
+
+#include "core/stop.h"
+#include "geometry/boolean.h"
+#include "geometry/offset.h"
+#include "geometry/spatial_index.h"
+#include "infill/solid.h"
+#include "infill/sparse.h"
+#include "model/flow.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace weft::pipeline {
+namespace {
+
+struct PatternRow {
+  SupportPattern pattern;
+  InfillPattern as;
+  bool connect;
+};
+constexpr std::array pattern_rows{
+    PatternRow{SupportPattern::lines, InfillPattern::lines, false},
+    PatternRow{SupportPattern::zigzag, InfillPattern::lines, true},
+    PatternRow{SupportPattern::grid, InfillPattern::grid, true},
+    PatternRow{SupportPattern::triangles, InfillPattern::triangles, true},
+    PatternRow{SupportPattern::concentric, InfillPattern::concentric, true},
+    PatternRow{SupportPattern::gyroid, InfillPattern::gyroid, true},
+};
+static_assert(in_order(pattern_rows, &PatternRow::pattern), "row i of pattern_rows is pattern i");
+
+void append(Regions& to, const Regions& more) {
+  to.insert(to.end(), more.begin(), more.end());
+}
+
+/// Lays the beads of one layer.
+class Filler {
+ public:
+  Filler(const Settings& settings, const support::SupportLayer& layer, Point origin)
+      : s_(settings.support),
+        layer_(layer),
+        origin_(origin),
+        band_(flow::band(s_.support_line_width.value_or(settings.machine.nozzle_diameter), layer.height)) {}
+
+  Beads beads() && {
+    columns();
+    loops(layer_.branches, s_.support_wall_count.value_or(1), Role::support);
+    for (const Regions* areas : {&layer_.bottom, &layer_.roof}) interface(*areas);
+    return std::move(beads_);
+  }
+
+ private:
+  static double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+  void columns() {
+    const double share = (layer_.first ? s_.support_initial_layer_density : s_.support_infill_rate) / 100;
+    if (s_.support_wall_count && *s_.support_wall_count > 0) {
+      sparse(loops(layer_.columns, *s_.support_wall_count, Role::support), share, s_.support_pattern,
+             s_.support_infill_angle, Role::support);
+      return;
+    }
+    // Between lines that far apart a narrow column would have none: it gets a loop.
+    const double apart = share > 0 ? band_ / share : band_ * 10;
+    const Regions wide = geometry::opening(layer_.columns, rounded(0.6 * apart));
+    if (wide.empty()) {
+      loops(layer_.columns, 1, Role::support);
+      return;
+    }
+    sparse(wide, share, s_.support_pattern, s_.support_infill_angle, Role::support);
+    const Regions narrow = geometry::opening(
+        geometry::subtract(layer_.columns, geometry::offset(wide, {.by = 20, .corner = geometry::Corner::round})),
+        band_ / 4);
+    loops(narrow, 1, Role::support);
+  }
+
+  void interface(const Regions& areas) {
+    const double share = s_.support_interface_density / 100;
+    const Regions inner = loops(areas, s_.support_roof_wall_count, Role::support_interface);
+    sparse(inner, share, s_.support_interface_pattern, s_.support_infill_angle + 90, Role::support_interface);
+  }
+
+  /// Loops along the edge, from outside in; what is too thin for one gets a bead along its middle.
+  /// @return what is left inside
+  Regions loops(const Regions& areas, int count, Role role) {
+    Regions left = areas;
+    for (int n = 0; n < count && !left.empty(); ++n) {
+      stop_if_asked();
+      const Regions middle = geometry::offset(left, {.by = -band_ / 2});
+      const Regions laid = geometry::offset(middle, {.by = band_ / 2 + 10});
+      const Regions thin = geometry::opening(geometry::subtract(left, laid), band_ / 5);
+      for (const Region& region : middle) {
+        loop(region.outer, n, role);
+        for (const Ring& hole : region.holes) loop(hole, n, role);
+      }
+      solid(thin, 0, role);
+      left = geometry::offset(middle, {.by = -band_ / 2});
+    }
+    return left;
+  }
+  void loop(const Ring& ring, int inset, Role role) {
+    Bead bead;
+    bead.role = role, bead.closed = true, bead.inset = static_cast<std::uint16_t>(inset);
+    for (const Point p : ring) bead.path.push_back({p, band_, 1.F});
+    beads_.push_back(std::move(bead));
+  }
+
+  void sparse(const Regions& areas, double share, SupportPattern pattern, double angle, Role role) {
+    if (share <= 0 || areas.empty()) return;
+    const auto& row = row_of(pattern_rows, pattern);
+    if (share >= 0.995) return solid(areas, angle, role, row.connect);
+    const std::size_t from = beads_.size();
+    const infill::SparseStyle style{.pattern = row.as,
+                                    .density = share,
+                                    .band = band_,
+                                    .angle_rad = radians(angle),
+                                    .overlap_um = 0,
+                                    .connect = row.connect,
+                                    .z = layer_.z,
+                                    .origin = origin_};
+    // A bead's end is round and reaches half its width further than its path.
+    for (const Region& region : geometry::offset(areas, {.by = -band_ / 2})) {
+      stop_if_asked();
+      infill::fill_sparse(region, style, beads_);
+    }
+    call(from, role);
+  }
+  void solid(const Regions& areas, double angle, Role role, bool connect = true) {
+    const std::size_t from = beads_.size();
+    for (const Region& region : areas) {
+      stop_if_asked();
+      infill::fill_solid(region,
+                         {.role = Role::solid_infill,
+                          .band = band_,
+                          .angle_rad = radians(angle),
+                          .overlap_um = 0,
+                          .connect = connect,
+                          .origin = origin_,
+                          .turned = false,
+                          .ordered = false},
+                         beads_);
+    }
+    call(from, role);
+  }
+  void call(std::size_t from, Role role) {
+    for (std::size_t i = from; i < beads_.size(); ++i) beads_[i].role = role;
+  }
+
+  const SupportSettings& s_;
+  const support::SupportLayer& layer_;
+  Point origin_;
+  Um band_;
+  Beads beads_;
+};
+
+}  // namespace
+
+PrintedLayer fill_support(const Settings& settings, const support::SupportLayer& layer, Point origin) {
+  PrintedLayer out;
+  out.z = layer.z, out.height = layer.height;
+  out.beads = Filler(settings, layer, origin).beads();
+  Regions all = layer.columns;
+  append(all, layer.branches), append(all, layer.roof), append(all, layer.bottom);
+  out.outline = geometry::unite(all);
+  if (out.outline.size() > 1) {
+    const geometry::SegmentIndex index(out.outline);
+    for (auto& bead : out.beads)
+      bead.part = static_cast<std::uint32_t>(index.region_at(bead.path.front().at).value_or(0));
+  }
+  return out;
+}
+
+}  // namespace weft::pipeline

@@ -1,0 +1,30 @@
+#pragma once
+#include "pipeline/stages.h"
+#include "slice/slice.h"
+
+#include <vector>
+
+namespace weft::pipeline {
+
+/// What stands under one object, in the coordinates of its first copy.
+struct SupportOf {
+  Regions room;                                         ///< where its beads may lie; empty: nowhere
+  bool bounded = false;                                 ///< whether `room` counts
+  std::vector<Regions> enforced{}, blocked{}, given{};  ///< by layer of the object, or empty
+  Um floor = 0;                                         ///< 0, or below it on a raft
+  bool on_raft = false;
+  PrintedLayers layers;       ///< made by support_object
+  std::vector<Regions> held;  ///< of each layer of the object, what rests on support; empty: nothing does
+};
+
+/// Whether anything may ask for support.
+bool supports(const Settings& settings);
+
+/// Where the support of each object may lie: on the bed with all of its copies, off no-go areas and off its neighbours.
+std::vector<SupportOf> rooms_of(const Scopes& scopes, const Plate& plate);
+
+/// Fills `out`, and tells in the report what was found.
+void support_object(const Scopes& all, const ObjectScopes& scopes, const Object& object,
+                    const std::vector<slice::Cut>& cuts, SupportOf& out, Report& report);
+
+}  // namespace weft::pipeline

@@ -1,0 +1,72 @@
+#include "support/cheaper.h"
+
+#include "core/stop.h"
+#include "geometry/boolean.h"
+#include "geometry/spatial_index.h"
+#include "support/columns.h"
+#include "support/lengths.h"
+#include "support/tree.h"
+
+#include <algorithm>
+
+namespace weft::support {
+namespace {
+
+double perimeter_mm(const Regions& regions) {
+  double um = 0;
+  for (const Region& region : regions) {
+    um += perimeter_of(region.outer);
+    for (const Ring& hole : region.holes) um += perimeter_of(hole);
+  }
+  return um / 1000;
+}
+
+/// What the beads of an area of columns take, mm³: lines inside, or a loop where it is narrow.
+double column_mm3(const SupportSettings& s, const Regions& area, Um line, Um height) {
+  const double mm2 = area_mm2(area), loop = 0.5 * perimeter_mm(area) * to_mm(line);
+  return to_mm(height) * std::min(mm2, std::max(mm2 * s.support_infill_rate / 100, loop));
+}
+
+}  // namespace
+
+Split cheaper(const SupportSettings& s, const Object& object, const Stack& stack, const std::vector<KeepOut>& keep_out,
+              const std::vector<Regions>& contacts) {
+  const Um line = line_width(s, object.nozzle);
+  Regions all;
+  for (const auto& regions : contacts) append(all, regions);
+  const Regions patches = grown(geometry::unite(all), std::max<Um>(s.support_join_distance / 2, line));
+  const geometry::SegmentIndex index(patches);
+  const auto patch_of = [&](const Region& region) { return index.region_at(region.outer.front()).value_or(0); };
+  std::vector<double> columns_mm3(patches.size(), 0), branches_mm3(patches.size(), 0);
+
+  const auto standing = columns(s, object, stack, keep_out, contacts, std::vector<Regions>(contacts.size()));
+  const auto branches = tree(s, object, stack, keep_out, contacts);
+  double tree_mm3 = 0;
+  for (std::size_t k = 0; k < stack.levels.size(); ++k) {
+    stop_if_asked();
+    for (const Region& region : standing[k])
+      columns_mm3[patch_of(region)] += column_mm3(s, {region}, line, stack.levels[k].height);
+    tree_mm3 += perimeter_mm(branches.areas[k]) * to_mm(line) * to_mm(stack.levels[k].height);
+  }
+  const double roof = s.support_roof_enable ? to_mm(s.support_roof_height) * s.support_interface_density / 100 : 0;
+  for (const auto& regions : contacts)
+    for (const Region& region : regions) columns_mm3[patch_of(region)] += area_mm2(region) * roof;
+  // Branches that meet are shared: each tip pays by its height.
+  double heights = 0;
+  for (const Point3 tip : branches.tips_at) heights += tip.z - object.floor;
+  for (const Point3 tip : branches.tips_at)
+    if (const auto patch = index.region_at({tip.x, tip.y}))
+      branches_mm3[*patch] += tree_mm3 * (tip.z - object.floor) / std::max(1.0, heights);
+  for (const auto& regions : branches.left)
+    for (const Region& region : regions) branches_mm3[patch_of(region)] += 1e9;  // columns have to come anyway
+
+  Split out{std::vector<Regions>(contacts.size()), std::vector<Regions>(contacts.size())};
+  for (std::size_t k = 0; k < contacts.size(); ++k)
+    for (const Region& region : contacts[k]) {
+      const auto patch = patch_of(region);
+      (branches_mm3[patch] < columns_mm3[patch] ? out.for_branches : out.for_columns)[k].push_back(region);
+    }
+  return out;
+}
+
+}  // namespace weft::support

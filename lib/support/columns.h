@@ -1,0 +1,19 @@
+#pragma once
+#include "support/room.h"
+
+#include <vector>
+
+namespace weft::support {
+
+/// Where columns stand on each level for the contacts of each level.
+/// @param contacts  by level: what is to be held from there
+/// @param given     by level: what stands there in any case
+/// Post: every area lies outside of what is kept out and in the object's room, and rests.
+std::vector<Regions> columns(const SupportSettings& settings, const Object& object, const Stack& stack,
+                             const std::vector<KeepOut>& keep_out, const std::vector<Regions>& contacts,
+                             const std::vector<Regions>& given);
+
+/// What of an area is not kept out of its level: beside contacts the smaller distance holds.
+Regions free_part(const Regions& area, const KeepOut& keep_out, const Regions& contacts, const Object& object);
+
+}  // namespace weft::support

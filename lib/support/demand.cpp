@@ -1,0 +1,225 @@
+#include "core/stop.h"
+#include "geometry/boolean.h"
+#include "support/bridged.h"
+#include "support/lengths.h"
+#include "support/support.h"
+#include "tasks/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace weft::support {
+namespace {
+
+/// A piece of demand on its layer.
+struct Patch {
+  Region region;
+  Box box;
+  double mm2 = 0;
+  bool always = false;  ///< however small
+};
+struct LayerPatches {
+  std::vector<Patch> patches;
+  bool island = false;
+  double bridged_mm2 = 0;
+};
+
+/// Which regions of a layer begin in the air: those of which no more than a bead's square lies over the layer below.
+/// @param step  what of the layer lies over air
+std::vector<std::size_t> beginning(const Regions& here, const Regions& step, Um outer_line) {
+  const double bead = to_mm(outer_line) * to_mm(outer_line);
+  std::vector<std::size_t> out;
+  std::vector<Box> boxes;
+  for (const Region& s : step) boxes.push_back(box_of(s.outer));
+  for (std::size_t r = 0; r < here.size(); ++r) {
+    const Box box = box_of(here[r].outer).grown(2);
+    const double whole = area_mm2(here[r]);
+    double in_air = 0;
+    for (std::size_t s = 0; s < step.size(); ++s)
+      if (box.contains(boxes[s].min) && box.contains(boxes[s].max) &&
+          side_of(here[r].outer, step[s].outer.front()) != Side::outside)
+        in_air += area_mm2(step[s]);
+    if (in_air > 0 && whole - in_air < bead && in_air > whole / 2) out.push_back(r);
+  }
+  return out;
+}
+
+bool meets(const Region& region, const Box& box, const Regions& others) {
+  for (const Region& other : others)
+    if (box.overlaps(box_of(other.outer)) && !geometry::intersect({region}, {other}).empty()) return true;
+  return false;
+}
+
+class Layer {
+ public:
+  Layer(const SupportSettings& s, const Object& o, std::size_t i)
+      : s_(s), o_(o), i_(i), here_(o.layers[i]->regions), below_(o.layers[i - 1]->regions) {}
+
+  LayerPatches patches() {
+    LayerPatches out;
+    if (here_.empty()) return out;
+    const Regions step = geometry::subtract(here_, below_);
+    if (step.empty()) return out;
+    const bool enforced_layer = static_cast<int>(i_) <= s_.support_enforce_layers;
+    const bool automatic = s_.support_enable && s_.support_auto;
+    Regions wanted;
+    if (automatic || enforced_layer) wanted = reaching_out(step, enforced_layer ? 0 : reach());
+    Regions starts;
+    if (automatic || enforced_layer)
+      for (const auto r : beginning(here_, step, o_.outer_line)) starts.push_back(here_[r]);
+    out.island = !starts.empty();
+    if (i_ < o_.blocked.size() && !o_.blocked[i_].empty()) {
+      wanted = geometry::subtract(wanted, o_.blocked[i_]);
+      starts = geometry::subtract(starts, o_.blocked[i_]);
+    }
+    if (!starts.empty()) wanted = geometry::subtract(wanted, starts);
+    if (!s_.support_bridges && !enforced_layer) leave_bridges(wanted, out.bridged_mm2);
+    const Regions far = wanted.empty() ? Regions{} : geometry::subtract(wanted, grown(below_, cantilever()));
+    for (Region& region : wanted) {
+      const Box box = box_of(region.outer);
+      const double mm2 = area_mm2(region);
+      const bool always = enforced_layer || meets(region, box, far);
+      out.patches.push_back({std::move(region), box, mm2, always});
+    }
+    add_always(starts, out);
+    if (s_.support_enable && i_ < o_.enforced.size() && !o_.enforced[i_].empty()) {
+      Regions marked = geometry::intersect(step, o_.enforced[i_]);
+      for (const Patch& p : out.patches) {
+        if (marked.empty()) break;
+        marked = geometry::subtract(marked, {p.region});
+      }
+      add_always(geometry::opening(marked, 10), out);
+    }
+    return out;
+  }
+
+ private:
+  Um reach() const {
+    if (!s_.support_angle) return o_.outer_line / 2;
+    return rounded(o_.layers[i_]->height * std::tan(*s_.support_angle * std::numbers::pi / 180));
+  }
+  Um cantilever() const { return std::max<Um>(s_.support_cantilever_length, 1); }
+
+  /// What reaches further than that beyond the layer below, grown back to it.
+  Regions reaching_out(const Regions& step, Um by) const {
+    if (by <= 0) return geometry::opening(step, 5);
+    const Regions over = geometry::subtract(step, grown(below_, by));
+    if (over.empty()) return {};
+    return geometry::intersect(step, grown(over, by + 20));
+  }
+
+  void leave_bridges(Regions& wanted, double& bridged_mm2) const {
+    Regions left;
+    for (Region& region : wanted) {
+      stop_if_asked();
+      const Regions crossed = bridged(region, below_, s_.support_max_bridge_length, o_.nozzle);
+      if (crossed.empty()) {
+        left.push_back(std::move(region));
+        continue;
+      }
+      bridged_mm2 += area_mm2(crossed);
+      append(left, geometry::opening(geometry::subtract({region}, grown(crossed, 50)), o_.nozzle / 2));
+    }
+    wanted = std::move(left);
+  }
+
+  static void add_always(const Regions& regions, LayerPatches& out) {
+    for (const Region& region : regions) out.patches.push_back({region, box_of(region.outer), area_mm2(region), true});
+  }
+
+  const SupportSettings& s_;
+  const Object& o_;
+  std::size_t i_;
+  const Regions &here_, &below_;
+};
+
+/// Which patches belong together: those of neighbouring layers whose boxes nearly meet.
+class Groups {
+ public:
+  explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+  std::size_t root(std::size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::size_t a, std::size_t b) {
+    a = root(a), b = root(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+/// Small patches go, unless with what lies above and below them they are not small: a slope is a strip a layer.
+void drop_small(const SupportSettings& s, std::vector<LayerPatches>& layers) {
+  constexpr Um near = 0.5_mm;
+  std::vector<std::size_t> first(layers.size() + 1, 0);
+  for (std::size_t i = 0; i < layers.size(); ++i) first[i + 1] = first[i] + layers[i].patches.size();
+  Groups groups(first.back());
+  StopNowAndThen now_and_then(256);
+  for (std::size_t i = 1; i < layers.size(); ++i)
+    for (std::size_t a = 0; a < layers[i].patches.size(); ++a) {
+      now_and_then.step();
+      const Box box = layers[i].patches[a].box.grown(near);
+      for (std::size_t b = 0; b < layers[i - 1].patches.size(); ++b)
+        if (box.overlaps(layers[i - 1].patches[b].box)) groups.join(first[i] + a, first[i - 1] + b);
+    }
+  std::vector<double> mm2(first.back(), 0.0);
+  for (std::size_t i = 0; i < layers.size(); ++i)
+    for (std::size_t a = 0; a < layers[i].patches.size(); ++a)
+      mm2[groups.root(first[i] + a)] += layers[i].patches[a].mm2;
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    std::vector<Patch> kept;
+    for (std::size_t a = 0; a < layers[i].patches.size(); ++a) {
+      Patch& p = layers[i].patches[a];
+      if (p.always || mm2[groups.root(first[i] + a)] >= s.minimum_support_area) kept.push_back(std::move(p));
+    }
+    layers[i].patches = std::move(kept);
+  }
+}
+
+}  // namespace
+
+Demand demand(const SupportSettings& settings, const Object& object) {
+  auto layers = tasks::parallel_map(object.layers.size(), [&](std::size_t i) {
+    return i == 0 ? LayerPatches{} : Layer(settings, object, i).patches();
+  });
+  drop_small(settings, layers);
+  Demand out(layers.size());
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    out[i].island = layers[i].island, out[i].bridged_mm2 = layers[i].bridged_mm2;
+    for (Patch& p : layers[i].patches) out[i].wanted.push_back(std::move(p.region));
+  }
+  return out;
+}
+
+std::vector<Island> islands(const Object& object) {
+  const auto of_layer = tasks::parallel_map(object.layers.size(), [&](std::size_t i) {
+    std::vector<Island> out;
+    if (i == 0) return out;
+    const Regions& here = object.layers[i]->regions;
+    const Regions& below = object.layers[i - 1]->regions;
+    if (here.empty() || here == below) return out;
+    // Where each region has a corner in one below, nothing begins here: most layers are told so.
+    const Box under = box_of(below);
+    const bool near = std::all_of(here.begin(), here.end(), [&](const Region& r) {
+      const Point p = r.outer.front();
+      return under.contains(p) && std::any_of(below.begin(), below.end(), [&](const Region& b) {
+               return side_of(b.outer, p) != Side::outside &&
+                      std::none_of(b.holes.begin(), b.holes.end(),
+                                   [&](const Ring& hole) { return side_of(hole, p) == Side::inside; });
+             });
+    });
+    if (near) return out;
+    for (const auto r : beginning(here, geometry::subtract(here, below), object.outer_line))
+      out.push_back({i, here[r].outer.front()});
+    return out;
+  });
+  std::vector<Island> out;
+  for (const auto& some : of_layer) out.insert(out.end(), some.begin(), some.end());
+  return out;
+}
+
+}  // namespace weft::support

@@ -1,0 +1,64 @@
+#include "support/room.h"
+
+#include "geometry/boolean.h"
+#include "support/lengths.h"
+#include "tasks/parallel.h"
+
+#include <algorithm>
+
+namespace weft::support {
+
+Um beside(const SupportSettings& settings, const Object& object) {
+  return settings.support_xy_distance.of(object.outer_line);
+}
+
+LayerRun layers_between(const Object& object, Um low, Um high) {
+  const auto& layers = object.layers;
+  const auto first = std::partition_point(layers.begin(), layers.end(), [&](const auto* l) { return l->z <= low; });
+  const auto last = std::partition_point(first, layers.end(), [&](const auto* l) { return l->z - l->height < high; });
+  return {static_cast<std::size_t>(first - layers.begin()), static_cast<std::size_t>(last - layers.begin())};
+}
+
+Regions outlines_between(const Object& object, Um low, Um high) {
+  const auto run = layers_between(object, low, high);
+  Regions out;
+  for (std::size_t i = run.from; i < run.to; ++i) append(out, object.layers[i]->regions);
+  return run.to - run.from > 1 ? geometry::unite(out) : out;
+}
+
+std::vector<KeepOut> keep_outs(const SupportSettings& settings, const Object& object, const Stack& stack) {
+  const Um xy = beside(settings, object);
+  const Um close = settings.support_xy_overrides_z ? xy : std::min(xy, settings.support_xy_distance_overhang);
+  return tasks::parallel_map(stack.levels.size(), [&](std::size_t k) {
+    const auto& level = stack.levels[k];
+    KeepOut out;
+    const Regions part = outlines_between(object, level.bottom(), level.z);
+    out.near = grown(part, xy);
+    out.touch = close == xy ? out.near : grown(part, close);
+    const Um above = top_gap(settings), below = bottom_gap(settings);
+    if (above > 0) out.over = outlines_between(object, level.z, level.z + above);
+    if (below > 0 && level.bottom() > object.floor)
+      append(out.over, outlines_between(object, level.bottom() - below, level.bottom()));
+    return out;
+  });
+}
+
+std::vector<Regions> shadows(const SupportSettings& settings, const Object& object, const Stack& stack) {
+  std::vector<Regions> out(stack.levels.size());
+  const Um xy = beside(settings, object);
+  Regions all;
+  std::size_t layer = 0;
+  for (std::size_t k = 0; k < stack.levels.size(); ++k) {
+    Regions more;
+    while (layer < object.layers.size() && object.layers[layer]->z - object.layers[layer]->height < stack.levels[k].z)
+      append(more, object.layers[layer++]->regions);
+    if (!more.empty() && !geometry::subtract(more, all).empty()) {
+      append(all, grown(more, xy));
+      all = geometry::unite(all);
+    }
+    out[k] = all;
+  }
+  return out;
+}
+
+}  // namespace weft::support

@@ -1,0 +1,22 @@
+#pragma once
+#include "support/room.h"
+
+#include <vector>
+
+namespace weft::support {
+
+/// Branches for contacts.
+struct Tree {
+  std::vector<Regions> areas;  ///< by level
+  std::vector<Regions> left;   ///< by level: contacts that no branch could get to
+  std::vector<Point3> tips_at;
+  std::size_t trunks = 0;
+};
+
+/// Tips stand so near that no place of a contact is further than support_tree_branch_distance from one; branches lean
+/// no more than support_tree_angle, meet where that is no long way, and get down to the plate, or else to the part.
+/// Source: Vanek, Galicia, Benes 2014, "Clever support"; Schmidt & Umetani 2014, "Branching support structures".
+Tree tree(const SupportSettings& settings, const Object& object, const Stack& stack,
+          const std::vector<KeepOut>& keep_out, const std::vector<Regions>& contacts);
+
+}  // namespace weft::support
