@@ -2,6 +2,7 @@
 #include "tasks/crew.h"
 
 #include "tasks/hand_over.h"
+#include "tasks/threads.h"
 
 #include <mutex>
 #include <utility>
@@ -14,7 +15,7 @@
 namespace weft::tasks {
 
 unsigned thread_count(unsigned threads) {
-  return threads != 0 ? threads : static_cast<unsigned>(tbb::info::default_concurrency());
+  return obtainable(threads != 0 ? threads : static_cast<unsigned>(tbb::info::default_concurrency()));
 }
 
 std::vector<Broken> run_crew(unsigned threads, const std::function<std::optional<std::size_t>()>& next,

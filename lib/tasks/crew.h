@@ -28,7 +28,7 @@ struct Broken {
 [[nodiscard]] std::vector<Broken> run_crew(unsigned threads, const std::function<std::optional<std::size_t>()>& next,
                                            const std::function<void(std::size_t)>& work);
 
-/// Number of threads that `threads` stands for: itself, or all cores.
+/// Number of threads that `threads` stands for: itself, or all cores; fewer where the system gives fewer.
 unsigned thread_count(unsigned threads);
 
 }  // namespace weft::tasks

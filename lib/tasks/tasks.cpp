@@ -2,6 +2,7 @@
 #include "tasks/tasks.h"
 
 #include "core/stop.h"
+#include "tasks/crew.h"
 #include "tasks/hand_over.h"
 
 #include <atomic>
@@ -197,15 +198,15 @@ void Once::run(const std::function<void()>& work) {
 }
 
 struct ThreadLimit::State {
-  std::optional<tbb::global_control> control;
+  tbb::global_control control;
 };
-ThreadLimit::ThreadLimit(unsigned threads) : state_(std::make_unique<State>()) {
-  if (threads != 0) state_->control.emplace(tbb::global_control::max_allowed_parallelism, threads);
-}
+ThreadLimit::ThreadLimit(unsigned threads)
+    : state_(new State{{tbb::global_control::max_allowed_parallelism, thread_count(threads)}}) {}
 ThreadLimit::~ThreadLimit() = default;
 
 void with_threads(unsigned threads, const std::function<void()>& work) {
-  tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
+  const ThreadLimit limit(threads);
+  tbb::task_arena arena(static_cast<int>(thread_count(threads)));
   HandOver hand_over;
   hand_over.begin();
   const HandOver::Wait waited(hand_over);

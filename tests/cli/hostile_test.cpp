@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include <catch2/catch.hpp>
+#include <unistd.h>
 
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
@@ -146,4 +147,25 @@ TEST_CASE("hostile: every verb that reads can be limited in time and memory") {
   if (!sanitized)
     desk.fails("$WEFT preview long.gcode -o long.png --max-memory 60", 130, "--max-memory: stopped above 60 MB");
   CHECK(!desk.scratch.has("long.png"));
+}
+
+TEST_CASE("hostile: where no thread is to be had the work is done with fewer, and comes out the same") {
+  if (sanitized) return;  // their runtimes need threads of their own
+  const Desk desk;
+  REQUIRE(shell("$WEFT slice part.stl -o - > a.gcode", desk.scratch.path()).status == 0);
+  // Root is given threads beyond any limit.
+  const std::string nobody = ::geteuid() == 0 ? "setpriv --reuid=65533 --clear-groups " : "";
+  fs::permissions(desk.scratch.path(), fs::perms::all);
+  for (const std::string words : {"slice part.stl -o -", "slice part.stl -j 7 -o -"})
+    for (const std::string threads : {"1", "2"}) {
+      const auto script = nobody + "bash -c 'ulimit -u " + threads + "; exec $WEFT " + words + "' > b.gcode";
+      CAPTURE(script);
+      const auto run = shell(script, desk.scratch.path());
+      CHECK(run.status == 0);
+      CHECK((desk.scratch.read("b.gcode") == desk.scratch.read("a.gcode")));
+    }
+  const auto batch =
+      shell(nobody + "bash -c 'ulimit -u 1; exec $WEFT batch part.stl -j 3 -o out'", desk.scratch.path());
+  CHECK(batch.status == 0);
+  CHECK(desk.scratch.has("out/part.gcode"));
 }
