@@ -280,7 +280,7 @@ TEST_CASE("mesh: a file that cannot be read is an error of the file, not of the 
   };
   CHECK(kind_of("/nonexistent/part.stl") == Error::Kind::file);
   CHECK(kind_of(tests::source.string()) == Error::Kind::file);
-  CHECK(kind_of("/dev/null") == Error::Kind::model);
+  CHECK(kind_of("/dev/null") == Error::Kind::file);
 }
 
 TEST_CASE("mesh: a scale is applied before the coordinates meet the lattice", "[mesh]") {
