@@ -32,6 +32,8 @@ po::options_description common_options() {
       "load", po::value<std::vector<std::string>>()->value_name("FILE"), "the same")(
       "preset", po::value<std::vector<std::string>>()->value_name("KIND=NAME"),
       "which preset of a PrusaSlicer bundle: print=NAME, filament=NAME, printer=NAME; repeatable")(
+      "profile-root", po::value<std::string>()->value_name("DIR"),
+      "profiles, and those they inherit, are read only from this folder and those of `weft profile list`")(
       "strict", po::bool_switch(), "what a PrusaSlicer profile would lose is an error, not a warning")(
       "set,s", po::value<std::vector<std::string>>()->value_name("KEY=VALUE"),
       "one setting; repeatable; overrides every profile. `--key VALUE` does the same")(
@@ -161,6 +163,14 @@ void take_preset(prusaslicer::PresetChoice& presets, const std::string& text) {
 /// Options of verbs whose value is a file that is written.
 constexpr std::array written = {"output", "report", "preview"};
 
+/// @throws Error{usage} for what is no folder
+std::filesystem::path checked_folder(const std::string& typed) {
+  std::error_code error;
+  if (typed.empty() || !std::filesystem::is_directory(typed, error))
+    throw Error{Error::Kind::usage, fmt::format("'{}' is not a folder", typed), "--profile-root"};
+  return typed;
+}
+
 /// What is read is known before anything that is written is looked at.
 void check_files(Command& command, Result result) {
   for (const auto& input : command.inputs) command.files.reads(input);
@@ -243,6 +253,7 @@ Command parse_command(const std::vector<std::string>& words, const po::options_d
   }
   command.import.folders = profile_folders();
   command.import.strict = o["strict"].as<bool>();
+  if (o.count("profile-root")) command.import.root = checked_folder(o["profile-root"].as<std::string>());
   if (o.count("preset"))
     for (const auto& text : o["preset"].as<std::vector<std::string>>()) take_preset(command.import.presets, text);
   command.help = o["help"].as<bool>();

@@ -59,7 +59,7 @@ std::string resolved(const Profile& profile) {
 /// A configuration of PrusaSlicer's family as one of weft's, with the fate of each line that has none here.
 std::string imported(const std::filesystem::path& path, const ImportOptions& options) {
   Profile profile;
-  const auto translation = import_prusaslicer(profile, profile_text(path), path, options);
+  const auto translation = import_prusaslicer(profile, profile_text(path, options), path, options);
   std::string out = fmt::format("; from {}\n", path.filename().string());
   for (const auto& notice : profile.notices) out += fmt::format("; {}\n", notice.message);
   std::string section;
@@ -83,9 +83,10 @@ std::string imported(const std::filesystem::path& path, const ImportOptions& opt
 }
 
 /// The presets of a bundle; for a printer, those that fit it.
-std::string listed(const std::filesystem::path& path, const prusaslicer::PresetChoice& choice) {
+std::string listed(const std::filesystem::path& path, const ImportOptions& options) {
   using prusaslicer::PresetKind;
-  const auto entries = parse_ini(read_profile(path), path.string());
+  const auto entries = parse_ini(read_profile(path, options), path.string());
+  const auto& choice = options.presets;
   if (!prusaslicer::is_bundle(entries))
     throw Error{Error::Kind::settings, "is not a bundle of presets", path.string(),
                 "it holds one configuration: use it as it is"};
@@ -176,7 +177,7 @@ void list(const Command& command) {
   const auto& folders = command.import.folders;
   print(command, command.profiles.empty()
                      ? list_of_profiles(folders)
-                     : listed(profile_file(command.profiles.front(), {}, folders), command.import.presets));
+                     : listed(profile_file(command.profiles.front(), {}, folders), command.import));
 }
 
 void show(const Command& command) {

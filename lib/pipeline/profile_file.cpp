@@ -6,8 +6,8 @@
 
 namespace weft {
 
-std::string profile_text(const std::filesystem::path& path) {
-  auto bytes = read_profile(path);
+std::string profile_text(const std::filesystem::path& path, const ImportOptions& options) {
+  auto bytes = read_profile(path, options);
   if (!bytes.starts_with("PK\3\4")) return bytes;
   const auto name = path.string();
   try {
@@ -29,7 +29,7 @@ std::string profile_text(const std::filesystem::path& path) {
 
 void apply_profile(Profile& profile, const std::filesystem::path& path, const ImportOptions& options) {
   const auto found = profile_file(path, {}, options.folders);
-  apply_text(profile, profile_text(found), found, options);
+  apply_text(profile, profile_text(found, options), found, options);
 }
 
 }  // namespace weft

@@ -11,6 +11,6 @@ namespace weft {
 void apply_profile(Profile& profile, const std::filesystem::path& path, const ImportOptions& options = {});
 
 /// The text in a file that holds the profile: the file's own, or that of the configuration in a 3MF.
-std::string profile_text(const std::filesystem::path& path);
+std::string profile_text(const std::filesystem::path& path, const ImportOptions& options = {});
 
 }  // namespace weft

@@ -185,16 +185,34 @@ void apply_text(Profile& profile, std::string_view text, const std::filesystem::
       throw Error{Error::Kind::settings, fmt::format("inherits '{}', which is not there", parent.string()), where,
                   "the path is relative to this file, or a name that `weft profile list` knows"};
     profile.parents.push_back(parent);
-    apply_text(profile, read_profile(parent), parent, options, chain);
+    apply_text(profile, read_profile(parent, options), parent, options, chain);
   }
   for (const auto& e : entries)
     if (e.key != "inherits") apply_value(profile, e.key, without_comment(e), fmt::format("{}:{}", name, e.line));
   chain.pop_back();
 }
 
+/// Is the file, where all links lead, in the folder?
+bool is_in(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  std::error_code error;
+  const auto whole = std::filesystem::canonical(folder, error);
+  return !error && std::mismatch(whole.begin(), whole.end(), file.begin(), file.end()).first == whole.end();
+}
+
+void refuse_outside(const std::filesystem::path& path, const ImportOptions& options) {
+  if (options.root.empty()) return;
+  const auto file = canonical(path, path.string());
+  if (is_in(file, options.root)) return;
+  for (const auto& folder : options.folders)
+    if (is_in(file, folder)) return;
+  throw Error{Error::Kind::file, "lies outside the folder that profiles may come from", path.string(),
+              fmt::format("--profile-root is {}", options.root.string())};
+}
+
 }  // namespace
 
-std::string read_profile(const std::filesystem::path& path) {
+std::string read_profile(const std::filesystem::path& path, const ImportOptions& options) {
+  refuse_outside(path, options);
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
     throw Error{Error::Kind::file, "is a folder, not a profile", path.string(), "name an ini file in it"};
@@ -230,7 +248,7 @@ void apply_options(Profile& profile, const ImportOptions& options) {
 
 void apply_file(Profile& profile, const std::filesystem::path& path, const ImportOptions& options) {
   const auto found = profile_file(path, {}, options.folders);
-  apply_text(profile, read_profile(found), found, options);
+  apply_text(profile, read_profile(found, options), found, options);
 }
 
 prusaslicer::Translation import_prusaslicer(Profile& profile, std::string_view text, const std::filesystem::path& path,
@@ -252,12 +270,23 @@ std::string_view nearest_key(std::string_view wrong) {
   return nearest_setting(wrong, prusaslicer::name_of);
 }
 
+namespace {
+
+/// What is none may be a line of a file that is no profile, and is not said.
+bool looks_like_a_key(std::string_view text) {
+  return text.size() <= 64 && std::all_of(text.begin(), text.end(), [](char c) {
+           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+         });
+}
+
+}  // namespace
+
 void apply_value(Profile& profile, const std::string& key, const std::string& text, const std::string& where) {
   const auto* entry = find_setting(key);
   if (!entry) {
     const auto near = nearest_key(key);
-    throw Error{Error::Kind::settings, fmt::format("unknown setting '{}'", key), where,
-                near.empty() ? "`weft settings` lists them all" : fmt::format("did you mean '{}'?", near)};
+    throw Error{Error::Kind::settings, looks_like_a_key(key) ? fmt::format("unknown setting '{}'", key) : "no setting",
+                where, near.empty() ? "`weft settings` lists them all" : fmt::format("did you mean '{}'?", near)};
   }
   entry->lay(profile.settings, read_value(*entry, text, where));
   profile.origins[std::string(entry->key)].push_back({where, text, {}});

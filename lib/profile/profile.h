@@ -28,6 +28,7 @@ struct ImportOptions {
   prusaslicer::PresetChoice presets;                         ///< which presets of a bundle are meant
   bool strict = false;                                       ///< what would be lost is an error
   ProfileFolders folders;                                    ///< where profiles are looked for by name
+  std::filesystem::path root;  ///< when not empty, no file is read that is neither in it nor in one of the folders
   std::vector<std::pair<std::string, std::string>> options;  ///< PrusaSlicer's keys said beside profiles; they hold
 };
 
@@ -54,8 +55,8 @@ prusaslicer::Translation import_prusaslicer(Profile& profile, std::string_view t
 /// @throws Error{settings} naming the option
 void apply_options(Profile& profile, const ImportOptions& options);
 
-/// The bytes of a profile. @throws Error{file}
-std::string read_profile(const std::filesystem::path& path);
+/// The bytes of a profile. @throws Error{file}, also where the options' root bounds what may be read
+std::string read_profile(const std::filesystem::path& path, const ImportOptions& options);
 
 /// The known key nearest to a wrong one, by its own name or by PrusaSlicer's; empty when nothing is near.
 std::string_view nearest_key(std::string_view wrong);

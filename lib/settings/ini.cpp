@@ -40,7 +40,7 @@ std::vector<IniEntry> parse_ini(std::string_view text, const std::string& path) 
     }
     const auto equals = line.find('=');
     if (equals == std::string_view::npos)
-      refuse(fmt::format("'{}' is not 'key = value'", line.substr(0, 60)), "comments begin with ';' or '#'");
+      refuse("the line is not 'key = value'", "comments begin with ';' or '#'");  // nor said: of whose file is it?
     const auto key = value::trimmed(line.substr(0, equals));
     if (key.empty()) refuse("there is no key before '='", "");
     entries.push_back({section, std::string(key), std::string(value::trimmed(line.substr(equals + 1))), number});

@@ -169,3 +169,37 @@ TEST_CASE("hostile: where no thread is to be had the work is done with fewer, an
   CHECK(batch.status == 0);
   CHECK(desk.scratch.has("out/part.gcode"));
 }
+
+TEST_CASE("hostile: profiles may be bounded to a folder, links and inheritance included") {
+  const Desk desk;
+  REQUIRE(shell("mkdir -p root/own secrets", desk.scratch.path()).status == 0);
+  desk.scratch.write("secrets/s.ini", "layer_height = 0.3\n");
+  desk.scratch.write("root/base.ini", "layer_height = 0.3\n");
+  desk.scratch.write("root/own/good.ini", "inherits = ../base.ini\n");
+  desk.scratch.write("root/own/bad.ini", "inherits = ../../secrets/s.ini\n");
+  REQUIRE(shell("ln -s ../../secrets/s.ini root/own/link.ini", desk.scratch.path()).status == 0);
+  const std::string slice = "$WEFT slice part.stl --profile-root root -o a.gcode -p ";
+  CHECK(shell(slice + "root/own/good.ini -q", desk.scratch.path()).status == 0);
+  CHECK(shell(slice + "marlin-220 -q", desk.scratch.path()).status == 0);  // found by name: installed for all
+  REQUIRE(shell("rm a.gcode", desk.scratch.path()).status == 0);
+  for (const std::string outside : {"secrets/s.ini", "root/own/bad.ini", "root/own/link.ini", "root/../secrets/s.ini"})
+    desk.fails(slice + outside, 6, "lies outside the folder that profiles may come from");
+  desk.scratch.write("list.jsonl", R"({"models": ["part.stl"], "profiles": ["secrets/s.ini"]})"
+                                   "\n");
+  CHECK(shell("$WEFT batch list.jsonl --profile-root root -o out", desk.scratch.path()).status != 0);
+  CHECK(!desk.scratch.has("out/part.gcode"));
+  desk.fails(slice + "root/base.ini --profile-root none", 2, "--profile-root");
+  CHECK(!desk.scratch.has("a.gcode"));
+}
+
+TEST_CASE("hostile: the content of a file that is no profile is not told") {
+  const Desk desk;
+  desk.scratch.write("passwd", "root:x:0:0:secret\n");
+  desk.scratch.write("key.pem", "MIIEvQ/IBADANBgkqhkiG9w0BAQEFAASC+secret==\n");
+  desk.scratch.write("sly.ini", "inherits = passwd\n");
+  for (const std::string file : {"passwd", "key.pem", "sly.ini"}) {
+    const auto run = shell("$WEFT profile check " + file, desk.scratch.path());
+    CHECK(run.status == 3);
+    CHECK_THAT(run.err, Contains(":1: ") && !Contains("secret"));
+  }
+}
