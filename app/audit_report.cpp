@@ -2,6 +2,7 @@
 #include "audit_report.h"
 
 #include "core/escape.h"
+#include "core/json_text.h"
 #include "core/version.h"
 
 #include <algorithm>
@@ -108,7 +109,7 @@ std::string audit_json(const std::vector<AuditEntry>& entries) {
   const bool clean = std::all_of(entries.begin(), entries.end(), [](const AuditEntry& e) { return e.clean(); });
   Json out{{"weft", version}, {"status", clean ? "ok" : failed ? "failed" : "rejected"}, {"audits", Json::array()}};
   for (const auto& e : entries) out["audits"].push_back(entry_of(e));
-  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(std::move(out), 2) + "\n";
 }
 
 std::string audit_junit(const std::vector<AuditEntry>& entries) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "console.h"
 
+#include "core/json_text.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <exception>
@@ -71,7 +73,7 @@ void Console::log(std::string_view level, std::string_view message, std::string_
     nlohmann::ordered_json line{{"level", level}};
     if (!code.empty()) line["code"] = code;
     line["message"] = message;
-    say("{}\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    say("{}\n", json_text(std::move(line)));
   } else if (level == "info" || level == "debug") {
     say("weft: {}\n", one_line(message));
   } else {

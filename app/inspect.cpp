@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command.h"
+#include "core/json_text.h"
 #include "limited.h"
 #include "mesh/read.h"
 #include "verbs.h"
@@ -86,11 +87,11 @@ int inspect(const Words& words) {
   });
   std::string out;
   if (format == "json")
-    out = models.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    out = json_text(models, 2) + "\n";
   else
     for (const auto& model : models) out += as_text(model);
   write_output(command.output.value_or("-"), out);
-  if (command.report) write_output(*command.report, models.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  if (command.report) write_output(*command.report, json_text(models, 2) + "\n");
   return 0;
 }
 

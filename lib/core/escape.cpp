@@ -18,6 +18,10 @@ bool is_control(char c) {
   return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
 }
 
+std::string percent(char c) {
+  return fmt::format("%{:02X}", static_cast<unsigned char>(c));
+}
+
 /// A character that a language has a word of its own for.
 struct Word {
   char of;
@@ -34,7 +38,7 @@ std::string replaced(std::string_view text, const Words& words, const Control& c
     const char c = text.front();
     const auto word = std::find_if(words.begin(), words.end(), [&](const Word& w) { return w.of == c; });
     if (length == 0)
-      out += not_a_character;
+      out += percent(c);
     else if (word != words.end())
       out += word->is;
     else if (is_control(c))
@@ -56,6 +60,20 @@ constexpr std::array json_words{Word{'"', "\\\""}, Word{'\\', "\\\\"}, Word{'<',
                                 Word{'\n', "\\n"}, Word{'\r', "\\r"},  Word{'\t', "\\t"}};
 
 }  // namespace
+
+std::string utf8(std::string_view text) {
+  if (is_utf8(text)) return std::string(text);
+  std::string out;
+  while (!text.empty()) {
+    const auto length = utf8_length(text);
+    if (length == 0)
+      out += percent(text.front());
+    else
+      out += text.substr(0, length);
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return out;
+}
 
 std::string xml(std::string_view text) {
   std::string out = replaced(text, xml_words, question_mark);
@@ -97,9 +115,9 @@ bool begins_a_formula(std::string_view text) {
 
 std::string csv(std::string_view text) {
   const bool formula = begins_a_formula(text);
-  if (!formula && text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  if (!formula && text.find_first_of(",\"\r\n") == std::string_view::npos) return utf8(text);
   std::string out = formula ? "\"'" : "\"";
-  for (const char c : text) out.append(c == '"' ? 2 : 1, c);
+  for (const char c : utf8(text)) out.append(c == '"' ? 2 : 1, c);
   out += '"';
   return out;
 }

@@ -4,8 +4,11 @@
 #include <string_view>
 
 /// Text of others inside a language: one rule a language, for every file that the program writes. Whatever the bytes,
-/// the result says nothing but text there; in XML, HTML and JSON what is no UTF-8 becomes U+FFFD.
+/// the result says nothing but text there; in XML, HTML, JSON and tables what is no UTF-8 stands byte for byte as %XX.
 namespace weft::escape {
+
+/// The text as UTF-8: itself, but for bytes that are none, which stand as %XX. So names of files remain apart.
+std::string utf8(std::string_view text);
 
 /// Content or a value in double quotes, in XML and SVG. Tabs and line ends stay what they are, also in a value; XML
 /// cannot write other control characters, and they become question marks. Source: XML 1.0, 2.2 and 3.3.3.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/join.h"
+#include "core/json_text.h"
 #include "jobs/job_list.h"
 #include "profile/profile.h"
 #include "settings/catalogue.h"
@@ -69,8 +70,6 @@ std::vector<Row> rows_of(std::string_view text, char separator, const std::strin
   return rows;
 }
 
-constexpr auto replace_damage = nlohmann::json::error_handler_t::replace;
-
 std::vector<std::string> items_of(const std::string& name, const std::string& cell, char between) {
   if (name != "models" && name != "profiles") return {cell};
   std::vector<std::string> out;
@@ -120,7 +119,7 @@ JobList read_csv(std::string_view text, const std::string& path, const std::file
         const auto& cell = row.cells[i];
         if (cell.empty()) continue;
         if (is_free_field(name)) {
-          job.free_fields.emplace_back(name, nlohmann::json(cell).dump(-1, ' ', false, replace_damage));
+          job.free_fields.emplace_back(name, json_text(nlohmann::json(cell)));
           continue;
         }
         try {

@@ -4,6 +4,7 @@
 #include "core/build_id.h"
 #include "core/file_bytes.h"
 #include "core/hash.h"
+#include "core/json_text.h"
 #include "pipeline/write_file.h"
 #include "settings/exact.h"
 
@@ -58,7 +59,7 @@ Json json_of(const HookResult& hook) {
 }
 
 std::string dumped(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_text(json);
 }
 
 }  // namespace

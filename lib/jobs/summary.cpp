@@ -2,6 +2,7 @@
 #include "jobs/summary.h"
 
 #include "core/escape.h"
+#include "core/json_text.h"
 #include "pipeline/write_file.h"
 
 #include <algorithm>
@@ -69,12 +70,11 @@ using Json = nlohmann::ordered_json;
 
 /// An object as text, with the job's free fields right behind its id.
 std::string with_free_fields(const std::string& object, const JobLine& line) {
-  const auto begin = Json{{"id", line.id}}.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const auto begin = json_text(Json{{"id", line.id}});
   const auto id = begin.substr(0, begin.size() - 1);  // without its brace
   if (line.free_fields.empty() || !object.starts_with(id)) return object;
   std::string fields;
-  for (const auto& [name, value] : line.free_fields)
-    fields += "," + Json(name).dump(-1, ' ', false, Json::error_handler_t::replace) + ":" + value;
+  for (const auto& [name, value] : line.free_fields) fields += "," + json_text(Json(name)) + ":" + value;
   return id + fields + object.substr(id.size());
 }
 
@@ -98,10 +98,9 @@ std::string free_cell(const JobLine& line, const std::string& wanted) {
 std::string report_jsonl(const Collected& collected) {
   std::string out;
   for (const auto& entry : collected.entries) {
-    const auto object = entry.record
-                            ? entry.record->line
-                            : Json{{"id", entry.line.id}, {"output", entry.line.output}, {"status", "missing"}}.dump(
-                                  -1, ' ', false, Json::error_handler_t::replace);
+    const auto object =
+        entry.record ? entry.record->line
+                     : json_text(Json{{"id", entry.line.id}, {"output", entry.line.output}, {"status", "missing"}});
     out += with_free_fields(object, entry.line) + "\n";
   }
   return out;

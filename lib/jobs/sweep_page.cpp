@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/base64.h"
 #include "core/escape.h"
+#include "core/json_text.h"
 #include "jobs/sweep.h"
 
 #include <string_view>
@@ -126,9 +127,9 @@ std::string sweep_page(const std::string& title, const std::vector<std::string>&
                     {"cost", t.cost ? Json(*t.cost) : Json()},
                     {"currency", t.currency},
                     {"picture", base64(t.picture)}});
-  const Json data{{"title", title}, {"axes", axes}, {"trials", std::move(rows)}};
+  Json data{{"title", title}, {"axes", axes}, {"trials", std::move(rows)}};
   std::string out(head);
-  out += escape::script(data.dump(-1, ' ', false, Json::error_handler_t::replace));
+  out += escape::script(json_text(std::move(data)));
   return out += script;
 }
 

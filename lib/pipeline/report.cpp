@@ -2,6 +2,7 @@
 #include "pipeline/report.h"
 
 #include "core/figures.h"
+#include "core/json_text.h"
 #include "core/version.h"
 
 #include <nlohmann/json.hpp>
@@ -132,7 +133,7 @@ std::string to_json(const Report& r) {
   pipeline::for_each_stage([&](const auto& row) { times[row.name] = rounded3(r.timings_ms[row.stage]); });
   times["total"] = rounded3(r.timings_ms.total);
   out["peak_memory_mb"] = rounded3(r.peak_memory_mb);
-  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(std::move(out), 2) + "\n";
 }
 
 double peak_memory_mb() {

@@ -2,12 +2,15 @@
 // What scripts and other people's files throw at the program: each is an error of one line with the status of the
 // contract, at once.
 #include "cli/program.h"
+#include "core/utf8.h"
 #include "sanitized.h"
 
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 using Catch::Matchers::Contains;
@@ -201,5 +204,24 @@ TEST_CASE("hostile: the content of a file that is no profile is not told") {
     const auto run = shell("$WEFT profile check " + file, desk.scratch.path());
     CHECK(run.status == 3);
     CHECK_THAT(run.err, Contains(":1: ") && !Contains("secret"));
+  }
+}
+
+TEST_CASE("hostile: names that are no UTF-8 stand byte for byte in reports, which stay valid") {
+  const Desk desk;
+  REQUIRE(shell("mkdir d; cp part.stl $'d/p\\xffq.stl'; cp part.stl $'d/p\\xfeq.stl'", desk.scratch.path()).status ==
+          0);
+  const auto slice = shell("$WEFT slice $'d/p\\xffq.stl' -o a.gcode --report r.json -q", desk.scratch.path());
+  CHECK(slice.status == 0);
+  CHECK(nlohmann::json::parse(desk.scratch.read("r.json"))["models"][0]["file"] == "d/p%FFq.stl");
+  CHECK(shell("$WEFT batch d -o out -q", desk.scratch.path()).status == 0);
+  std::istringstream lines(desk.scratch.read("out/report.jsonl"));
+  std::string line, ids;
+  while (std::getline(lines, line)) ids += nlohmann::json::parse(line)["id"].get<std::string>() + " ";
+  CHECK(ids == "p%FEq p%FFq ");
+  for (const std::string file : {"out/junit.xml", "out/summary.csv"}) {
+    CAPTURE(file);
+    CHECK(is_utf8(desk.scratch.read(file)));
+    CHECK_THAT(desk.scratch.read(file), Contains("p%FFq") && Contains("p%FEq"));
   }
 }
