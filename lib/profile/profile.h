@@ -25,11 +25,11 @@ struct Profile {
 
 /// How profiles of PrusaSlicer's family are read.
 struct ImportOptions {
-  prusaslicer::PresetChoice presets;                         ///< which presets of a bundle are meant
-  bool strict = false;                                       ///< what would be lost is an error
-  ProfileFolders folders;                                    ///< where profiles are looked for by name
-  std::filesystem::path root;  ///< when not empty, no file is read that is neither in it nor in one of the folders
-  std::vector<std::pair<std::string, std::string>> options;  ///< PrusaSlicer's keys said beside profiles; they hold
+  prusaslicer::PresetChoice presets{};  ///< which presets of a bundle are meant
+  bool strict = false;                  ///< what would be lost is an error
+  ProfileFolders folders{};             ///< where profiles are looked for by name
+  std::filesystem::path root{};  ///< when not empty, no file is read that is neither in it nor in one of the folders
+  std::vector<std::pair<std::string, std::string>> options{};  ///< PrusaSlicer's keys said beside profiles; they hold
 };
 
 /// Lays an ini file over `profile`. `inherits = other.ini` (relative to the file, else by name) is laid down before the
