@@ -162,15 +162,20 @@ std::string preview_of(const Command& command) {
 }
 
 /// Where the G-code goes: where -o says, else beside the model, by output_filename_format. What is not known before the
-/// print is made counts as nothing.
-std::string destination_of(const Command& command, const Settings& settings, const Report& report) {
+/// print is made counts as nothing. @throws Error{usage} where that is a file that is read
+std::string destination_of(const Command& command, const Profile& profile, const Report& report) {
   if (command.output) return *command.output;
   Statistics made;
   made.print_time_s = report.print_time_s;
   made.filament_mm = report.filament_mm, made.filament_mm3 = report.filament_mm3, made.filament_g = report.filament_g;
   const std::filesystem::path model(command.inputs.front());
   const PrintPlan plan;
-  return (model.parent_path() / gcode::file_name({settings, plan, made, model.stem().string(), {}})).string();
+  const auto name = gcode::file_name({profile.settings, plan, made, model.stem().string(), {}});
+  const auto path = (model.parent_path() / name).string();
+  Files files = command.files;
+  for (const auto& parent : profile.parents) files.reads(parent.string());
+  files.writes(path, "output_filename_format");
+  return path;
 }
 
 /// What is refused before the work, not after it. @throws Error{usage}
@@ -221,7 +226,7 @@ int slice(const Words& words) {
   try {
     const auto profile = resolve(command);
     report.warnings = profile.notices;
-    check_writable(destination_of(command, profile.settings, report));  // refused before the work, not after it
+    check_writable(destination_of(command, profile, report));  // refused before the work, not after it
     Watch watch;
     watch.progress = [&](std::string_view stage, double share) {
       console.progress(stage, share);
@@ -237,7 +242,7 @@ int slice(const Words& words) {
     if (gcode && !preview.empty())
       write_preview(preview, gcode->gcode(), diameter_of_e(profile.settings),
                     std::filesystem::path(command.inputs.front()).filename().string());
-    if (gcode) write_gcode(destination_of(command, profile.settings, report), *gcode);
+    if (gcode) write_gcode(destination_of(command, profile, report), *gcode);
     finish();
     if (!gcode) throw Error{Error::Kind::audit, report.error, {}, {}};
     console.info(summary(report));

@@ -2,11 +2,9 @@
 #include "audit/audit.h"
 
 #include "audit/auditor.h"
+#include "core/file_bytes.h"
 
 #include <array>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <memory>
 #include <utility>
 
@@ -123,10 +121,6 @@ bool stands_in(const Finding& f, std::string_view text) {
   return false;
 }
 
-struct Closer {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-
 /// Formats that hold G-code but are no text that a printer reads.
 std::string_view not_text(std::string_view front) {
   if (front.starts_with("\xFF\xFE") || front.starts_with("\xFE\xFF")) return "UTF-16; save it as UTF-8 or plain text";
@@ -202,14 +196,12 @@ Report examine(const MachineSettings& machine, const MaterialSettings& material,
   const auto refuse = [&](std::string what, std::string hint = {}) {
     throw Error{Error::Kind::file, std::move(what), path.string(), std::move(hint)};
   };
-  const std::unique_ptr<std::FILE, Closer> file(std::fopen(path.c_str(), "rb"));
-  if (!file) refuse(fmt::format("cannot be read: {}", std::strerror(errno)));
-  std::setvbuf(file.get(), nullptr, _IONBF, 0);
+  InputFile file(path.string());
   Auditor auditor(machine, material, audit, false);
   constexpr std::size_t piece = 1U << 18;
   const auto buffer = std::make_unique<char[]>(piece);
   bool first = true;
-  while (const std::size_t n = std::fread(buffer.get(), 1, piece, file.get())) {
+  while (const std::size_t n = file.read(buffer.get(), piece)) {
     const std::string_view bytes(buffer.get(), n);
     if (std::exchange(first, false))
       if (const auto reason = not_text(bytes); !reason.empty())
@@ -217,7 +209,7 @@ Report examine(const MachineSettings& machine, const MaterialSettings& material,
                std::string(reason.substr(reason.find(';') + 2)));
     auditor.feed(bytes);
   }
-  if (std::ferror(file.get())) refuse(fmt::format("cannot be read: {}", std::strerror(errno)));
+  file.check_whole();
   return auditor.finish();
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/escape.h"
 #include "core/join.h"
 #include "core/json_text.h"
 #include "jobs/job_list.h"
@@ -88,11 +89,12 @@ void check_header(const Row& header, const std::string& path) {
     const auto& fields = field_names();
     if (std::find(fields.begin(), fields.end(), name) == fields.end() && !is_free_field(name) && !find_setting(name)) {
       const auto near = nearest_key(name);
-      throw Error{Error::Kind::usage, fmt::format("column '{}' is neither a field of a job nor a setting", name), where,
+      throw Error{Error::Kind::usage,
+                  fmt::format("column {} is neither a field of a job nor a setting", escape::message(name)), where,
                   near.empty() ? "fields: " + joined(fields) : fmt::format("did you mean '{}'?", near)};
     }
     if (!seen.insert(name).second)
-      throw Error{Error::Kind::usage, fmt::format("column '{}' is given twice", name), where};
+      throw Error{Error::Kind::usage, fmt::format("column {} is given twice", escape::message(name)), where};
   }
 }
 

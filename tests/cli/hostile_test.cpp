@@ -44,6 +44,7 @@ TEST_CASE("hostile: pipes, devices and folders are refused as inputs by their na
   desk.fails("$WEFT slice part.stl -p folder.ini -o a.gcode", 6, "folder.ini: is a folder");
   desk.fails("$WEFT verify pipe.gcode part.stl", 6, "pipe.gcode: is a pipe");
   desk.fails("$WEFT preview pipe.gcode -o a.png", 6, "pipe.gcode: is a pipe");
+  desk.fails("$WEFT audit pipe.gcode -p marlin-220", 6, "pipe.gcode: is a pipe");
   desk.fails("$WEFT inspect pipe.stl", 6, "pipe.stl: is a pipe");
   desk.fails("$WEFT batch pipe.gcode -o out", 6, "pipe.gcode: is a pipe");
   CHECK(!desk.scratch.has("a.gcode"));

@@ -120,3 +120,18 @@ TEST_CASE("outputs: devices take any number of results") {
   const Desk desk;
   CHECK(weft({"slice", "part.stl", "-o", "/dev/null", "--report", "/dev/null"}, desk.scratch.path()).status == 0);
 }
+
+TEST_CASE("outputs: a name that the settings give the result is no file that is read either") {
+  const Scratch scratch;
+  scratch.write("part.stl", box_stl(10, 10, 2));
+  const auto before = scratch.read("part.stl");
+  for (const std::string name : {"part.stl", "PART.STL", "my.ini"}) {
+    const auto run = weft({"slice", "part.stl", "-s", "output_filename_format=" + name}, scratch.path());
+    CHECK(run.status == 2);
+    CHECK_THAT(run.err, Contains("output_filename_format: "));
+  }
+  scratch.write("raw", before);
+  CHECK(weft({"slice", "raw", "-s", "output_filename_format=raw"}, scratch.path()).status == 2);
+  CHECK((scratch.read("raw") == before));
+  CHECK((scratch.read("part.stl") == before));
+}
