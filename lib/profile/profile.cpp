@@ -55,9 +55,37 @@ std::string place_of(const std::string& path, int line, const std::string& key) 
   return option;
 }
 
+/// Where a profile said the reach of this machine itself, and did not derive it from custom G-code; null: nowhere.
+const Origin* known_reach(const Profile& profile, const std::string& key) {
+  const auto origins = profile.origins.find(key);
+  if (origins == profile.origins.end() || !origins->second.back().source.empty()) return nullptr;
+  return &origins->second.back();
+}
+
+/// PrusaSlicer's profiles hold no reach: theirs is where their custom G-code goes. Where a profile before it has said
+/// how far this machine goes, that holds, and such moves are judged by it.
+/// @param bed the print surface that the profile before was for
+void take_reach(Profile& profile, const prusaslicer::Assignment& a, const std::string& path, const Box& bed) {
+  const auto why = a.source.substr(a.source.rfind(", and ") + 6);
+  const auto* known = known_reach(profile, a.key);
+  if (known != nullptr && box_of(print_surface(profile.settings.machine)) == bed) {
+    profile.notices.push_back(
+        {"reach_kept", fmt::format("{}: {}; {} = {} ({}) holds", path, why, a.key, known->text, known->where)});
+    return;
+  }
+  apply_value(profile, a.key, a.text, place_of(path, a.line, a.theirs));
+  profile.origins[a.key].back().source = a.source;
+  profile.notices.push_back(
+      {"reach_derived", fmt::format("{}: {} = {}: PrusaSlicer's profiles hold no reach, {}; set it to what the printer "
+                                    "can do",
+                                    path, a.key, a.text, why)});
+}
+
 prusaslicer::Translation apply_foreign(Profile& profile, Foreign foreign, const std::string& path) {
   const auto translated = prusaslicer::translate(std::move(foreign.lines), path, foreign.complete);
+  const Box bed = box_of(print_surface(profile.settings.machine));
   for (const auto& a : translated.assignments) {
+    if (a.key.starts_with("machine_reach")) continue;
     if (const auto known = foreign.histories.find(a.theirs); known != foreign.histories.end())
       for (const auto& e : known->second)
         if (e.line != a.line)
@@ -65,12 +93,9 @@ prusaslicer::Translation apply_foreign(Profile& profile, Foreign foreign, const 
               {fmt::format("{}:{}", path, e.line), e.value, fmt::format("[{}] {} = {}", e.section, e.key, e.value)});
     apply_value(profile, a.key, a.text, place_of(path, a.line, a.theirs));
     profile.origins[a.key].back().source = a.source;
-    if (a.key.starts_with("machine_reach"))
-      profile.notices.push_back(
-          {"reach_derived",
-           fmt::format("{}: {} = {}: PrusaSlicer's profiles hold no reach, {}; set it to what the printer can do", path,
-                       a.key, a.text, a.source.substr(a.source.rfind(", and ") + 6))});
   }
+  for (const auto& a : translated.assignments)
+    if (a.key.starts_with("machine_reach")) take_reach(profile, a, path, bed);
   profile.notices.insert(profile.notices.end(), foreign.notices.begin(), foreign.notices.end());
   return translated;
 }

@@ -11,6 +11,7 @@
 #include <charconv>
 #include <set>
 #include <stdexcept>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -72,6 +73,10 @@ struct Found {
   Span x, y, z;
 };
 
+std::string farther(Um um, std::string_view side) {
+  return fmt::format("{} mm {}", to_mm(um), side);
+}
+
 /// Widens a span by one coordinate.
 void widen(Span& span, Um at, std::string_view key, std::string_view line) {
   const auto shown = [&] {
@@ -127,16 +132,25 @@ std::vector<CustomReach> reach_of(const Lines& lines) {
               {0, top, deepest, highest, 0, top, {}, {}}};
   for (const auto key : custom_keys) look_at(key, text_of(lines, key), found);
   std::vector<CustomReach> out;
-  std::string why;
-  for (const auto* text : {&found.y.why_low, &found.y.why_high, &found.x.why_low, &found.x.why_high})
+  std::string why, beyond;
+  for (const auto& [text, um, side] : {std::tuple{&found.y.why_low, found.y.least - found.y.low, "in front of the bed"},
+                                       {&found.y.why_high, found.y.high - found.y.most, "behind it"},
+                                       {&found.x.why_low, found.x.least - found.x.low, "on its left"},
+                                       {&found.x.why_high, found.x.high - found.x.most, "on its right"}}) {
+    if (text->empty()) continue;
     if (why.empty()) why = *text;
+    beyond += (beyond.empty() ? "" : ", ") + farther(um, side);
+  }
   if (!why.empty())
-    out.push_back(
-        {"machine_reach", value::print(Ring{{found.x.low, found.y.low}, {found.x.high, found.y.high}}, Unit::mm), why});
+    out.push_back({"machine_reach",
+                   value::print(Ring{{found.x.low, found.y.low}, {found.x.high, found.y.high}}, Unit::mm), why,
+                   beyond});
   if (!found.z.why_low.empty())
-    out.push_back({"machine_reach_z_min", value::print(found.z.low, Unit::mm), found.z.why_low});
+    out.push_back({"machine_reach_z_min", value::print(found.z.low, Unit::mm), found.z.why_low,
+                   farther(-found.z.low, "below the bed's surface")});
   if (!found.z.why_high.empty())
-    out.push_back({"machine_reach_z_max", value::print(found.z.high, Unit::mm), found.z.why_high});
+    out.push_back({"machine_reach_z_max", value::print(found.z.high, Unit::mm), found.z.why_high,
+                   farther(found.z.high - found.z.most, "above the highest print")});
   return out;
 }
 

@@ -13,6 +13,7 @@ struct CustomReach {
   std::string setting;  ///< machine_reach, machine_reach_z_min or machine_reach_z_max
   std::string value;    ///< as a profile writes it
   std::string why;      ///< the move that goes farthest: "start_gcode goes there: G1 Y-3.0 F1000.0"
+  std::string beyond;   ///< by how much it is widened: "3 mm in front of the bed, 4 mm on its right"
 };
 
 /// PrusaSlicer knows a bed and no reach, while stock start G-code wipes the nozzle in front of the bed on purpose. A

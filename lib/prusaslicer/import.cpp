@@ -439,7 +439,7 @@ class Translator {
         const auto* height = lines_.look("max_print_height");
         set(reach.setting, reach.value,
             reach.setting == "machine_reach_z_max" && height && height->line != 0 ? *height : *bed);
-        out_.assignments.back().source += fmt::format(", and {}", reach.why);
+        out_.assignments.back().source += fmt::format(", and {} ({})", reach.why, reach.beyond);
       }
     const auto variables = variables_of(lines_);
     for (const auto* key : {"start_gcode", "end_gcode", "before_layer_gcode", "layer_gcode"})
