@@ -28,9 +28,9 @@ struct Program;
 /// What templates of one print share.
 struct Scope {
   Variables globals;
-  std::size_t held = 0;      ///< bytes in them, and in those of the template at hand
   std::uint64_t random = 0;  ///< state of random(); the same seed gives the same numbers
   bool lenient = false;      ///< a trial with figures that are not the real ones: a division by zero gives 1
+  std::size_t held = 0;      ///< bytes in globals, and in the variables of the template at hand
 };
 
 /// A text that has been read. Cheap to copy.
