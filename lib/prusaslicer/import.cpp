@@ -40,6 +40,7 @@ class Translator {
                    [&](std::string_view key, std::string text, const IniEntry& e) { set(key, std::move(text), e); });
     seams();
     extrusion();
+    ramping_lift();
     cooling();
     texts();
     for (const auto& row : ported_keys()) copy(row);
@@ -347,18 +348,11 @@ class Translator {
       out_.not_needed.push_back({avoid->key, avoid->value, avoid->line,
                                  "travels stay inside the part where that is no long way round (retraction_combing)"});
     }
-    if (const auto* e = lines_.find("thumbnails")) thumbnails(*e);
-  }
-  void thumbnails(const IniEntry& e) {
-    std::string sizes;
-    for (const auto& part : elements_of(e.key, e.value)) {
-      const auto slash = part.find('/');
-      if (slash != std::string::npos && part.substr(slash + 1) != "PNG")
-        approximate(e, fmt::format("{} is left out: pictures are PNG", part));
-      else if (!part.empty())
-        sizes += (sizes.empty() ? "" : ", ") + part.substr(0, slash);
+    if (const auto* e = lines_.find("thumbnails")) {
+      std::vector<std::string> left_out;
+      set("thumbnails", png_sizes(e->value, left_out), *e);
+      for (const auto& part : left_out) approximate(*e, fmt::format("{} is left out: pictures are PNG", part));
     }
-    set("thumbnails", sizes, e);
   }
 
   /// What the hot end melts, and how far filament is drawn back. 0 means: no limit, or never.
@@ -403,6 +397,20 @@ class Translator {
         set("wipe_distance",
             number(std::clamp(lines_.figure(*length).v * (1 - before) / speed * 0.8 * travel, 0.0, 100.0), 3), *wipe);
     }
+  }
+
+  /// A lift on the way instead of before it.
+  void ramping_lift() {
+    const auto *ramp = lines_.find("travel_ramping_lift"), *lift = lines_.find("travel_max_lift"),
+               *slope = lines_.find("travel_slope");
+    if (!ramp || !lines_.flag(*ramp)) return;
+    const double degrees = slope ? lines_.figure(*slope).v : 0;
+    set("retraction_hop_type", degrees > 0 ? "slope" : "vertical", *ramp);
+    if (degrees > 0) set("travel_slope", number(std::clamp(degrees, 1.0, 89.0)), *slope);
+    if (!lift) return;
+    set("retraction_hop", number(lines_.figure(*lift).v, 3), *lift);
+    lines_.find("retract_lift");
+    done_.insert("retract_lift");
   }
 
   /// Without `cooling` the fan does not depend on the time of a layer, and nothing is slowed down.

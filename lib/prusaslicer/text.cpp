@@ -116,4 +116,16 @@ bool says_one_of(std::string_view things, std::string_view key, std::string_view
   return std::all_of(elements.begin(), elements.end(), is_one);
 }
 
+std::string png_sizes(std::string_view thumbnails, std::vector<std::string>& left_out) {
+  std::string sizes;
+  for (const auto& part : elements_of("thumbnails", thumbnails)) {
+    const auto slash = part.find('/');
+    if (slash != std::string::npos && part.substr(slash + 1) != "PNG")
+      left_out.push_back(part);
+    else if (!part.empty())
+      sizes += (sizes.empty() ? "" : ", ") + part.substr(0, slash);
+  }
+  return sizes;
+}
+
 }  // namespace weft::prusaslicer

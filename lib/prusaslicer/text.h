@@ -30,4 +30,7 @@ std::vector<std::string> elements_of(std::string_view key, std::string_view text
 /// Does each element of the key's value say one of the things between `|`? `0`, `0.0` and `0%` are the same.
 bool says_one_of(std::string_view things, std::string_view key, std::string_view text);
 
+/// The sizes of those `thumbnails` that are PNG ("16x16/PNG, 220x124" gives "16x16, 220x124"). Others go to `left_out`.
+std::string png_sizes(std::string_view thumbnails, std::vector<std::string>& left_out);
+
 }  // namespace weft::prusaslicer

@@ -4,8 +4,10 @@
 #include "core/error.h"
 #include "prusaslicer/keys.h"
 #include "settings/catalogue.h"
+#include "source.h"
 
 #include <algorithm>
+#include <fstream>
 #include <set>
 
 #include <catch2/catch.hpp>
@@ -38,6 +40,32 @@ TEST_CASE("prusaslicer: every key has one row, and every setting that a row name
   }
   CHECK(seen.size() > 370);
   CHECK(ps::find_key("wall_line_count") == nullptr);
+}
+
+TEST_CASE("prusaslicer: each key that a preset of PrusaSlicer 2.9.4 holds has a fate") {
+  std::ifstream names(tests::source / "tests/data/prusaslicer/keys-2.9.4.txt");
+  std::string name;
+  std::size_t count = 0;
+  for (; names >> name; ++count) {
+    INFO(name);
+    const auto* row = ps::find_key(name);
+    if (!row && name.starts_with("filament_")) {  // a filament's own value of a printer's key
+      row = ps::find_key(std::string_view(name).substr(9));
+      CHECK((row && row->of_filament));
+    }
+    CHECK(row != nullptr);
+  }
+  CHECK(count == 367);
+}
+
+TEST_CASE("prusaslicer: a lift on the way has its slope and height") {
+  const auto t = translated("travel_ramping_lift = 1\ntravel_max_lift = 0.6\ntravel_slope = 3\nretract_lift = 0.2\n");
+  CHECK(value_of(t, "retraction_hop_type") == "slope");
+  CHECK(value_of(t, "retraction_hop") == "0.6");
+  CHECK(value_of(t, "travel_slope") == "3");
+  const auto off = translated("travel_ramping_lift = 0\ntravel_max_lift = 0.6\nretract_lift = 0.2\n");
+  CHECK(value_of(off, "retraction_hop") == "0.2");
+  CHECK(value_of(off, "retraction_hop_type") == "(absent)");
 }
 
 TEST_CASE("prusaslicer: a key's fate is what its part of the table says") {
