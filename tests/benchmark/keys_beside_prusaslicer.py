@@ -69,6 +69,7 @@ KEYS = [
     ("bottom_fill_pattern", "alignedrectilinear", ""),
     ("solid_infill_every_layers", "5", ""),
     ("infill_only_where_needed", "1", ""),
+    ("slicing_mode", "even_odd", ""),
     ("infill_first", "1", ""),
     ("infill_every_layers", "2", ""),
     ("skirt_height", "0", ""),
@@ -113,11 +114,23 @@ def triangles_of_box(a, b):
         yield p[q[0]], p[q[2]], p[q[3]]
 
 
+def triangles_of_roof(a, b, height):
+    """A pyramid on the bed."""
+    p = [(a[0], a[1], 0), (b[0], a[1], 0), (b[0], b[1], 0), (a[0], b[1], 0)]
+    top = ((a[0] + b[0]) / 2, (a[1] + b[1]) / 2, height)
+    yield p[0], p[3], p[2]
+    yield p[0], p[2], p[1]
+    for i in range(4):
+        yield p[i], p[(i + 1) % 4], top
+
+
 def write_model(path):
-    """A block of 30 x 20 x 6 mm with a pin of 3 mm on it, a rib of 0.3 mm, and a beam over a gap of 10 mm."""
+    """A block of 30 x 20 x 6 mm with a pin of 3 mm on it, a rib of 0.3 mm, and a beam over a gap of 10 mm; a roof of 45°,
+    and one of 11°."""
     boxes = [((0, 0, 0), (30, 20, 6)), ((4, 4, 6), (7, 7, 9)), ((12, 2, 6), (12.3, 18, 8)),
              ((34, 0, 0), (38, 20, 8)), ((48, 0, 0), (52, 20, 8)), ((34, 0, 8), (52, 20, 10))]
     faces = [t for b in boxes for t in triangles_of_box(*b)]
+    faces += [t for roof in (((0, 24), (24, 48), 12), ((30, 24), (60, 54), 3)) for t in triangles_of_roof(*roof)]
     with open(path, "wb") as f:
         f.write(b"\0" * 80 + struct.pack("<I", len(faces)))
         for t in faces:
@@ -185,7 +198,7 @@ def facts_of(path):
     facts["top z"] = top_z
     facts["first z"] = None
     for l in (0, 1):
-        straight = [s for s in (outer[l] if l < len(outer) else []) if abs(s[0] - s[2]) < 1e-3 and abs(s[1] - s[3]) > 8]
+        straight = [s for s in (outer[l] if l < len(outer) else []) if abs(s[0] - s[2]) < 2.5e-3 and abs(s[1] - s[3]) > 8]
         if straight:
             facts[f"left wall, layer {l}"] = min(s[0] for s in straight)
     for k, l in lengths.items():
