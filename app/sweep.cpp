@@ -3,12 +3,13 @@
 
 #include "batch_run.h"
 #include "core/file_bytes.h"
+#include "page_file.h"
 #include "pipeline/write_file.h"
 #include "preview/preview.h"
-#include "preview_file.h"
 #include "tasks/crew.h"
 #include "verbs.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 
@@ -50,20 +51,38 @@ jobs::SweepOptions combine_of(const Command& command) {
   return out;
 }
 
-/// A small picture of one layer of finished G-code; none when it cannot be drawn.
-std::string picture_of(const std::filesystem::path& gcode, const Settings& settings, double share) {
+/// The layer nearest to that share of them that has sparse infill, which is what most settings change; else that one.
+std::size_t telling_layer(const preview::Toolpaths& paths, double share) {
+  const auto count = paths.layers.size();
+  const auto wanted = std::min(count - 1, static_cast<std::size_t>(share * static_cast<double>(count)));
+  const auto has_infill = [&](std::size_t i) {
+    return std::any_of(paths.layers[i].strokes.begin(), paths.layers[i].strokes.end(),
+                       [&](const preview::Stroke& s) { return s.extrudes() && paths.features[s.feature] == "infill"; });
+  };
+  for (std::size_t off = 0; off < count; ++off) {
+    if (wanted + off < count && has_infill(wanted + off)) return wanted + off;
+    if (off <= wanted && has_infill(wanted - off)) return wanted - off;
+  }
+  return wanted;
+}
+
+/// Writes the page of a trial beside its G-code, and draws a layer. Nothing when there is nothing to draw.
+void look_at(jobs::Trial& trial, const std::filesystem::path& folder, const Settings& settings, double share) {
   try {
-    const FileBytes file(gcode.string());
-    const auto paths = preview::read_layer(file.view(), diameter_of_e(settings), share);
-    if (paths.layers.empty()) return {};
+    const auto path = folder / trial.output;
+    const FileBytes file(path.string());
+    const auto paths = toolpaths_of(file.view(), settings, path.string());
     preview::View view;
     view.size = 420;
-    view.layer = 0;
+    view.layer = telling_layer(paths, share);
     view.legend = false;
     const auto png = preview::png(paths, view);
-    return {png.begin(), png.end()};
-  } catch (const std::exception&) {  // the G-code is there, and that is what counts
-    return {};
+    trial.picture.assign(png.begin(), png.end());
+    const std::string page = trial.output + ".html";
+    write_file(folder / page, page_of(paths, file.view(), path.string(), {.title = trial.id}, {}, {}));
+    trial.viewer = page;
+  } catch (const Error&) {
+    // the table does without
   }
 }
 
@@ -86,7 +105,7 @@ void write_page(const std::vector<jobs::Prepared>& jobs, const Finished& finishe
     t.cost = entry.record->cost;
     t.currency = entry.record->currency;
     t.strength = jobs::strength_estimate(*entry.record, jobs[i].job.settings);
-    t.picture = picture_of(options.folder / entry.line.output, jobs[i].job.settings, picture_share);
+    look_at(t, options.folder, jobs[i].job.settings, picture_share);
   };
   const auto broken = tasks::run_crew(
       options.threads,
@@ -107,8 +126,9 @@ int sweep(const Words& words) {
   if (command.help) {
     std::ostringstream out;
     out << "weft sweep MODEL... -p PROFILE --vary KEY=V1,V2,... [--vary ...] -o DIR\n\n"
-           "Slices a model with every combination of settings. DIR/index.html compares time, material and strength; it "
-           "needs no network.\n\n"
+           "Slices a model with every combination of settings. DIR/index.html compares time, material and strength, "
+           "and "
+           "leads to a page of each trial's toolpaths; none needs the network.\n\n"
         << options << "\n"
         << common_help();
     return write_output("-", out.str()), 0;

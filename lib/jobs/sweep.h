@@ -55,6 +55,7 @@ struct Trial {
   std::optional<double> cost;  ///< when there are prices
   std::string currency;
   std::string picture;  ///< PNG of a layer; may be empty
+  std::string viewer;   ///< name of the page that shows its toolpaths, beside the table's; may be empty
 };
 
 /// How strong a part is, 0 … 100, against a solid one of the same outline: its plastic, sparse infill counted by what a

@@ -29,6 +29,7 @@ TEST_CASE("sweep: a grid is sliced with shared work done once, and every file is
   CHECK(scratch.read("out/infill_sparse_density=20_infill_pattern=lines.gcode") == scratch.read("one.gcode"));
   CHECK_THAT(scratch.read("out/index.html"),
              Contains("infill_sparse_density=30,infill_pattern=grid") && Contains("iVBOR"));
+  CHECK_THAT(scratch.read("out/infill_sparse_density=20_infill_pattern=lines.gcode.html"), Contains("id=\"pack-0\""));
   CHECK_THAT(scratch.read("out/summary.csv"), Contains("infill_sparse_density,infill_pattern"));
 }
 

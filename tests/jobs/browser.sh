@@ -35,6 +35,8 @@ expect "six rows" "$(count "$dom" '<tr data-id=')" 6
 expect "six pictures" "$(count "$dom" '<img src="data:image/png;base64,')" 6
 expect "six points in the scatter" "$(count "$dom" '<circle class="dot"')" 6
 expect "six lines in the parallel coordinates" "$(count "$dom" '<polyline points=[^>]*stroke=')" 6
+expect "six pages of toolpaths are led to" "$(count "$dom" 'class="viewer"')" 6
+[ "$(find "$scratch/out" -name '*.gcode.html' | wc -l)" = 6 ] || { echo "FAILED: not every trial has its page" >&2; failed=1; }
 expect "six axes" "$(count "$dom" 'class="axis"')" 6
 [ "$(count "$dom" 'class="best"')" -ge 1 ] || { echo "FAILED: nothing is on the front" >&2; failed=1; }
 
@@ -53,7 +55,7 @@ if command -v python3 > /dev/null; then
     verdict=$(python3 -c '
 import html, json, re, sys
 dom = open(sys.argv[1]).read()
-data = json.loads(re.search(r"const data=\s*(\{.*?\})\s*;\s*const \$", dom, re.S).group(1))
+data = json.loads(re.search(r"id=\"facts\">(\{.*?\})</script>", dom, re.S).group(1))
 shown = html.unescape(re.search(r"data-trials=\"([^\"]*)\"", dom).group(1)).split("|")
 x, y = sys.argv[2].replace("%20", " ").split("&y=")
 of = {"time": lambda t: -t["time_s"], "material g": lambda t: -t["material_g"], "strength": lambda t: t["strength"]}
@@ -64,6 +66,9 @@ print("same" if sorted(best) == sorted(shown) else f"{sorted(shown)} wanted {sor
     expect "the front of $axes" "$verdict" same
   done
 fi
+# An axis whose trials all have one value says it once.
+once=$(browse '#x=layers&y=layers' --dump-dom)
+expect "one value is one label on either axis" "$(grep -oE '<svg id="scatter".*' <<< "$once" | sed 's,</svg>.*,,' | grep -o 'class="grid"' | wc -l)" 2
 expect "numbers stand under headings on the same side" "$(count "$dom" '<th class="n">time')" 1
 [ -z "$picture" ] || browse '#x=time&y=strength&c=infill_sparse_density' --screenshot="$picture" > /dev/null
 exit $failed

@@ -108,13 +108,13 @@ TEST_CASE("sweep: the strength of a solid is 100 and grows with density") {
 
 TEST_CASE("sweep: the page holds its data, whatever stands in it, and asks the network for nothing") {
   std::vector<Trial> trials(2);
-  trials[0] = {"a=1", "a.gcode", "", true, true, {"1"}, 10, 2, 30, 4, 1.5, "EUR", std::string("\x89PNG\0x", 6)};
+  trials[0] = {"a=1", "a.gcode", "", true, true, {"1"}, 10, 2, 30, 4, 1.5, "EUR", std::string("\x89PNG\0x", 6), "a.gcode.html"};
   trials[1].id = "</script><b>";
   trials[1].values = {"2"};
   const auto page = sweep_page("<part>.stl", {"a"}, trials);
-  CHECK_THAT(page, Contains("\\u003c/script>\\u003cb>") && Contains("iVBORwB4"));
+  CHECK_THAT(page, Contains("\\u003c/script>\\u003cb>") && Contains("iVBORwB4") && Contains("a.gcode.html"));
   CHECK(page.find("http") == page.find("http://www.w3.org/2000/svg"));  // the name of SVG, which is never fetched
   std::size_t ends = 0;
   for (std::size_t at = 0; (at = page.find("</script>", at)) != std::string::npos; ++at) ++ends;
-  CHECK(ends == 1);
+  CHECK(ends == 2);  // facts, script
 }
