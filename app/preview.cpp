@@ -3,11 +3,14 @@
 #include "command.h"
 #include "core/file_bytes.h"
 #include "limited.h"
+#include "page_file.h"
 #include "preview_file.h"
 #include "settings/value.h"
+#include "tasks/tasks.h"
 #include "verbs.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <sstream>
 
@@ -72,17 +75,56 @@ std::optional<Box> window_of(const Command& command) {
   return box;
 }
 
-preview::Overlay overlay_of(const Profile& profile, std::string_view gcode, Console& console) {
-  const auto& settings = profile.settings;
+preview::Overlay audited(const Settings& settings, std::string_view gcode, Console& console) {
   auto listed = settings.audit;
   listed.audit_max_findings = 1'000'000;  // every one is drawn
   const auto report = audit::examine_text(settings.machine, settings.material, listed, gcode);
   console.info(audit::summary(report));
-  preview::Overlay overlay{
-      print_surface(settings.machine), settings.machine.bed_exclude_areas, reach_area(settings.machine), {}};
-  for (const auto& finding : report.findings) overlay.lines.push_back(static_cast<std::uint32_t>(finding.line));
-  std::sort(overlay.lines.begin(), overlay.lines.end());
-  return overlay;
+  return overlay_of(settings.machine, report);
+}
+
+/// Where --view looks from.
+std::array<double, 3> eye_of(const std::string& typed) {
+  constexpr std::pair<std::string_view, std::array<double, 3>> known[] = {
+      {"iso", preview::from_above}, {"front", {0, -1, 0}}, {"top", {0, 0, 1}}};
+  for (const auto& [name, eye] : known)
+    if (typed == name) return eye;
+  std::array<double, 3> eye{};
+  std::istringstream in(typed);
+  char comma = ',', other = ',';
+  in >> eye[0] >> comma >> eye[1] >> other >> eye[2];
+  const bool whole = in && comma == ',' && other == ',' && (in >> std::ws).eof();
+  const double length2 = eye[0] * eye[0] + eye[1] * eye[1] + eye[2] * eye[2];
+  if (!whole || !(length2 > 1e-12 && length2 < 1e12))
+    throw Error{Error::Kind::usage, fmt::format("'{}' is neither iso, front, top nor a direction x,y,z", typed),
+                "--view", "as in --view 1,-2,1"};
+  return eye;
+}
+
+/// First and last layer of --layers.
+std::pair<std::size_t, std::size_t> layers_of(const std::string& typed, std::size_t count) {
+  int first = 0, last = -1;
+  char colon = ':';
+  std::istringstream in(typed);
+  in >> first >> colon >> last;
+  const auto from_end = [&](int i) { return i < 0 ? static_cast<int>(count) + i : i; };
+  first = from_end(first), last = from_end(last);
+  if (!in || colon != ':' || !(in >> std::ws).eof() || first < 0 || last < first || last >= static_cast<int>(count))
+    throw Error{Error::Kind::usage, fmt::format("'{}' is no range of layers", typed), "--layers",
+                fmt::format("the file has layers 0 … {}; as in --layers 0:-1", count - 1)};
+  return {static_cast<std::size_t>(first), static_cast<std::size_t>(last)};
+}
+
+void set_solids(const Command& command, preview::Kind kind, std::size_t layers, preview::View& view) {
+  const auto& o = command.options;
+  if (o.count("view")) {
+    if (kind != preview::Kind::png)
+      throw Error{Error::Kind::usage, "is for pictures in PNG; a page turns by hand", "--view"};
+    view.eye = eye_of(o["view"].as<std::string>());
+  }
+  if (!o.count("layers")) return;
+  if (!view.eye) throw Error{Error::Kind::usage, "goes with --view", "--layers", "add --view iso"};
+  view.layers = layers_of(o["layers"].as<std::string>(), layers);
 }
 
 /// Half a pixel of a window, however large the arcs are that it shows a part of.
@@ -93,23 +135,32 @@ preview::Chord chord_of(preview::Kind kind, const preview::View& view) {
 
 /// The bytes of the picture or page that the command asks for. @throws Error
 std::string drawing(const Command& command, preview::Kind kind, Console& console) {
-  const Profile profile = resolve(command);
-  const FileBytes file(command.inputs[0]);
+  const auto& o = command.options;
+  const tasks::ThreadLimit threads(command.threads);
+  const bool is_page = kind == preview::Kind::html;
+  const auto& path = command.inputs[0];
+  const Settings settings = is_page ? settings_for(command, path) : resolve(command).settings;
+  const FileBytes file(path);
   const std::string_view gcode = file.view();
   preview::View view;
-  view.colour = colour_of(command.options["colour"].as<std::string>());
-  view.travels = command.options["travels"].as<bool>();
-  view.size = command.options["size"].as<int>();
+  view.colour = colour_of(o["colour"].as<std::string>());
+  view.travels = o["travels"].as<bool>();
+  view.size = o["size"].as<int>();
   if (view.size < 16 || view.size > 8192) throw Error{Error::Kind::usage, "must be 16 … 8192", "--size"};
   view.window = window_of(command);
-  const auto paths = preview::read(gcode, diameter_of_e(profile.settings), chord_of(kind, view));
+  const auto paths = is_page ? toolpaths_of(gcode, settings, path)
+                             : preview::read(gcode, diameter_of_e(settings), chord_of(kind, view));
   if (paths.layers.empty())
-    throw Error{Error::Kind::file, "holds no motion that could be drawn", command.inputs[0], "is it G-code?"};
+    throw Error{Error::Kind::file, "holds no motion that could be drawn", path, "is it G-code?"};
   view.layer = layer_of(command, paths.layers.size());
-  view.title = std::filesystem::path(command.inputs[0]).filename().string();
+  set_solids(command, kind, paths.layers.size(), view);
+  view.title = std::filesystem::path(path).filename().string();
   std::optional<preview::Overlay> overlay;
-  if (command.options["audit"].as<bool>()) overlay = overlay_of(profile, gcode, console);
-  return preview::draw(kind, paths, view, overlay);
+  if (o["audit"].as<bool>()) overlay = audited(settings, gcode, console);
+  if (!is_page) return preview::draw(kind, paths, view, overlay);
+  std::vector<std::string> models;
+  if (o.count("model")) models = o["model"].as<std::vector<std::string>>();
+  return page_of(paths, gcode, path, view, overlay, models);
 }
 
 }  // namespace
@@ -120,10 +171,15 @@ preview::Kind preview_kind(const std::string& destination) {
               "the extension tells the kind of picture"};
 }
 
-void write_preview(const std::string& destination, std::string_view gcode, Um filament_diameter,
-                   const std::string& title) {
+void write_preview(const std::string& destination, const audit::Passed& gcode, const Settings& settings,
+                   const std::string& title, const std::vector<std::string>& models) {
   const auto kind = preview_kind(destination);
-  const auto paths = preview::read(gcode, filament_diameter);
+  if (kind == preview::Kind::html) {
+    const auto paths = toolpaths_of(gcode.gcode(), settings, destination);
+    return write_output(destination, page_of(paths, gcode.gcode(), destination, {.title = title},
+                                             overlay_of(settings.machine, gcode.report()), models));
+  }
+  const auto paths = preview::read(gcode.gcode(), diameter_of_e(settings));
   if (paths.layers.empty()) throw Error{Error::Kind::file, "there is no motion to draw", destination};
   write_output(destination, preview::draw(kind, paths, {.title = title}));
 }
@@ -134,7 +190,10 @@ int preview(const Words& words) {
   if (command.help) {
     std::ostringstream out;
     out << "weft preview FILE.gcode -o OUT.(html|svg|png)    look at toolpaths\n\n"
-           "svg and png show one layer, html all of them; beads are drawn as wide as their filament makes them.\n\n"
+           "svg and png show one layer, or with --view all of them as solids; html is a page that turns, for every\n"
+           "layer, that needs no network. Beads are drawn as wide as their filament makes them. A page takes the "
+           "machine\n"
+           "from the file where neither profile nor setting is given.\n\n"
         << options << "\n"
         << common_help();
     return write_output("-", out.str()), 0;

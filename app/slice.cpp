@@ -240,8 +240,8 @@ int slice(const Words& words) {
     watchdog.dismiss();
     if (cache) console.detail("cache: " + told(*cache));
     if (gcode && !preview.empty())
-      write_preview(preview, gcode->gcode(), diameter_of_e(profile.settings),
-                    std::filesystem::path(command.inputs.front()).filename().string());
+      write_preview(preview, *gcode, profile.settings,
+                    std::filesystem::path(command.inputs.front()).filename().string(), command.inputs);
     if (gcode) write_gcode(destination_of(command, profile, report), *gcode);
     finish();
     if (!gcode) throw Error{Error::Kind::audit, report.error, {}, {}};

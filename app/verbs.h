@@ -22,6 +22,7 @@ int inspect(const Words& words);
 int profile(const Words& words);
 int settings(const Words& words);
 int verify(const Words& words);
+int compare(const Words& words);
 int completions(const Words& words);
 
 /// The table of options that each of them understands beside the common ones.
@@ -35,6 +36,7 @@ Options inspect_options();
 Options profile_options();
 Options settings_options();
 Options verify_options();
+Options compare_options();
 Options completions_options();
 
 struct Verb {
@@ -54,6 +56,8 @@ inline constexpr std::array verbs{
          "one model with many settings, compared on a page"},
     Verb{"verify", verify, verify_options, "FILE.gcode [MODEL...]",
          "slice again from what the file says of itself, and compare"},
+    Verb{"compare", compare, compare_options, "A.gcode B.gcode [-o OUT.html]",
+         "what differs between two prints, of whichever slicers"},
     Verb{"preview", preview, preview_options, "FILE.gcode -o OUT.(html|svg|png)", "look at toolpaths"},
     Verb{"inspect", inspect, inspect_options, "MODEL...", "mesh facts and what a repair would do"},
     Verb{"profile", profile, profile_options, "check|import|show FILE...",

@@ -9,7 +9,7 @@ packages=(
   libcgal-dev libeigen3-dev libpolyclipping-dev                 # geometry
   libfmt-dev libtbb-dev libboost-program-options-dev nlohmann-json3-dev nettle-dev
   gettext                                                       # labels of settings in other languages
-  libminizip-dev libexpat1-dev libpng-dev                       # 3MF, pictures
+  libminizip-dev libexpat1-dev libpng-dev zlib1g-dev            # 3MF, pictures, pages
   catch2 libzip-dev                                             # tests
 )
 

@@ -92,6 +92,7 @@ void Reader::move(const Words& w) {
   const double e_mm = filament(w);
   if (!named && !(is_arc && (w.has('I') || w.has('J') || w.has('K')))) {
     if (is_arc && w.valued != 1U << ('F' - 'A')) problem("an arc without an end, centre or radius");
+    (e_mm < 0 ? drawn_alone_ : pushed_alone_) += std::abs(e_mm);
     return;
   }
   const Vec from{state_.position[x], state_.position[y]}, end{to[x], to[y]};

@@ -94,6 +94,11 @@ class Reader {
 
   const Context& context() const { return context_; }
   std::int64_t line_number() const { return line_number_; }
+  /// Filament of all lines so far that moved nothing else: pushed forward, and drawn back. Firmware's own retraction
+  /// (G10) is not in it: see retracted().
+  double pushed_alone() const { return pushed_alone_; }
+  double drawn_alone() const { return drawn_alone_; }
+  bool retracted() const { return retracted_; }  ///< by G10
   double speed_mm_s() const { return speed_mm_s_; }  ///< of the last motion, as F asks for it; 0 when it never did
   std::span<const Opaque> opaque() const { return opaque_; }  ///< in order of first use, at most 64 names
   std::int64_t opaque_count() const { return opaque_count_; }
@@ -290,6 +295,7 @@ class Reader {
   const char *line_begin_ = nullptr, *line_end_ = nullptr;
   std::int64_t line_number_ = 0, opaque_count_ = 0;
   double speed_mm_s_ = 0;
+  double pushed_alone_ = 0, drawn_alone_ = 0;
   std::vector<Motion> motions_;
   std::vector<Problem> problems_;
   std::vector<Opaque> opaque_;

@@ -13,6 +13,7 @@
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
 #include "pipeline/support_object.h"
+#include "pipeline/toolpath_pictures.h"
 #include "preview/thumbnail.h"
 #include "settings/catalogue.h"
 #include "tasks/parallel.h"
@@ -164,7 +165,10 @@ std::optional<audit::Passed> print(const Job& job, Printing what, const Watch& w
   for (const auto& object : plate.objects) of_object.push_back(scopes_of(object, scopes));
   std::vector<gcode::Thumbnail> thumbnails;
   // Pictures are drawn while the model is sliced.
-  tasks::Beside beside([&] { thumbnails = thumbnails_of(job.settings, plate); });
+  const bool of_models = job.settings.gcode.thumbnail_content == ThumbnailContent::model;
+  tasks::Beside beside([&] {
+    if (of_models) thumbnails = thumbnails_of(job.settings, plate);
+  });
   std::vector<PrintedLayers> layers;
   Box3 box;
   auto supports = rooms_of(scopes, plate);
@@ -188,9 +192,15 @@ std::optional<audit::Passed> print(const Job& job, Printing what, const Watch& w
   begin<Stage::gcode>(watch);
   audit::Check check(job.settings.machine, job.settings.material, job.settings.audit, job.audit);
   name_custom_code(job.settings.gcode, check);
-  write_gcode({job.settings, plan, statistics, std::filesystem::path(what.name).stem().string(), std::move(thumbnails),
-               provenance_lines(report.models, job.placement) + overlay_lines(plate), std::move(digests)},
-              plan, std::move(packed), check, report);
+  gcode::Job text{job.settings,
+                  plan,
+                  statistics,
+                  std::filesystem::path(what.name).stem().string(),
+                  {},
+                  provenance_lines(report.models, job.placement) + overlay_lines(plate),
+                  std::move(digests)};
+  text.thumbnails = of_models ? std::move(thumbnails) : pictures_of_toolpaths(text, plan, packed);
+  write_gcode(text, plan, std::move(packed), check, report);
   begin<Stage::audit>(watch);
   auto passed = verdict_of(check, job, report);
   watch.progress("done", 1.0);

@@ -61,6 +61,20 @@ double measure(const Stroke& stroke, Colour colour) {
   return 0;
 }
 
+std::string_view name_of(Colour colour) {
+  switch (colour) {
+    case Colour::feature:
+      return "feature";
+    case Colour::width:
+      return "width";
+    case Colour::speed:
+      return "speed";
+    case Colour::flow:
+      return "flow";
+  }
+  return "feature";
+}
+
 std::string_view unit_of(Colour colour) {
   switch (colour) {
     case Colour::feature:

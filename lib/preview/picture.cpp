@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "preview/raster.h"
 #include "preview/scene.h"
+#include "preview/solid.h"
 
 #include <algorithm>
 
@@ -57,7 +58,36 @@ void draw_legend(Image& image, const Scene& scene, int left) {
 
 }  // namespace
 
+namespace {
+
+/// Solids on paper, with their legend.
+std::vector<std::uint8_t> png_of_solids(const Toolpaths& paths, const View& view) {
+  Image drawn = solid(paths, view, fitting_size(paths, view, view.size));
+  constexpr int least_height = 420;
+  Image image(view.legend ? PixelSize{drawn.size.width + Frame::legend_width, std::max(drawn.size.height, least_height)}
+                          : drawn.size);
+  fill(image, paper);
+  for (int y = 0; y < drawn.size.height; ++y)
+    for (int x = 0; x < drawn.size.width; ++x) {
+      const std::uint8_t* from = drawn.pixel(x, y);
+      std::uint8_t* to = image.pixel(x, y);
+      for (int c = 0; c < 3; ++c)
+        to[c] = static_cast<std::uint8_t>((from[c] * from[3] + to[c] * (255 - from[3])) / 255);
+    }
+  if (view.legend) draw_legend(image, words_of(paths, view), drawn.size.width);
+  return encode_png(image);
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> thumbnail(const Toolpaths& paths, int width, int height) {
+  View view;
+  view.eye = from_above;
+  return encode_png(solid(paths, view, {width, height}));
+}
+
 std::vector<std::uint8_t> png(const Toolpaths& paths, const View& view, const std::optional<Overlay>& overlay) {
+  if (view.eye) return png_of_solids(paths, view);
   const Scene scene = scene_of(paths, view, overlay);
   const Frame frame = frame_of(scene, view.size);
   constexpr int least_height = 420;  // room for the legend

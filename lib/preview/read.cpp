@@ -2,6 +2,7 @@
 #include "audit/reader.h"
 #include "core/stop.h"
 #include "model/flow.h"
+#include "preview/in_force.h"
 #include "preview/toolpaths.h"
 
 #include <algorithm>
@@ -26,11 +27,14 @@ class Gatherer {
         chord_(chord),
         by_(by) {
     feature_of_.fill(none);
+    out_.filament_mm2 = filament_mm2_;
   }
 
   void line(const char* begin, const char* end) {
     stop_.step();
     reader_.line(begin, end);
+    in_force_.line({begin, end});
+    notice_events();
     for (const audit::Motion& motion : reader_.motions()) add(motion);
   }
 
@@ -52,11 +56,39 @@ class Gatherer {
         reach_mm)
       return;
     const double length = audit::length_mm(motion.path);
-    if (length < shortest_mm) return;
+    const bool climbs = std::abs(motion.z_to - motion.z_from) >= shortest_mm;
+    if (length < shortest_mm && !climbs) return;
     PathLayer& layer = layer_of(motion);
     if (motion.extrudes && layer.z == 0 && !custom()) start(layer, motion);
+    if (motion.e_mm < 0 && !drawn_back_) event(layer, Event::Kind::retract, 0);  // while it wipes
+    if (motion.extrudes && drawn_back_) event(layer, Event::Kind::prime, 0);
+    if (motion.tool != tool_) {
+      event(layer, Event::Kind::tool_change, 0);
+      tool_ = motion.tool;
+    }
     emit(layer, motion, look(motion, layer, length));
   }
+
+  /// What the line did without moving along X, Y or Z.
+  void notice_events() {
+    const double pushed = reader_.pushed_alone(), drawn = reader_.drawn_alone();
+    if (drawn > drawn_ || reader_.retracted() > by_firmware_)
+      event(last_layer(), Event::Kind::retract, drawn - drawn_);
+    else if ((pushed > pushed_ || reader_.retracted() < by_firmware_) && drawn_back_)
+      event(last_layer(), Event::Kind::prime, pushed - pushed_);
+    if (in_force_.pauses() > pauses_) event(last_layer(), Event::Kind::pause, 0);
+    pushed_ = pushed, drawn_ = drawn, by_firmware_ = reader_.retracted(), pauses_ = in_force_.pauses();
+  }
+  void event(PathLayer& layer, Event::Kind kind, double mm) {
+    if (kind == Event::Kind::retract) drawn_back_ = true;
+    if (kind == Event::Kind::prime) drawn_back_ = false;
+    const double speed_mm_s = reader_.speed_mm_s();
+    layer.events.push_back({kind, static_cast<std::uint32_t>(layer.strokes.size()), static_cast<float>(std::abs(mm)),
+                            static_cast<float>(speed_mm_s > 0 ? std::abs(mm) / speed_mm_s : 0)});
+  }
+
+  /// The layer that was written to last. Before the first motion there is nothing to show where.
+  PathLayer& last_layer() { return out_.layers.empty() ? before_ : out_.layers.back(); }
 
   bool custom() const { return by_ == LayersBy::comments && reader_.context().custom(); }
 
@@ -87,10 +119,15 @@ class Gatherer {
     stroke.line = static_cast<std::uint32_t>(reader_.line_number());
     stroke.speed_mm_s = static_cast<float>(reader_.speed_mm_s());
     stroke.feature = feature();
-    if (!motion.extrudes || motion.e_mm <= 0) return stroke;
+    stroke.z = from_mm(motion.z_to);
+    stroke.tool = static_cast<std::uint8_t>(std::clamp(motion.tool, 0, 255));
+    stroke.fan_percent = in_force_.fan_percent();
+    stroke.nozzle_c = in_force_.nozzle_c();
+    stroke.acceleration_mm_s2 = in_force_.acceleration_mm_s2(motion.extrudes);
+    if (!motion.extrudes || motion.e_mm <= 0 || length < shortest_mm) return stroke;
     const double area_mm2 = motion.e_mm * (motion.volumetric ? 1.0 : filament_mm2_) / length;
-    const double height_mm =
-        layer.height > 0 ? to_mm(layer.height) : 0.2;  // start G-code purges before any layer is known
+    const double height_mm = bead_height_mm(layer);
+    stroke.height = from_mm(height_mm);
     const double band_mm = std::min(area_mm2 / height_mm, 50.0);
     stroke.width = std::max(flow::line_width(from_mm(band_mm), from_mm(height_mm)), 1);
     stroke.flow_mm3_s = static_cast<float>(area_mm2) * stroke.speed_mm_s;
@@ -101,6 +138,14 @@ class Gatherer {
     stroke.compensated =
         said_mm > 0 && !bridge && !custom() && area_mm2 < full_flow * flow::area_mm2(said_mm, height_mm);
     return stroke;
+  }
+
+  /// As the file says it here: what fills two layers at once is twice as high.
+  double bead_height_mm(const PathLayer& layer) const {
+    const double said_mm = reader_.context().height_mm();
+    if (by_ == LayersBy::comments && said_mm > 0 && said_mm < 10 && !custom()) return said_mm;
+    constexpr double unknown_mm = 0.2;  // start G-code purges before any layer is known
+    return layer.height > 0 ? to_mm(layer.height) : unknown_mm;
   }
 
   std::uint8_t feature() {
@@ -131,7 +176,9 @@ class Gatherer {
       pieces = static_cast<int>(std::clamp(std::ceil(sweep_rad / step_rad), 1.0, 10'000.0));
     }
     Point last = point(motion.path.from);
+    const double rise = motion.z_to - motion.z_from;
     for (int i = 1; i <= pieces; ++i) {
+      stroke.z = from_mm(i == pieces ? motion.z_to : motion.z_from + rise * i / pieces);
       const Point next = point(i == pieces ? motion.path.to : audit::at(motion.path, static_cast<double>(i) / pieces));
       stroke.from = last, stroke.to = next;
       layer.strokes.push_back(stroke);
@@ -145,6 +192,12 @@ class Gatherer {
   StopNowAndThen stop_{1000};
   LayersBy by_;
   audit::Reader reader_{{}};
+  InForce in_force_;
+  bool drawn_back_ = false, by_firmware_ = false;
+  double pushed_ = 0, drawn_ = 0;
+  std::uint32_t pauses_ = 0;
+  int tool_ = 0;
+  PathLayer before_;
   std::array<std::uint8_t, 256> feature_of_{};
   std::uint8_t custom_ = none;
   Toolpaths out_;
@@ -159,36 +212,7 @@ void read_lines(Gatherer& gatherer, std::string_view gcode) {
   gatherer.line(last.data(), last.data() + last.size() - 1);
 }
 
-/// Where the lines stand that begin a layer.
-std::vector<std::size_t> layer_marks(std::string_view gcode, std::string_view mark) {
-  std::vector<std::size_t> out;
-  for (auto at = gcode.find(mark); at != std::string_view::npos; at = gcode.find(mark, at + mark.size()))
-    if (at == 0 || gcode[at - 1] == '\n') out.push_back(at);
-  return out;
-}
-
 }  // namespace
-
-Toolpaths read_layer(std::string_view gcode, Um filament_diameter, double share) {
-  auto marks = layer_marks(gcode, ";LAYER_CHANGE");
-  if (marks.empty()) marks = layer_marks(gcode, ";LAYER:");
-  const auto place = [share](std::size_t count) {
-    return std::min(count - 1, static_cast<std::size_t>(std::max(share, 0.0) * static_cast<double>(count)));
-  };
-  Toolpaths out;
-  if (marks.empty()) {
-    out = read(gcode, filament_diameter);
-    if (!out.layers.empty()) out.layers = {std::move(out.layers[place(out.layers.size())])};
-    return out;
-  }
-  // The layer before says where the nozzle is, and to what height E has come.
-  const std::size_t layer = place(marks.size());
-  const auto begin = marks[layer > 0 ? layer - 1 : 0];
-  const auto end = layer + 1 < marks.size() ? marks[layer + 1] : gcode.size();
-  out = read(std::string(gcode.substr(0, marks.front())).append(gcode.substr(begin, end - begin)), filament_diameter);
-  if (out.layers.size() > 1) out.layers = {std::move(out.layers.back())};
-  return out;
-}
 
 Toolpaths read(std::string_view gcode, Um filament_diameter, Chord chord) {
   Gatherer gatherer(filament_diameter, chord, Gatherer::LayersBy::comments);

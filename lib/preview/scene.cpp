@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -38,11 +39,13 @@ void append(std::vector<Line>& lines, const Stroke& stroke, Um width, Rgb colour
   lines.push_back({{stroke.from, stroke.to}, width, colour});
 }
 
-void add_legend(Scene& scene, const Toolpaths& paths, const View& view, const PathLayer& layer, Range range) {
+void add_legend(Scene& scene, const Toolpaths& paths, const View& view, std::span<const PathLayer> layers,
+                Range range) {
   if (view.colour == Colour::feature) {
     std::vector<bool> present(paths.features.size());
-    for (const Stroke& stroke : layer.strokes)
-      if (stroke.extrudes()) present[stroke.feature] = true;
+    for (const PathLayer& layer : layers)
+      for (const Stroke& stroke : layer.strokes)
+        if (stroke.extrudes()) present[stroke.feature] = true;
     for (std::size_t i = 0; i < present.size(); ++i)
       if (present[i]) {
         std::string name = paths.features[i].empty() ? "other" : paths.features[i];
@@ -98,7 +101,18 @@ Scene scene_of(const Toolpaths& paths, const View& view, const std::optional<Ove
   if (!view.title.empty()) scene.title.push_back(view.title);
   scene.title.push_back(fmt::format("layer {} of {}", index, paths.layers.size()));
   scene.title.push_back(fmt::format("z {:.2f}, height {:.2f}", to_mm(layer.z), to_mm(layer.height)));
-  add_legend(scene, paths, view, layer, range);
+  add_legend(scene, paths, view, {&layer, 1}, range);
+  return scene;
+}
+
+Scene words_of(const Toolpaths& paths, const View& view) {
+  Scene scene;
+  const auto [first, last] = view.layers.value_or(std::pair<std::size_t, std::size_t>{0, paths.layers.size() - 1});
+  if (!view.title.empty()) scene.title.push_back(view.title);
+  scene.title.push_back(fmt::format("layers {} to {} of {}", first, last, paths.layers.size()));
+  scene.title.push_back(fmt::format("z {:.2f} to {:.2f}", to_mm(paths.layers[first].z), to_mm(paths.layers[last].z)));
+  add_legend(scene, paths, view, std::span(paths.layers).subspan(first, last - first + 1),
+             range_of(paths, first, last, view.colour));
   return scene;
 }
 

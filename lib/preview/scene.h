@@ -33,6 +33,9 @@ struct Scene {
 /// Pre: as preview.h. The box holds the layer but for custom G-code and travels, the overlay and what it found outside.
 Scene scene_of(const Toolpaths& paths, const View& view, const std::optional<Overlay>& overlay);
 
+/// Title and legend of a picture of solids, and nothing else.
+Scene words_of(const Toolpaths& paths, const View& view);
+
 /// Pixels of the drawing, and of the legend to the right of it.
 struct Frame {
   double pixels_per_mm;

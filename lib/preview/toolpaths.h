@@ -9,23 +9,41 @@
 
 namespace weft::preview {
 
-/// A straight piece of the nozzle's way; arcs are cut into such pieces.
+/// A straight piece of the nozzle's way; arcs are cut into such pieces. A piece that only rises or sinks has one place.
 struct Stroke {
   Point from, to;
+  Um z = 0;  ///< of the nozzle where it ends
   Um width =
       0;  ///< line width of the bead that the filament of this piece makes (model/flow.h); 0: nothing is extruded
+  Um height = 0;  ///< of the bead, as the file announces it, else of the layer
   float speed_mm_s = 0;
   float flow_mm3_s = 0;
-  std::uint8_t feature = 0;  ///< index into Toolpaths::features
-  bool compensated = false;  ///< less filament than the width that the file announces (;WIDTH:) would take
-  std::uint32_t line = 0;    ///< of the file, from 1
+  float seconds = 0;                     ///< see set_seconds
+  std::uint32_t line = 0;                ///< of the file, from 1
+  std::uint16_t acceleration_mm_s2 = 0;  ///< in force; 0: the file has not said
+  std::int16_t nozzle_c = 0;             ///< what the nozzle was last told to reach; 0: nothing
+  std::uint8_t feature = 0;              ///< index into Toolpaths::features
+  std::uint8_t tool = 0;
+  std::uint8_t fan_percent = 0;
+  std::uint8_t support_percent = 100;  ///< see set_support
+  bool compensated = false;            ///< less filament than the width that the file announces (;WIDTH:) would take
 
   bool extrudes() const { return width > 0; }
+};
+
+/// What happens between two strokes, at one place.
+struct Event {
+  enum class Kind : std::uint8_t { retract, prime, tool_change, pause };
+  Kind kind = Kind::retract;
+  std::uint32_t stroke = 0;  ///< of the layer: the one before which it happens; their number: at the end
+  float mm = 0;              ///< of filament, of the first two; 0: as the firmware has it
+  float seconds = 0;         ///< that it takes, of the first two
 };
 
 struct PathLayer {
   Um z = 0, height = 0;
   std::vector<Stroke> strokes;  ///< in the order of the file
+  std::vector<Event> events;    ///< likewise
 };
 
 /// How far the pieces of an arc may stand off it: the larger of a length, as fine as a bead is ever looked at, and of a
@@ -40,6 +58,7 @@ struct Toolpaths {
   std::vector<std::string>
       features;  ///< weft's names of what beads are for ("outer_wall"), other slicers' where weft has none
   std::vector<PathLayer> layers;
+  double filament_mm2 = 0;  ///< cross-section of what E is measured in
 };
 
 /// What is put before the first layer (start G-code) counts to the first, what comes last to the last.
@@ -47,11 +66,5 @@ struct Toolpaths {
 /// @throws Stopped, and nothing else: what cannot be understood is not drawn. Cost: linear in bytes, and in pieces of
 /// arcs: √(radius / chord) for each
 Toolpaths read(std::string_view gcode, Um filament_diameter, Chord chord = {});
-
-/// One layer of a file that announces its layers in comments, as most slicers do: only its text is read, and what comes
-/// right before it. Of other files all is read.
-/// @param share  of the layers that lie below the one that is meant, 0 … 1
-/// Post: at most one layer.
-Toolpaths read_layer(std::string_view gcode, Um filament_diameter, double share);
 
 }  // namespace weft::preview

@@ -63,6 +63,13 @@ TEST_CASE("weft preview: wrong use and files that cannot be shown") {
       {{"preview", "part.gcode", "-o", "p.png", "--colour", "taste"}, 2, "'taste'"},
       {{"preview", "part.gcode", "-o", "p.png", "--size", "1"}, 2, "--size"},
       {{"preview", "part.gcode", "-o", "p.png", "--window", "5x5,5x9"}, 2, "--window"},
+      {{"preview", "part.gcode", "-o", "p.png", "--view", "above"}, 2, "'above'"},
+      {{"preview", "part.gcode", "-o", "p.png", "--view", "0,0,0"}, 2, "--view"},
+      {{"preview", "part.gcode", "-o", "p.png", "--view", "1,2"}, 2, "--view"},
+      {{"preview", "part.gcode", "-o", "p.svg", "--view", "iso"}, 2, "--view"},
+      {{"preview", "part.gcode", "-o", "p.png", "--layers", "0:1"}, 2, "--layers"},
+      {{"preview", "part.gcode", "-o", "p.png", "--view", "iso", "--layers", "1:0"}, 2, "layers 0 … 1"},
+      {{"preview", "part.gcode", "-o", "p.png", "--view", "iso", "--layers", "0:2"}, 2, "'0:2'"},
       {{"preview", "gone.gcode", "-o", "p.png"}, 6, "gone.gcode"},
       {{"preview", "none.gcode", "-o", "p.png"}, 6, "no motion"},
       {{"preview", "part.gcode", "-o", "nowhere/p.png"}, 6, "nowhere"},
@@ -91,4 +98,59 @@ TEST_CASE("weft slice: --preview draws the very file it writes, and another exte
   CHECK(body("box.svg") == body("again.svg"));
   CHECK(weft({"slice", "box.stl", "-o", "none.gcode", "--preview", "box.jpg"}, scratch.path()).status == 2);
   CHECK_FALSE(scratch.has("none.gcode"));
+}
+
+TEST_CASE("weft preview: solids are the same picture on one thread and on four, and a range of layers another one") {
+  const Scratch scratch;
+  scratch.write("part.gcode", two_layers);
+  const auto draw = [&](const std::string& name, std::vector<std::string> more) {
+    std::vector<std::string> words{"preview", "part.gcode", "-o", name, "--view", "iso", "--size", "200"};
+    words.insert(words.end(), more.begin(), more.end());
+    const auto run = weft(words, scratch.path());
+    INFO(run.err);
+    CHECK(run.status == 0);
+    return scratch.read(name);
+  };
+  const auto one = draw("a.png", {"-j", "1"});
+  CHECK_THAT(one, StartsWith("\x89PNG"));
+  CHECK(one == draw("b.png", {"-j", "4"}));
+  CHECK(one == draw("c.png", {"--layers", "0:-1"}));
+  CHECK(one != draw("d.png", {"--layers", "0:0"}));
+}
+
+TEST_CASE("weft preview: a page takes machine and model from what the file says of itself") {
+  const Scratch scratch;
+  scratch.write("box.stl", box_stl(20, 20, 2));
+  REQUIRE(weft({"slice", "box.stl", "-o", "box.gcode"}, scratch.path()).status == 0);
+  REQUIRE(weft({"preview", "box.gcode", "-o", "with.html"}, scratch.path()).status == 0);
+  CHECK_THAT(scratch.read("with.html"), Contains("id=\"model-0\"") && Contains("id=\"pack-0\""));
+  scratch.write("box.stl", box_stl(21, 20, 2));  // another one by that name is none
+  REQUIRE(weft({"preview", "box.gcode", "-o", "without.html"}, scratch.path()).status == 0);
+  CHECK_THAT(scratch.read("without.html"), !Contains("id=\"model-0\""));
+}
+
+TEST_CASE("weft slice: thumbnails of the toolpaths are other pictures in the same file, whatever the threads") {
+  const Scratch scratch;
+  scratch.write("box.stl", box_stl(20, 20, 2));
+  const auto slice = [&](const char* content, const char* threads) {
+    const auto run = weft({"slice", "box.stl", "-s", std::string("thumbnail_content=") + content, "-s",
+                           "thumbnails=48x48", "-j", threads, "-o", "box.gcode"},
+                          scratch.path());
+    INFO(run.err);
+    REQUIRE(run.status == 0);
+    return scratch.read("box.gcode");
+  };
+  const auto moves = [](const std::string& text) {
+    const auto from = text.find(";LAYER_CHANGE");
+    return text.substr(from, 2000);
+  };
+  const auto model = slice("model", "2"), paths = slice("toolpaths", "2");
+  CHECK_THAT(paths, Contains("; thumbnail begin 48x48"));
+  const auto picture = [](const std::string& text) {
+    const auto from = text.find("; thumbnail begin");
+    return text.substr(from, text.find("; thumbnail end") - from);
+  };
+  CHECK(picture(model) != picture(paths));
+  CHECK(moves(model) == moves(paths));
+  CHECK(paths == slice("toolpaths", "1"));
 }

@@ -96,34 +96,6 @@ TEST_CASE("preview: what is no G-code has no layers, and damaged G-code is drawn
   CHECK(extruded(paths.layers[0], paths, "outer_wall").size() == 2);
 }
 
-TEST_CASE("preview: one layer read alone is as it is in the whole file", "[preview]") {
-  std::string gcode = "G28\nM82\nG92 E0\n";  // E absolute: what a layer extrudes is told by the one before
-  double e = 0;
-  for (int layer = 0; layer < 20; ++layer) {
-    gcode += fmt::format(";LAYER_CHANGE\n;Z:{0}\n;HEIGHT:0.2\nG1 Z{0} F600\n;TYPE:Perimeter\n", 0.2 * (layer + 1));
-    for (int side = 0; side < 4; ++side) {
-      gcode += fmt::format("G1 X{} Y{} E{:.5f} F1800\n", 10 * (side == 0 || side == 1) + layer,
-                           10 * (side == 1 || side == 2) + layer, e);
-      e += 0.3;
-    }
-  }
-  const auto whole = read(gcode, 1750);
-  REQUIRE(whole.layers.size() == 20);
-  for (const auto& [share, index] : {std::pair{0.0, 0u}, {0.5, 10u}, {0.99, 19u}, {1.0, 19u}, {0.05, 1u}}) {
-    const auto alone = read_layer(gcode, 1750, share);
-    REQUIRE(alone.layers.size() == 1);
-    const auto &a = alone.layers[0], &b = whole.layers[index];
-    CHECK(a.z == b.z);
-    REQUIRE(a.strokes.size() == b.strokes.size());
-    for (std::size_t i = 0; i < a.strokes.size(); ++i) {
-      CHECK(a.strokes[i].to == b.strokes[i].to);
-      CHECK(a.strokes[i].width == b.strokes[i].width);
-    }
-  }
-  CHECK(read_layer("G1 X1\n", 1750, 0.5).layers.size() <= 1);
-  CHECK(read_layer("", 1750, 0.5).layers.empty());
-}
-
 TEST_CASE("preview: a picture without legend is the drawing alone", "[preview]") {
   const auto paths = read(two_layers(), 1750);
   const auto width = [](const std::vector<std::uint8_t>& png) { return png[18] * 256 + png[19]; };  // in IHDR
