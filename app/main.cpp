@@ -46,7 +46,7 @@ int run(Words words) {
   const auto is_export = [](const std::string& w) { return w == "-g" || w == "--export-gcode" || w == "--gcode"; };
   if (std::any_of(words.begin(), words.end(), is_export)) {
     std::erase_if(words, is_export);
-    return slice(words);
+    return app::slice(words);
   }
   if (std::find(words.begin(), words.end(), "--info") != words.end()) {
     std::erase(words, "--info");

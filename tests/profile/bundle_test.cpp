@@ -218,7 +218,7 @@ Tally resolve_vendors(bool whole) {
   for (const auto& file : files) {
     ++tally.bundles;
     const auto bundle =
-        ps::read_bundle(parse_ini(read_profile(file), file.filename().string()), file.filename().string());
+        ps::read_bundle(parse_ini(read_profile(file, {}), file.filename().string()), file.filename().string());
     for (const auto* printer : ps::presets_of(bundle, ps::PresetKind::printer)) {
       std::size_t prints = 0;
       const auto fitting = ps::presets_of(bundle, ps::PresetKind::filament, printer);

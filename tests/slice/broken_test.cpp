@@ -182,10 +182,12 @@ TEST_CASE("broken: every mesh of the series has the area that a person would exp
     const auto repaired = mesh::repair(welded(broken.make()));
     const std::vector<slice::Plane> planes{{1'100, 200, 1'000}, {5'100, 200, 5'000}, {9'100, 200, 9'000}};
     const slice::Cutter cutter(repaired.mesh, planes);
+    LayerSettings fine;
+    fine.resolution = 13;
     for (std::size_t i = 0; i < planes.size(); ++i) {
       CAPTURE(i);
       double area = 0;
-      for (const auto& region : cutter.cut(i, {.resolution = 13}).layer.regions) area += area_mm2(region);
+      for (const auto& region : cutter.cut(i, fine).layer.regions) area += area_mm2(region);
       CHECK(area == Approx(broken.area_mm2[i]).margin(0.5));
     }
   }

@@ -80,12 +80,12 @@ TEST_CASE("slice: layers stand on each other, cut in their middle, the first of 
 }
 
 TEST_CASE("slice: what remains at the top is a layer when it is at least half of one") {
-  CHECK(planes({}, 1000).size() == 5);
-  CHECK(planes({}, 1099).size() == 5);
-  CHECK(planes({}, 1100).size() == 6);
-  CHECK(planes({}, 22500).size() == 113);
-  CHECK(planes({}, 48000).size() == 240);
-  CHECK(planes({}, 0).empty());
+  CHECK(planes(LayerSettings{}, 1000).size() == 5);
+  CHECK(planes(LayerSettings{}, 1099).size() == 5);
+  CHECK(planes(LayerSettings{}, 1100).size() == 6);
+  CHECK(planes(LayerSettings{}, 22500).size() == 113);
+  CHECK(planes(LayerSettings{}, 48000).size() == 240);
+  CHECK(planes(LayerSettings{}, 0).empty());
 }
 
 TEST_CASE("slice: a layer that the model ends in the middle of is printed") {
