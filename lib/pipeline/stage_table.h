@@ -26,7 +26,7 @@ namespace pipeline {
 
 struct FilledLayer;
 
-enum class Stage : std::uint8_t { read, slice, walls, infill, travel, gcode, audit };
+enum class Stage : std::uint8_t { read, slice, support, walls, infill, travel, gcode, audit };
 
 /// Of a stage whose result no cache keeps.
 struct NotKept {};
@@ -53,6 +53,7 @@ inline constexpr std::tuple stage_table{
     stage<mesh::Loaded>(Stage::read, "read", "", 0, 1),
     stage<std::vector<slice::Cut>>(Stage::slice, "slice", "slicing", 0.05, 2,
                                    WholeGroup{&Settings::layers, layer_schema}),
+    stage<NotKept>(Stage::support, "support", "", 0, 1),
     stage<std::vector<WallLayer>>(Stage::walls, "walls", "walls", 0.15, 2, WholeGroup{&Settings::walls, wall_schema},
                                   OneValue{&Settings::machine, &MachineSettings::nozzle_diameter}),
     stage<std::vector<FilledLayer>>(

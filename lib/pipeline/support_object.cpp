@@ -148,7 +148,7 @@ void support_object(const Scopes& all, const ObjectScopes& scopes, const Object&
   const ScopeId on_first_layer = scopes.front().of_volume.front();
   const ScopeId above = all.above_first_layer(on_first_layer);
   const Settings& settings = all[above];
-  const Stopwatch stopwatch(report.timings_ms[Stage::slice]);
+  const Stopwatch stopwatch(report.timings_ms[Stage::support]);
   if (supports(settings)) read_marks(settings, object, cuts, out);
   std::vector<const SlicedLayer*> layers;
   Box box;
