@@ -174,6 +174,8 @@ std::filesystem::path checked_folder(const std::string& typed) {
 /// What is read is known before anything that is written is looked at.
 void check_files(Command& command, Result result) {
   for (const auto& input : command.inputs) command.files.reads(input);
+  for (const auto& mark : command.marks)
+    if (!mark.source.starts_with("box:")) command.files.reads(mark.source);
   for (const auto& profile : command.profiles) command.files.reads(profile.string());
   for (const std::string option : written)
     if (command.options.count(option))
@@ -205,6 +207,18 @@ ConsoleOptions console_options(const po::variables_map& o) {
 
 }  // namespace
 
+namespace {
+
+/// What an option marks of the model before it.
+std::optional<mesh::MarkKind> mark_of(std::string_view option) {
+  if (option == "support-enforcer") return mesh::MarkKind::support_enforcer;
+  if (option == "support-blocker") return mesh::MarkKind::support_blocker;
+  if (option == "support-mesh") return mesh::MarkKind::support;
+  return std::nullopt;
+}
+
+}  // namespace
+
 Command parse_command(const std::vector<std::string>& words, const po::options_description& verb_options,
                       Result result) {
   po::options_description all, hidden;
@@ -228,6 +242,11 @@ Command parse_command(const std::vector<std::string>& words, const po::options_d
     po::store(parsed, command.options);
     po::notify(command.options);
     for (const auto& option : parsed.options) {
+      if (const auto kind = mark_of(option.string_key)) {
+        if (command.inputs.empty())
+          throw Error{Error::Kind::usage, "stands before any model", "--" + option.string_key, "name the model first"};
+        command.marks.push_back({command.inputs.size() - 1, *kind, option.value.at(0)});
+      }
       if (option.string_key == "set")
         command.settings.push_back(assignment(option.value.at(0)));
       else if (settings.find_nothrow(option.string_key, false))

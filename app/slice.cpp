@@ -34,6 +34,10 @@ po::options_description slice_options() {
       "drop", po::bool_switch(), "with --keep-position: put down what floats or dips")(
       "scale", po::value<std::string>()->value_name("F"), "uniform scale: 2, 0.5, 25.4 or 50%")(
       "rotate", po::value<double>()->value_name("DEG")->default_value(0.0, "0"), "rotation about Z, counter-clockwise")(
+      "support-enforcer", po::value<std::vector<std::string>>()->value_name("FILE"),
+      "support what lies in this mesh, or in box:x,y,z,x,y,z, of the model before it")(
+      "support-blocker", po::value<std::vector<std::string>>()->value_name("FILE"), "support nothing in it")(
+      "support-mesh", po::value<std::vector<std::string>>()->value_name("FILE"), "print it as support")(
       "copies", po::value<int>()->value_name("N")->default_value(1), "N copies, arranged on the bed")(
       "spacing", po::value<double>()->value_name("MM")->default_value(6.0, "6"), "between copies, and between models")(
       "duplicate", po::value<int>()->value_name("N"), "the same")(
@@ -95,6 +99,7 @@ Job job_of(const Command& command, const Settings& settings) {
   job.models = command.inputs;
   job.settings = settings;
   job.placement = placement_of(command.options);
+  job.marks = command.marks;
   job.threads = command.threads;
   job.hash_gcode = command.report.has_value();
   const auto mode = command.options["audit"].as<std::string>();

@@ -69,6 +69,11 @@ void add_profiles(JobLine& j, const Values& v, Folder folder) {
   j.folder = folder;
   for (const auto& path : v) j.profiles.emplace_back(path);
 }
+template <mesh::MarkKind kind>
+void add_marks(JobLine& j, const Values& v, Folder folder) {
+  for (const auto& source : v)
+    j.marks.push_back({0, kind, source.starts_with("box:") ? source : placed(source, folder)});
+}
 constexpr std::array fields{
     Field{"id", false, [](JobLine& j, const Values& v, Folder) { j.id = v[0]; }},
     Field{"models", true, add_models},
@@ -82,6 +87,9 @@ constexpr std::array fields{
     Field{"scale", false, [](JobLine& j, const Values& v, Folder) { j.placement.scale = scale(v[0]); }},
     Field{"rotate", false,
           [](JobLine& j, const Values& v, Folder) { j.placement.rotate_deg = number(v[0], -36000, 36000); }},
+    Field{"support_enforcer", true, add_marks<mesh::MarkKind::support_enforcer>},
+    Field{"support_blocker", true, add_marks<mesh::MarkKind::support_blocker>},
+    Field{"support_mesh", true, add_marks<mesh::MarkKind::support>},
     Field{"copies", false,
           [](JobLine& j, const Values& v, Folder) {
             const double n = number(v[0], 1, 10000);

@@ -23,6 +23,7 @@ struct JobLine {
   std::filesystem::path folder;                               ///< of the list
   std::vector<std::pair<std::string, std::string>> settings;  ///< key and value, in the order given
   Placement placement;
+  std::vector<ModelMark> marks{};  ///< of its first model
   audit::Mode audit = audit::Mode::reject;
   double timeout_s = 0;  ///< 0: that of the batch
   /// What the job is called or wanted for, by name: weft carries it to every report and reads none of it. Values are

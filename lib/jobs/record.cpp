@@ -197,6 +197,11 @@ std::string inputs_hash(const Job& job, FileHashes& files) {
     exact::add(key, fs::path(model).filename().string());  // stands in the G-code
     exact::add(key, files.of(model));
   }
+  for (const auto& mark : job.marks) {
+    exact::add(key, std::uint64_t{mark.model});
+    exact::add(key, mark.kind);
+    exact::add(key, mark.source.starts_with("box:") ? mark.source : files.of(mark.source));
+  }
   const auto& p = job.placement;
   exact::add(key, p.centre);
   exact::add(key, p.keep_position);

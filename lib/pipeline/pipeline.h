@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "audit/audit.h"
+#include "mesh/mark.h"
 #include "mesh/mesh.h"
 #include "model/sequence.h"
 #include "pipeline/report.h"
@@ -27,11 +28,19 @@ struct Placement {
   Um spacing = 6000;  ///< between copies and models
 };
 
+/// A file, or a box, that marks something of a model: `box:x,y,z,x,y,z` in mm, two opposite corners.
+struct ModelMark {
+  std::size_t model = 0;  ///< index into Job::models, in whose coordinates it is
+  mesh::MarkKind kind = mesh::MarkKind::support_enforcer;
+  std::string source;     ///< as typed
+};
+
 /// Everything a slice depends on: two equal jobs give equal bytes.
 struct Job {
   std::vector<std::string> models;  ///< paths as typed
   Settings settings;
   Placement placement;
+  std::vector<ModelMark> marks{};
   audit::Mode audit = audit::Mode::reject;
   unsigned threads = 0;    ///< 0: all cores. The result does not depend on it
   bool hash_gcode = true;  ///< whether the report is to hold the SHA-256 of the G-code

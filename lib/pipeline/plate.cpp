@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/plate.h"
 
+#include "core/error.h"
 #include "core/file_bytes.h"
 #include "mesh/placement.h"
 #include "mesh/read.h"
 #include "pipeline/cached.h"
 #include "pipeline/stopwatch.h"
 #include "preview/thumbnail.h"
+#include "settings/value.h"
 #include "tasks/parallel.h"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iterator>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -50,12 +55,57 @@ mesh::Loaded read_model(const std::string& path, double scale, StageCache* cache
       .take();
 }
 
+/// The eight corners and twelve triangles of a box. @throws Error{usage}
+Mesh box_mesh(const std::string& source, double scale) {
+  std::vector<double> at;
+  std::string_view rest = std::string_view(source).substr(4);
+  try {
+    while (!rest.empty()) {
+      const auto end = std::min(rest.find(','), rest.size());
+      value::parse(rest.substr(0, end), Unit::none, at.emplace_back());
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+  } catch (const std::invalid_argument&) {
+    at.clear();
+  }
+  const auto beyond = [](double v) { return !(std::abs(v) <= 16000); };
+  for (double& v : at) v *= scale;
+  if (at.size() != 6 || std::any_of(at.begin(), at.end(), beyond))
+    throw Error{Error::Kind::usage, fmt::format("'{}' is not six numbers of mm", source), "--support-enforcer",
+                "as in box:0,0,0,10,10,5: two opposite corners"};
+  Mesh out;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const auto pick = [&](std::size_t axis, bool high) {
+      return from_mm(high ? std::max(at[axis], at[axis + 3]) : std::min(at[axis], at[axis + 3]));
+    };
+    out.vertices.push_back({pick(0, (i & 1) != 0), pick(1, (i & 2) != 0), pick(2, (i & 4) != 0)});
+  }
+  out.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return out;
+}
+
+/// What the command line or a job lays beside a model.
+void add_marks(const Job& job, std::vector<mesh::Loaded>& loaded) {
+  for (const auto& mark : job.marks) {
+    std::vector<Mesh> meshes;
+    if (mark.source.starts_with("box:"))
+      meshes.push_back(box_mesh(mark.source, job.placement.scale));
+    else
+      for (auto& object : mesh::read_file(mark.source, {.scale = job.placement.scale}).objects)
+        meshes.push_back(std::move(object.mesh));
+    for (auto& object : loaded[mark.model].objects)
+      for (const Mesh& mesh : meshes) object.marks.push_back({mark.kind, false, mesh});
+  }
+}
+
 }  // namespace
 
 Plate place_models(const Job& job, Report& report, StageCache* cache) {
   const Stopwatch stopwatch(report.timings_ms[Stage::read]);
   auto loaded = tasks::parallel_map(
       job.models.size(), [&](std::size_t i) { return read_model(job.models[i], job.placement.scale, cache); });
+  add_marks(job, loaded);
   Plate out;
   for (const auto& model : loaded) {
     note_model(model, report);
