@@ -4,6 +4,7 @@
 #include "settings/value.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -68,7 +69,23 @@ void raft(Lines& lines, const Set& set) {
 
 }  // namespace
 
-void import_support(Lines& lines, const SupportBasis& basis, const Set& set) {
+void import_support(Lines& lines, const SupportBasis& basis, const Set& set_any) {
+  // A profile says these whether it prints support or not, and weft has finer words for them: they are its own until
+  // the profile needs them.
+  constexpr std::array<std::string_view, 7> only_with_support{
+      "support_structure",       "support_normal_shape", "support_max_bridge_length", "speed_support_infill",
+      "speed_support_interface", "support_roof_height",  "support_bottom_height"};
+  const auto above_0 = [&](std::string_view key) {
+    const auto* e = lines.look(key);
+    return e != nullptr && lines.figure(*e).v > 0;
+  };
+  const auto* enabled = lines.look("support_material");
+  const bool on = (enabled != nullptr && lines.flag(*enabled)) || above_0("raft_layers") ||
+                  above_0("support_material_enforce_layers");
+  const Set set = [&](std::string_view key, std::string text, const IniEntry& e) {
+    if (on || std::find(only_with_support.begin(), only_with_support.end(), key) == only_with_support.end())
+      set_any(key, std::move(text), e);
+  };
   style(lines, set);
   interfaces(lines, basis.layer_height, set);
   raft(lines, set);
