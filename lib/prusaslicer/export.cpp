@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <set>
@@ -175,6 +176,26 @@ class Exporter {
         "skirt_brim_minimal_length");
   }
 
+  void overhangs() {
+    const auto& v = s_.speeds;
+    const auto& c = s_.cooling;
+    const SpeedOrShare speeds[] = {v.speed_overhang_100, v.speed_overhang_75, v.speed_overhang_50, v.speed_overhang_25};
+    const std::optional<double> fans[] = {c.overhang_fan_speed_100, c.overhang_fan_speed_75, c.overhang_fan_speed_50,
+                                          c.overhang_fan_speed_25};
+    const bool slower = std::any_of(std::begin(speeds), std::end(speeds), [](const SpeedOrShare& s) {
+      return s != SpeedOrShare{100, true};
+    });
+    const bool cooler = std::any_of(std::begin(fans), std::end(fans), [](const auto& f) { return f.value_or(0) > 0; });
+    say("enable_dynamic_overhang_speeds", slower ? "1" : "0");
+    say("enable_dynamic_fan_speeds", cooler ? "1" : "0");
+    static constexpr std::string_view bands[] = {"100", "75", "50", "25"};
+    for (std::size_t i = 0; i < std::size(bands); ++i) {
+      const auto speed = fmt::format("speed_overhang_{}", bands[i]),
+                 fan = fmt::format("overhang_fan_speed_{}", bands[i]);
+      say(fmt::format("overhang_speed_{}", i), print(speed), speed);
+      say(fmt::format("overhang_fan_speed_{}", i), number(fans[i].value_or(0)), fan);
+    }
+  }
   void speeds() {
     const auto& v = s_.speeds;
     for_each_reckoned(Form::speed, [&](const Key& row) { say(row.name, print(row.ours), row.ours); });
@@ -182,6 +203,7 @@ class Exporter {
         "speed_small_perimeter");
     say("first_layer_speed", print("speed_layer_0"), "speed_layer_0");
     say("overhangs", "1");
+    overhangs();
     say("travel_speed_z", print("speed_z_hop"), "speed_z_hop");
     const double skirt = v.skirt_brim_speed.value_or(std::min(v.speed_wall_0, v.speed_layer_0.of(v.speed_wall_0)));
     const bool support = s_.support.support_enable || s_.adhesion.adhesion_type == AdhesionType::raft;

@@ -7,6 +7,7 @@
 #include "prusaslicer/import_support.h"
 #include "prusaslicer/keys.h"
 #include "prusaslicer/lines.h"
+#include "prusaslicer/overhangs.h"
 #include "prusaslicer/text.h"
 #include "settings/value.h"
 
@@ -244,13 +245,8 @@ class Translator {
       const auto f = lines_.figure(*e);
       set("speed_layer_0", f.v == 0 ? "100%" : number(f.v) + (f.percent ? "%" : ""), *e);
     }
-    if (const auto* e = lines_.find("overhangs")) {  // walls over air are bridges to PrusaSlicer
-      const auto* bridge = lines_.look("bridge_speed");
-      if (!lines_.flag(*e))
-        set("speed_overhang", "100%", *e);
-      else if (bridge)
-        set("speed_overhang", number(speed_of("bridge_speed", fastest)), *bridge);
-    }
+    for (auto& told : overhangs_of(lines_, speed_of("bridge_speed", fastest)))
+      set(told.ours, std::move(told.text), *told.line);
     if (const auto* e = lines_.find("travel_speed_z")) {
       const double v = lines_.figure(*e).v;
       set("speed_z_hop", number(std::min(v > 0 ? v : speed_of("travel_speed", 130), 1000.0)), *e);

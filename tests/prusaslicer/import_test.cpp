@@ -58,6 +58,25 @@ TEST_CASE("prusaslicer: each key that a preset of PrusaSlicer 2.9.4 holds has a 
   CHECK(count == 367);
 }
 
+TEST_CASE("prusaslicer: walls over air have the speeds and fans that the profile gives each share of their width") {
+  const auto plain = translated("overhangs = 1\nbridge_speed = 35\nenable_dynamic_fan_speeds = 0\n");
+  CHECK(value_of(plain, "speed_overhang") == "35");
+  CHECK(value_of(plain, "speed_overhang_75") == "100%");
+  CHECK(value_of(plain, "overhang_fan_speed_75") == "0");
+  CHECK(value_of(translated("overhangs = 0\nbridge_speed = 35\n"), "speed_overhang") == "100%");
+  const auto by_share = translated(
+      "overhangs = 1\nenable_dynamic_overhang_speeds = 1\noverhang_speed_0 = 12\noverhang_speed_1 = 20%\n"
+      "overhang_speed_2 = 30\noverhang_speed_3 = 0\nenable_dynamic_fan_speeds = 1\noverhang_fan_speed_0 = 90\n"
+      "overhang_fan_speed_1 = 80\noverhang_fan_speed_2 = 70\noverhang_fan_speed_3 = 60\n");
+  CHECK(value_of(by_share, "speed_overhang") == "12");
+  CHECK(value_of(by_share, "speed_overhang_100") == "12");
+  CHECK(value_of(by_share, "speed_overhang_75") == "20%");
+  CHECK(value_of(by_share, "speed_overhang_50") == "30");
+  CHECK(value_of(by_share, "speed_overhang_25") == "100%");
+  CHECK(value_of(by_share, "overhang_fan_speed_100") == "90");
+  CHECK(value_of(by_share, "overhang_fan_speed_25") == "60");
+}
+
 TEST_CASE("prusaslicer: a lift on the way has its slope and height") {
   const auto t = translated("travel_ramping_lift = 1\ntravel_max_lift = 0.6\ntravel_slope = 3\nretract_lift = 0.2\n");
   CHECK(value_of(t, "retraction_hop_type") == "slope");
