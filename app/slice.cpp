@@ -102,7 +102,7 @@ Job job_of(const Command& command, const Settings& settings) {
   job.marks = command.marks;
   job.threads = command.threads;
   job.hash_gcode = command.report.has_value();
-  const auto mode = command.options["audit"].as<std::string>();
+  const auto mode = command.options.count("audit") ? command.options["audit"].as<std::string>() : "reject";
   if (mode != "reject" && mode != "annotate")
     throw Error{Error::Kind::usage, fmt::format("'{}' is not one of reject, annotate", mode), "--audit",
                 "the audit cannot be turned off"};

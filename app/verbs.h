@@ -23,6 +23,7 @@ int profile(const Words& words);
 int settings(const Words& words);
 int verify(const Words& words);
 int compare(const Words& words);
+int estimate_verb(const Words& words);
 int completions(const Words& words);
 
 /// The table of options that each of them understands beside the common ones.
@@ -37,6 +38,7 @@ Options profile_options();
 Options settings_options();
 Options verify_options();
 Options compare_options();
+Options estimate_options();
 Options completions_options();
 
 struct Verb {
@@ -54,6 +56,8 @@ inline constexpr std::array verbs{
          "many independent slice jobs: a list, a folder or a pattern"},
     Verb{"sweep", sweep, sweep_options, "MODEL -p PROFILE --vary KEY=V1,V2,... -o DIR",
          "one model with many settings, compared on a page"},
+    Verb{"estimate", estimate_verb, estimate_options, "MODEL... -p PROFILE [-s KEY=VALUE]...",
+         "time, filament and cost, without G-code"},
     Verb{"verify", verify, verify_options, "FILE.gcode [MODEL...]",
          "slice again from what the file says of itself, and compare"},
     Verb{"compare", compare, compare_options, "A.gcode B.gcode [-o OUT.html]",

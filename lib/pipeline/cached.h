@@ -5,6 +5,7 @@
 #include "core/stop.h"
 #include "pipeline/codec.h"
 #include "pipeline/pipeline.h"
+#include "pipeline/sample.h"
 #include "pipeline/stage_cache.h"
 #include "pipeline/stage_table.h"
 #include "pipeline/stopwatch.h"
@@ -79,7 +80,9 @@ auto cached(StageCache* cache, Key key, Make make) -> Result<std::invoke_result_
 struct Running {
   const Watch& watch;
   Report& report;
-  StageCache* cache;  ///< may be null
+  StageCache* cache;                 ///< may be null
+  Sample sample{};                   ///< which layers get beads
+  SampleMeasure* measure = nullptr;  ///< of a sample that is not all: what its layers stand for is added
 };
 
 /// Says that a stage begins. @throws Stopped

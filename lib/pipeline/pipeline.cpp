@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/pipeline.h"
 
+#include "adhesion/adhesion.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/stop.h"
 #include "gcode/digest.h"
 #include "gcode/writer.h"
 #include "pipeline/cached.h"
+#include "pipeline/estimate.h"
 #include "pipeline/give_back.h"
 #include "pipeline/plate.h"
 #include "pipeline/provenance.h"
@@ -156,39 +158,60 @@ struct Printing {
   std::string name;  ///< for messages: of the first model as it was typed, or of the first object
 };
 
-/// From the plate on.
-std::optional<audit::Passed> print(const Job& job, Printing what, const Watch& watch, Report& report,
-                                   StageCache* cache) {
+/// The plate's steps, and the pictures of it where it is written.
+struct Planned {
+  PlannedPlate plate;
+  std::vector<gcode::Thumbnail> thumbnails;
+};
+
+/// Layers that nothing is laid on need no areas, beyond those that adhesion lies around.
+void keep(const Sample& sample, std::size_t at_least, PrintedLayers& layers) {
+  for (std::size_t i = at_least; i < layers.size(); ++i)
+    if (!sample.has(i)) layers[i] = {layers[i].z, layers[i].height, {}, {}, {}, {}, {}};
+}
+
+/// From the plate to its plan.
+Planned plan(const Job& job, Printing& what, const Running& running, PlanFor use) {
   auto& plate = what.plate;
   Scopes scopes(job.settings);
   std::vector<ObjectScopes> of_object;
   for (const auto& object : plate.objects) of_object.push_back(scopes_of(object, scopes));
-  std::vector<gcode::Thumbnail> thumbnails;
+  Planned out;
   // Pictures are drawn while the model is sliced.
-  const bool of_models = job.settings.gcode.thumbnail_content == ThumbnailContent::model;
+  const bool of_models = use == PlanFor::writing && job.settings.gcode.thumbnail_content == ThumbnailContent::model;
   tasks::Beside beside([&] {
-    if (of_models) thumbnails = thumbnails_of(job.settings, plate);
+    if (of_models) out.thumbnails = thumbnails_of(job.settings, plate);
   });
   std::vector<PrintedLayers> layers;
   Box3 box;
   auto supports = rooms_of(scopes, plate);
   for (std::size_t o = 0; o < plate.objects.size(); ++o) {
     for (const auto& volume : plate.objects[o].volumes) box.add(box_of(volume.mesh));
-    layers.push_back(print_object({watch, report, cache}, scopes, of_object[o], plate.objects[o], supports[o]));
+    layers.push_back(print_object(running, scopes, of_object[o], plate.objects[o], supports[o]));
+    keep(running.sample, adhesion::layers_needed(job.settings.adhesion), layers.back());
   }
   beside.wait();
   for (auto& object : plate.objects)
     for (auto& volume : object.volumes) volume.mesh = {};
   refuse_emptiness(what.name, box, layers);
   give_back_memory();
-  begin<Stage::travel>(watch);
-  auto [plan, packed, digests, statistics] =
-      plan_plate(scopes, plate, what.sequence, std::move(layers), std::move(supports), report);
-  note_statistics(job.settings, statistics, report);
+  begin<Stage::travel>(running.watch);
+  auto& report = running.report;
+  out.plate = plan_plate(scopes, plate, what.sequence, std::move(layers), std::move(supports), report, use);
+  const auto& plan = out.plate.plan;
   report.layers = plan.layers.size();
   for (const auto& layer : plan.layers)
     report.height_mm = std::max(report.height_mm, to_mm(layer.z - job.settings.machine.z_offset));
   report.warnings.insert(report.warnings.end(), plan.notices.begin(), plan.notices.end());
+  return out;
+}
+
+/// From the plate on.
+std::optional<audit::Passed> print(const Job& job, Printing what, const Watch& watch, Report& report,
+                                   StageCache* cache) {
+  auto planned = plan(job, what, {watch, report, cache}, PlanFor::writing);
+  auto& [plan, packed, digests, statistics, layers] = planned.plate;
+  note_statistics(job.settings, statistics, report);
   begin<Stage::gcode>(watch);
   audit::Check check(job.settings.machine, job.settings.material, job.settings.audit, job.audit);
   name_custom_code(job.settings.gcode, check);
@@ -197,9 +220,10 @@ std::optional<audit::Passed> print(const Job& job, Printing what, const Watch& w
                   statistics,
                   std::filesystem::path(what.name).stem().string(),
                   {},
-                  provenance_lines(report.models, job.placement) + overlay_lines(plate),
+                  provenance_lines(report.models, job.placement) + overlay_lines(what.plate),
                   std::move(digests)};
-  text.thumbnails = of_models ? std::move(thumbnails) : pictures_of_toolpaths(text, plan, packed);
+  const bool of_models = job.settings.gcode.thumbnail_content == ThumbnailContent::model;
+  text.thumbnails = of_models ? std::move(planned.thumbnails) : pictures_of_toolpaths(text, plan, packed);
   write_gcode(text, plan, std::move(packed), check, report);
   begin<Stage::audit>(watch);
   auto passed = verdict_of(check, job, report);
@@ -207,10 +231,43 @@ std::optional<audit::Passed> print(const Job& job, Printing what, const Watch& w
   return passed;
 }
 
-/// The same for what `prepare` puts on the plate. Typos are told before an hour of slicing.
-template <class Prepare>
-std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Report& report, StageCache* cache,
-                                        const Prepare& prepare) {
+/// Objects of fewer layers are planned whole: each is a large share of the print.
+constexpr std::size_t few_layers = 24;
+/// Every so manieth of more layers. The other stages read all layers, so that a larger one saves little.
+constexpr std::size_t estimate_stride = 4;
+
+/// The layers of the tallest object, about.
+std::size_t layers_of(const Settings& settings, const Plate& plate) {
+  Um height = 0;
+  for (const auto& object : plate.objects)
+    for (const auto& volume : object.volumes) height = std::max(height, box_of(volume.mesh).max.z);
+  return static_cast<std::size_t>(height / std::max(settings.layers.layer_height, Um{1}));
+}
+
+/// The same without an end, and unless asked for all of them, with beads on some layers only.
+std::size_t figure(const Job& job, Printing what, const EstimateOptions& options, const Watch& watch, Report& report,
+                   StageCache* cache) {
+  const bool all = options.exact || layers_of(job.settings, what.plate) < few_layers;
+  const Sample sample{all ? 1 : estimate_stride};
+  SampleMeasure measure;
+  const auto planned = plan(job, what, {watch, report, cache, sample, &measure}, PlanFor::figures).plate;
+  Statistics bottom, above;
+  std::size_t count = 0;
+  for (const auto& [statistics, is_bottom] : planned.layers) {
+    const bool stands = !is_bottom && has_beads(statistics);
+    count += is_bottom || stands;
+    (stands ? above : bottom).append(statistics);
+  }
+  note_statistics(job.settings, sample.all() ? planned.statistics : extrapolated(bottom, above, measure), report);
+  report.audit.verdict = "unaudited";
+  report.status = Report::Status::ok;
+  watch.progress("done", 1.0);
+  return count;
+}
+
+/// `end` of what `prepare` puts on the plate. Typos are told before an hour of slicing.
+template <class Prepare, class End>
+auto run_stages(const Job& job, const Watch& watch, Report& report, const Prepare& prepare, const End& end) {
   const tasks::ThreadLimit limit(job.threads);
   const StopWhen stop_when(&watch.cancelled);
   try {
@@ -219,7 +276,7 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
     Printing what = prepare();
     if (what.sequence.empty()) what.sequence = by_layer(copies_on(what.plate));
     report.settings_sha256 = sha256(as_text(job.settings) + overlay_lines(what.plate));
-    return print(job, std::move(what), watch, report, cache);
+    return end(std::move(what));
   } catch (const Stopped&) {
     throw Error{Error::Kind::interrupted, "interrupted", {}, "nothing was written"};
   }
@@ -229,18 +286,35 @@ std::optional<audit::Passed> run_stages(const Job& job, const Watch& watch, Repo
 
 std::optional<audit::Passed> run(const Job& job, const Watch& watch, Report& report, StageCache* cache) {
   report.settings_sha256 = sha256(as_text(job.settings));
-  return run_stages(job, watch, report, cache, [&] {
-    return Printing{place_models(job, report, cache), {}, job.models.front()};
-  });
+  return run_stages(
+      job, watch, report,
+      [&] {
+        return Printing{place_models(job, report, cache), {}, job.models.front()};
+      },
+      [&](Printing what) { return print(job, std::move(what), watch, report, cache); });
+}
+
+std::size_t estimate(const Job& job, const EstimateOptions& options, const Watch& watch, Report& report,
+                     StageCache* cache) {
+  report.settings_sha256 = sha256(as_text(job.settings));
+  return run_stages(
+      job, watch, report,
+      [&] {
+        return Printing{place_models(job, report, cache), {}, job.models.front()};
+      },
+      [&](Printing what) { return figure(job, std::move(what), options, watch, report, cache); });
 }
 
 std::optional<audit::Passed> run(const Job& job, Plate plate, const Sequence& sequence, const Watch& watch,
                                  Report& report, StageCache* cache) {
-  return run_stages(job, watch, report, cache, [&] {
-    check_printable(plate);
-    auto name = plate.objects.front().name;
-    return Printing{std::move(plate), sequence, std::move(name)};
-  });
+  return run_stages(
+      job, watch, report,
+      [&] {
+        check_printable(plate);
+        auto name = plate.objects.front().name;
+        return Printing{std::move(plate), sequence, std::move(name)};
+      },
+      [&](Printing what) { return print(job, std::move(what), watch, report, cache); });
 }
 
 }  // namespace weft

@@ -7,6 +7,7 @@
 #include "pipeline/add_raft.h"
 #include "pipeline/check.h"
 #include "pipeline/codec.h"
+#include "pipeline/sample.h"
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
 #include "pipeline/support_object.h"
@@ -203,7 +204,7 @@ std::optional<Point> start_of(const Settings& settings) {
 
 /// Ways, speeds and times. What a layer was made of is let go of as it goes.
 std::vector<PackedLayer> plan_moves(const Scopes& scopes, std::vector<travel::Prepared> prepared,
-                                    std::vector<travel::Ordered> ordered, Notices& notices) {
+                                    std::vector<travel::Ordered> ordered, Notices& notices, PlanFor use) {
   const std::size_t count = prepared.size();
   const Settings& settings = scopes[0];
   std::vector<std::optional<Point>> from(count);
@@ -236,6 +237,7 @@ std::vector<PackedLayer> plan_moves(const Scopes& scopes, std::vector<travel::Pr
       [&](std::size_t, Begun layer) {
         const auto planned = motion::plan_layer(rules, std::move(layer.plan), layer.start);
         const auto& plan = planned.plan;
+        if (use == PlanFor::figures) return PackedLayer{{plan.z, plan.height, plan.time}, {}, {}, planned.statistics};
         return PackedLayer{
             {plan.z, plan.height, plan.time}, encode(plan), gcode::digest_of(settings, plan), planned.statistics};
       });
@@ -252,10 +254,16 @@ std::vector<Report::Tour> tours_of(const std::vector<travel::Prepared>& prepared
   });
 }
 
+/// Does one of the first so many objects, which are models, begin there?
+bool has_bottom(const TimelineLayer& layer, std::size_t models) {
+  return std::any_of(layer.parts.begin(), layer.parts.end(),
+                     [&](const auto& part) { return part.object < models && part.layer < Sample::own_kind; });
+}
+
 }  // namespace
 
 PlannedPlate plan_plate(Scopes& scopes, const Plate& plate, const Sequence& sequence, std::vector<PrintedLayers> layers,
-                        std::vector<SupportOf> supports, Report& report) {
+                        std::vector<SupportOf> supports, Report& report, PlanFor use) {
   const Stopwatch stopwatch(report.timings_ms[Stage::travel]);
   const ScopeId on_first_layer = scopes.on_first_layer(0);
   const Settings& settings = scopes[0];
@@ -298,9 +306,11 @@ PlannedPlate plan_plate(Scopes& scopes, const Plate& plate, const Sequence& sequ
   auto ordered =
       tasks::parallel_map(count, [&](std::size_t i) { return travel::order(settings.travel, prepared[i], linked[i]); });
   if (report.tours) *report.tours = tours_of(prepared, ordered);
-  auto planned = plan_moves(scopes, std::move(prepared), std::move(ordered), plan.notices);
-  for (auto& layer : planned) {
+  auto planned = plan_moves(scopes, std::move(prepared), std::move(ordered), plan.notices, use);
+  for (std::size_t i = 0; i < planned.size(); ++i) {
+    auto& layer = planned[i];
     out.statistics.append(layer.statistics);
+    if (use == PlanFor::figures) out.layers.push_back({layer.statistics, has_bottom(timeline[i], copies_on(plate))});
     plan.layers.push_back(std::move(layer.bare));
     out.digests.push_back(std::move(layer.digest));
     out.packed.push_back(std::move(layer.packed));

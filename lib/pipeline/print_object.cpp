@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/boolean.h"
+#include "geometry/offset.h"
 #include "infill/infill.h"
 #include "infill/shells.h"
 #include "pipeline/cached.h"
@@ -151,9 +152,20 @@ WallLayer walls_of_areas(const std::vector<Told>& told, const SlicedLayer& layer
   return out;
 }
 
+/// About what walls leave of a layer: enough for the layers around it to know their skin.
+Regions inside_of(const WallHands& handed, const Areas& areas, const Regions& regions) {
+  const auto& [walls, nozzle] = handed[areas.front().scope];
+  return geometry::offset(regions, {.by = -walls.wall_line_count * walls.wall_line_width_x.value_or(nozzle)});
+}
+
 Walls build_walls(const WallHands& handed, const Scopes& scopes, const Cuts& cuts, const std::vector<Areas>& areas,
-                  const std::vector<Regions>& held) {
+                  const std::vector<Regions>& held, const Sample& sample) {
   return tasks::parallel_map(cuts.size(), [&](std::size_t i) {
+    if (!sample.has(i)) {
+      WallLayer bare;
+      bare.inside = inside_of(handed, areas[i], cuts[i].layer.regions);
+      return bare;
+    }
     Regions over_air = i > 0 ? geometry::subtract(cuts[i].layer.regions, cuts[i - 1].layer.regions) : Regions{};
     if (i < held.size() && !held[i].empty()) over_air = geometry::subtract(over_air, held[i]);
     const Regions* above = i + 1 < cuts.size() ? &cuts[i + 1].layer.regions : nullptr;
@@ -283,15 +295,59 @@ FillLayer fill_of_areas(const std::vector<Told>& told, const infill::LayerAreas&
   return out;
 }
 
+double outline_mm(const Regions& regions) {
+  double out = 0;
+  for (const auto& region : regions) {
+    out += perimeter_of(region.outer);
+    for (const auto& hole : region.holes) out += perimeter_of(hole);
+  }
+  return out / 1000;
+}
+
+/// What the beads of a layer grow with. @param inside of its walls, as `inside_of` has it, whether it has beads or not
+LayerMeasure measure_of(const SlicedLayer& layer, const Regions& inside, const infill::LayerAreas& areas) {
+  LayerMeasure out;
+  const double height_mm = to_mm(layer.height);
+  const auto add = [&](Growth to, const Regions& regions, int layers = 1) {
+    const double mm2 = area_mm2(regions);
+    out[to].length += mm2, out[to].volume += mm2 * height_mm * layers;
+  };
+  out[Growth::walls] = {outline_mm(layer.regions), (area_mm2(layer.regions) - area_mm2(inside)) * height_mm};
+  out[Growth::layers] = {1, 1};
+  for (const auto& part : areas) {
+    add(Growth::solid, part.solid);
+    add(Growth::top, part.top);
+    add(Growth::sparse, part.sparse);
+    add(Growth::sparse, part.combined, part.combined_layers);
+    for (const auto& bridge : part.bridges) add(Growth::bridge, bridge.regions);
+  }
+  return out;
+}
+
+/// Adds the object's layers above its bottom to what a sample stands for.
+void measure(const Running& job, const WallHands& handed, const Cuts& cuts, const std::vector<Areas>& areas,
+             const std::vector<infill::LayerAreas>& parts, std::size_t copies) {
+  const auto measures = tasks::parallel_map(cuts.size(), [&](std::size_t i) {
+    const auto& layer = cuts[i].layer;
+    return measure_of(layer, inside_of(handed, areas[i], layer.regions), parts[i]);
+  });
+  for (std::size_t i = Sample::own_kind; i < measures.size(); ++i)
+    (job.sample.has(i) ? job.measure->planned : job.measure->left_out).add(measures[i], static_cast<double>(copies));
+}
+
 /// Shells and infill.
+/// @param looked_at is told what fills the layers, before it is laid
+template <class LookedAt>
 Fills fill_object(const FillHands& handed, const Scopes& scopes, const Cuts& cuts, const std::vector<Areas>& areas,
-                  const Walls& walls, const std::vector<Regions>& held) {
+                  const Walls& walls, const std::vector<Regions>& held, const Sample& sample,
+                  const LookedAt& looked_at) {
   Shelled object{handed, scopes, areas, std::vector<infill::ShellLayer>(cuts.size()), {}};
   for (std::size_t i = 0; i < cuts.size(); ++i)
     object.layers[i] = {cuts[i].layer.z, cuts[i].layer.height, &cuts[i].layer.regions, &walls[i].inside,
                         i < held.size() ? &held[i] : nullptr};
   object.box = infill::box_of(object.layers);
   auto parts = find_all_areas(object);
+  looked_at(parts);
   Box box;  // patterns hang on its centre, so they move with the object
   for (const auto& cut : cuts) box.add(box_of(cut.layer.regions));
   // Layers are let go of as they are filled: what the next one must know of their bridges is set aside.
@@ -299,6 +355,7 @@ Fills fill_object(const FillHands& handed, const Scopes& scopes, const Cuts& cut
   for (std::size_t i = 0; i < cuts.size(); ++i)
     for (const auto& part : parts[i]) bridges[i].insert(bridges[i].end(), part.bridges.begin(), part.bridges.end());
   return tasks::parallel_map(cuts.size(), [&](std::size_t i) {
+    if (!sample.has(i)) return FilledLayer{};
     const auto& layer = cuts[i].layer;
     const auto fill = [&](ScopeId scope, const infill::LayerAreas& own) {
       const auto& [shells, infill, nozzle, wall_line_width, overlap_factor] = handed[scope];
@@ -400,13 +457,20 @@ PrintedLayers print_object(const Running& job, const Scopes& all_scopes, const O
       key.with(slice_key(volume.mesh, object.marks, scopes, slice_hands).hash());
     return with_held(std::move(key), support.held);
   };
+  Running kept = job;
+  if (!job.sample.all()) kept.cache = nullptr;  // a sample is no stage's result
   auto walled = run_stage<Stage::walls>(
-      job, walled_by, [&] { return build_walls(wall_hands, all_scopes, *sliced, areas, support.held); });
+      kept, walled_by, [&] { return build_walls(wall_hands, all_scopes, *sliced, areas, support.held, job.sample); });
 
   const auto fill_hands = hand<Stage::infill>(all_scopes);
+  const auto looked_at = [&](const std::vector<infill::LayerAreas>& parts) {
+    if (!job.sample.all()) measure(job, wall_hands, *sliced, areas, parts, object.copies.size());
+  };
   auto filled = run_stage<Stage::infill>(
-      job, [&] { return key_of<Stage::infill>(scopes, fill_hands).with(walled_by().hash()); },
-      [&] { return fill_object(fill_hands, all_scopes, *sliced, areas, *walled, support.held); });
+      kept, [&] { return key_of<Stage::infill>(scopes, fill_hands).with(walled_by().hash()); },
+      [&] {
+        return fill_object(fill_hands, all_scopes, *sliced, areas, *walled, support.held, job.sample, looked_at);
+      });
   return put_together(std::move(sliced).take(), areas, std::move(walled).take(), std::move(filled).take(), at, notices);
 }
 

@@ -42,7 +42,15 @@ struct PlannedPlate {
   std::vector<std::string> packed;  ///< the layers, with them
   std::vector<gcode::LayerDigest> digests;
   Statistics statistics;
+  struct Layer {
+    Statistics statistics;
+    bool bottom = false;  ///< of an object, whose lowest layers stand for themselves in an estimate
+  };
+  std::vector<Layer> layers;  ///< for figures only
 };
+
+/// What a plan is for: to be written, or for its figures only.
+enum class PlanFor { writing, figures };
 
 /// The whole plate as steps: copies put in their places, adhesion around them, order, seams and travels, speeds and
 /// times.
@@ -50,6 +58,6 @@ struct PlannedPlate {
 /// @param supports of each object
 /// @param scopes 0 is the plate's own; its first layer's is added
 PlannedPlate plan_plate(Scopes& scopes, const Plate& plate, const Sequence& sequence, std::vector<PrintedLayers> layers,
-                        std::vector<SupportOf> supports, Report& report);
+                        std::vector<SupportOf> supports, Report& report, PlanFor use = PlanFor::writing);
 
 }  // namespace weft::pipeline

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/sample.h"
+
+#include <optional>
+
+namespace weft::pipeline {
+namespace {
+
+/// Nothing for what is planned on every layer.
+std::optional<Growth> growth_of(Role role) {
+  switch (role) {
+    case Role::outer_wall:
+    case Role::inner_wall:
+    case Role::overhang_wall:
+    case Role::gap_fill:
+      return Growth::walls;
+    case Role::infill:
+      return Growth::sparse;
+    case Role::solid_infill:
+      return Growth::solid;
+    case Role::top_skin:
+      return Growth::top;
+    case Role::bridge:
+      return Growth::bridge;
+    default:  // of the plate
+      return std::nullopt;
+  }
+}
+
+/// How much was left out for each unit that was planned.
+LayerMeasure::Amount missing(const SampleMeasure& measure, Growth g) {
+  const auto &planned = measure.planned[g], &left_out = measure.left_out[g];
+  return {planned.length > 0 ? left_out.length / planned.length : 0,
+          planned.volume > 0 ? left_out.volume / planned.volume : 0};
+}
+
+/// What a plan of the same statistics, of which each count and length is `factor` times as large, takes more.
+void add_travels(Statistics& out, const Statistics& above, double factor) {
+  const auto more = [factor](auto& to, auto of) { to += static_cast<decltype(of)>(factor * static_cast<double>(of)); };
+  more(out.travel.mm, above.travel.mm);
+  more(out.travel.s, above.travel.s);
+  more(out.travel.moves, above.travel.moves);
+  more(out.travel.retractions, above.travel.retractions);
+  more(out.travel.wall_crossings, above.travel.wall_crossings);
+  more(out.travel.retraction_s, above.travel.retraction_s);
+}
+
+void add_walls(Statistics& out, const Statistics& above, double factor) {
+  out.walls.beads += static_cast<std::int64_t>(factor * static_cast<double>(above.walls.beads));
+  out.walls.variable_width_mm += factor * above.walls.variable_width_mm;
+  out.walls.flow_compensated_mm += factor * above.walls.flow_compensated_mm;
+}
+
+void add_filament(Statistics& out, const Statistics& above, double factor) {
+  out.filament_mm += factor * above.filament_mm;
+  out.filament_mm3 += factor * above.filament_mm3;
+  out.filament_g += factor * above.filament_g;
+  for (std::size_t i = 0; i < above.tools.size() && i < out.tools.size(); ++i) {
+    out.tools[i].filament_mm += factor * above.tools[i].filament_mm;
+    out.tools[i].filament_mm3 += factor * above.tools[i].filament_mm3;
+    out.tools[i].filament_g += factor * above.tools[i].filament_g;
+  }
+}
+
+}  // namespace
+
+bool Sample::has(std::size_t layer) const {
+  if (all() || layer < own_kind) return true;
+  const std::size_t block = (layer - own_kind) / stride, within = (layer - own_kind) % stride;
+  return within == (block ^ (block >> 2)) % stride;  // each place equally often, and no two blocks long in step
+}
+
+bool has_beads(const Statistics& layer) {
+  for (std::size_t r = 0; r < layer.features.size(); ++r)
+    if (layer.features[r].mm > 0 && growth_of(static_cast<Role>(r))) return true;
+  return false;
+}
+
+void LayerMeasure::add(const LayerMeasure& other, double copies) {
+  for (std::size_t i = 0; i < growths; ++i) {
+    amounts[i].length += copies * other.amounts[i].length;
+    amounts[i].volume += copies * other.amounts[i].volume;
+  }
+}
+
+Statistics extrapolated(const Statistics& bottom, const Statistics& above, const SampleMeasure& measure) {
+  Statistics out = bottom;
+  out.append(above);
+  double beads_mm3 = 0, parts_s = 0, more_mm3 = 0, more_s = 0;
+  for (std::size_t r = 0; r < above.features.size(); ++r) {
+    const auto& feature = above.features[r];
+    beads_mm3 += feature.mm3;
+    parts_s += feature.s;
+    const auto grows = growth_of(static_cast<Role>(r));
+    if (!grows) continue;
+    const auto more = missing(measure, *grows);
+    out.features[r].mm += more.length * feature.mm;
+    out.features[r].s += more.length * feature.s;
+    out.features[r].mm3 += more.volume * feature.mm3;
+    more_s += more.length * feature.s;
+    more_mm3 += more.volume * feature.mm3;
+  }
+  const double layers = missing(measure, Growth::layers).length;
+  add_travels(out, above, layers);
+  add_walls(out, above, missing(measure, Growth::walls).length);
+  const double travels_s = above.travel.s + above.travel.retraction_s;
+  more_s += layers * travels_s;
+  parts_s += travels_s;
+  // What is not in the parts (extra prime, the flow of the material, waiting) grows as they do.
+  add_filament(out, above, beads_mm3 > 0 ? more_mm3 / beads_mm3 : 0);
+  out.print_time_s += (parts_s > 0 ? more_s / parts_s : 0) * above.print_time_s;
+  out.layer_s.clear();  // not known one by one
+  return out;
+}
+
+}  // namespace weft::pipeline
