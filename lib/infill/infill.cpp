@@ -163,7 +163,8 @@ Notices check(const InfillSettings& infill, Um nozzle_diameter, Um height) {
   const double d = to_mm(nozzle_diameter), h = to_mm(height);
   const double strand_mm = std::numbers::pi / 4 * (d * d - h * h) / h + h,
                widest_mm = to_mm(flow::automatic_width(nozzle_diameter, height, false));
-  if (strand_mm <= widest_mm) return {};
+  constexpr double noticed = 1.05;  // of the width: a cut by less is not worth a word
+  if (strand_mm <= noticed * widest_mm) return {};
   return {
       {"infill_line_width_cut",
        fmt::format("infill_line_width: auto would be {:.2f} mm, a strand of the nozzle's cross-section in layers of "
