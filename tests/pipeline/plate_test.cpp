@@ -143,8 +143,9 @@ TEST_CASE("plate: one object at a time is finished before the next begins on the
     CHECK(layers[i].objects == std::set<std::string>{i < 10 ? "b" : "a"});
   }
   CHECK(std::count(out.text.begin(), out.text.end(), '\n') > 0);
-  CHECK(out.text.find("; next") != std::string::npos);
-  CHECK(out.text.find("; next") == out.text.rfind("; next\n"));
+  const auto between = out.text.find("\n; next\n");
+  CHECK(between != std::string::npos);
+  CHECK(between == out.text.rfind("\n; next\n"));
   // The first layer of either is printed at the speed of first layers, and the fan is off.
   CHECK(out.report.height_mm == 2);
   std::size_t fans_off = 0;
