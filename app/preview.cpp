@@ -32,7 +32,12 @@ po::options_description preview_options() {
       "size", po::value<int>()->value_name("PIXELS")->default_value(1600),
       "longer side of a picture, without its legend")(
       "audit", po::bool_switch(),
-      "show the machine of the profile, its no-go areas and reach, and in red every move that the audit finds outside");
+      "show the machine of the profile, its no-go areas and reach, and in red every move that the audit finds outside")(
+      "view", po::value<std::string>()->value_name("DIRECTION"),
+      "of a PNG: beads as solids, seen from iso, front, top or x,y,z")(
+      "layers", po::value<std::string>()->value_name("FIRST:LAST"), "which layers --view shows (default: all)")(
+      "model", po::value<std::vector<std::string>>()->value_name("FILE"),
+      "of a page: the model that the file was made of, shown translucent (default: beside the file)");
   add_limit_options(out);
   return out;
 }

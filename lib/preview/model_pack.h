@@ -11,6 +11,6 @@ namespace weft::preview {
 /// more than `most` triangles are left. For looking through, not for measuring. As page/unpack.js reads it: number of
 /// corners and of triangles, corners (steps of 5 µm), indices (steps); packed as pack.h says. No triangle: "".
 /// Source: Rossignac and Borrel 1993, vertex clustering. Cost: linear, some twelve times at most.
-std::string packed_model(std::span<const Standing> meshes, std::size_t most = 20'000);
+std::string packed_model(std::span<const Standing> meshes, std::size_t most = 10'000);
 
 }  // namespace weft::preview
