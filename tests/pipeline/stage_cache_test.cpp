@@ -173,10 +173,12 @@ TEST_CASE("cache: a stage is made again when a setting of its group changes, and
       make(path, base, &cache);
       make(path, *settings, &cache);
       INFO(entry.key << " = " << entry.print(*settings));
+      // A model that is put down in another size is cut anew.
+      const std::size_t resized = entry.key.starts_with("material_shrinkage") ? 1 : 0;
       CHECK(made(cache, "read") == 1 + stage.read);
-      CHECK(made(cache, "slice") == 1 + stage.slice);
-      CHECK(made(cache, "walls") == 1 + stage.walls);
-      CHECK(made(cache, "infill") == 1 + stage.infill);
+      CHECK(made(cache, "slice") == 1 + stage.slice + resized);
+      CHECK(made(cache, "walls") == 1 + stage.walls + resized);
+      CHECK(made(cache, "infill") == 1 + stage.infill + resized);
     }
   }
 }
