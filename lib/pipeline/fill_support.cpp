@@ -62,15 +62,14 @@ class Filler {
     }
     // Between lines that far apart a narrow column would have none: it gets a loop.
     const double apart = share > 0 ? band_ / share : band_ * 10;
-    const Regions wide = geometry::opening(layer_.columns, rounded(0.6 * apart));
+    const Regions wide = geometry::opening(layer_.columns, rounded(0.6 * apart), geometry::Corner::miter);
     if (wide.empty()) {
       loops(layer_.columns, 1, Role::support);
       return;
     }
     sparse(wide, share, s_.support_pattern, s_.support_infill_angle, Role::support);
     const Regions narrow = geometry::opening(
-        geometry::subtract(layer_.columns, geometry::offset(wide, {.by = 20, .corner = geometry::Corner::round})),
-        band_ / 4);
+        geometry::subtract(layer_.columns, geometry::offset(wide, {.by = rounded(0.6 * apart)})), band_ / 4);
     loops(narrow, 1, Role::support);
   }
 

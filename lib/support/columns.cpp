@@ -58,7 +58,8 @@ void thicken(Regions& area, const Regions& fresh, Um line) {
   area = geometry::unite(area);
 }
 
-/// What of a level rests on what is below it, from the bottom up.
+}  // namespace
+
 void let_rest(const SupportSettings& s, const Object& object, const Stack& stack, std::vector<Regions>& levels) {
   constexpr Um sinks = 0.6_mm;  // what hangs so far above the part comes to lie on it
   const Um line = line_width(s, object.nozzle);
@@ -73,8 +74,6 @@ void let_rest(const SupportSettings& s, const Object& object, const Stack& stack
     levels[k] = geometry::intersect(levels[k], grown(base, std::max(line * 6 / 10, level.height)));
   }
 }
-
-}  // namespace
 
 Regions free_part(const Regions& area, const KeepOut& out, const Regions& contacts, const Object& object) {
   Regions left = area;

@@ -14,6 +14,9 @@ std::vector<Regions> columns(const SupportSettings& settings, const Object& obje
                              const std::vector<KeepOut>& keep_out, const std::vector<Regions>& contacts,
                              const std::vector<Regions>& given);
 
+/// Takes away, from the bottom up, what of a level rests neither on the one below nor on the part.
+void let_rest(const SupportSettings& settings, const Object& object, const Stack& stack, std::vector<Regions>& levels);
+
 /// What of an area is not kept out of its level: beside contacts the smaller distance holds.
 Regions free_part(const Regions& area, const KeepOut& keep_out, const Regions& contacts, const Object& object);
 

@@ -50,7 +50,7 @@ SupportLayer divided(const SupportSettings& s, const Object& object, const Stack
                      const std::vector<Regions>& standing, const std::vector<Regions>& contacts) {
   const auto& level = stack.levels[k];
   const Um line = line_width(s, object.nozzle);
-  SupportLayer out{level.z, level.height, standing[k], {}, {}, {}, k == 0};
+  SupportLayer out{level.z, level.height, standing[k], {}, {}, {}, k == 0 && !object.on_raft};
   if (out.columns.empty()) return out;
   if (s.support_roof_enable && s.support_roof_height > 0) {
     Regions held;
@@ -149,9 +149,13 @@ Plan plan(const SupportSettings& settings, const Object& object, const Demand& d
                            : Split{contacts, std::vector<Regions>(contacts.size())};
     branches = tree(settings, object, stack, keep_out, split.for_branches);
     under_columns = split.for_columns;
+    const auto left = tasks::parallel_map(used, [&](std::size_t k) {
+      if (split.for_branches[k].empty()) return Regions{};
+      return geometry::opening(geometry::subtract(split.for_branches[k], grown(branches.areas[k], reached)), 50);
+    });
     for (std::size_t k = 0; k < used; ++k)
-      if (!branches.left[k].empty()) {
-        append(under_columns[k], branches.left[k]);
+      if (!left[k].empty()) {
+        append(under_columns[k], left[k]);
         under_columns[k] = geometry::unite(under_columns[k]);
       }
     out.figures.tips = branches.tips_at.size(), out.figures.trunks = branches.trunks;

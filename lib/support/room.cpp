@@ -2,6 +2,7 @@
 #include "support/room.h"
 
 #include "geometry/boolean.h"
+#include "geometry/offset.h"
 #include "support/lengths.h"
 #include "tasks/parallel.h"
 
@@ -34,8 +35,11 @@ std::vector<KeepOut> keep_outs(const SupportSettings& settings, const Object& ob
     const auto& level = stack.levels[k];
     KeepOut out;
     const Regions part = outlines_between(object, level.bottom(), level.z);
-    out.near = grown(part, xy);
-    out.touch = close == xy ? out.near : grown(part, close);
+    const auto kept_off = [&](Um by) {  // to 5 µm: a distance that is set is kept at corners too
+      return by == 0 ? part : geometry::offset(part, {.by = by, .corner = geometry::Corner::round});
+    };
+    out.near = kept_off(xy);
+    out.touch = close == xy ? out.near : kept_off(close);
     const Um above = top_gap(settings), below = bottom_gap(settings);
     if (above > 0) out.over = outlines_between(object, level.z, level.z + above);
     if (below > 0 && level.bottom() > object.floor)

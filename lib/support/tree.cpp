@@ -56,6 +56,7 @@ class Grower {
       step(slab);
     }
     tree_.areas = tasks::parallel_map(discs_.size(), [&](std::size_t k) { return area(k, keep_out[k]); });
+    let_rest(s_, o_, stack_, tree_.areas);
     return std::move(tree_);
   }
 
@@ -237,7 +238,7 @@ class Grower {
   }
 
   static Ring circle(const Disc& disc) {
-    const int corners = std::clamp(static_cast<int>(disc.radius / 60), 12, 48);
+    const int corners = std::clamp(static_cast<int>(4 * std::sqrt(disc.radius / 100)), 10, 40);  // to 0.03 mm
     const double outside = disc.radius / std::cos(std::numbers::pi / corners);
     Ring out;
     for (int i = 0; i < corners; ++i) {
