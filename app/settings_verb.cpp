@@ -65,10 +65,11 @@ std::string as_plain(const std::vector<const CatalogueEntry*>& entries, const La
   std::string out, section;
   for (const auto* e : entries) {
     if (e->section != section) out += fmt::format("{}[{}]\n", out.empty() ? "" : "\n", section = e->section);
-    out += fmt::format("{} = {}{}{}\n    {}{} ({}; {})\n", e->key, e->default_text,
-                       e->unit.empty() || e->unit == "%" || e->default_text == "auto" ? "" : " ",
-                       e->unit == "%" || e->default_text == "auto" ? "" : e->unit,
-                       labels ? labels->of(e->key) + ": " : "", e->meaning, range_of(*e), name_of(e->scope));
+    // A number alone is followed by its unit; a share says its own.
+    const bool bare = e->unit.empty() || e->default_text.ends_with('%') || e->default_text == "auto";
+    out +=
+        fmt::format("{} = {}{}{}\n    {}{} ({}; {})\n", e->key, e->default_text, bare ? "" : " ", bare ? "" : e->unit,
+                    labels ? labels->of(e->key) + ": " : "", e->meaning, range_of(*e), name_of(e->scope));
   }
   return out;
 }

@@ -370,12 +370,12 @@ TEST_CASE("gcode: custom G-code can be checked before there is anything to print
                     Contains("machine_end_gcode:1:2") && Contains("did you mean 'nozzle_diameter'?"));
 }
 
-TEST_CASE("gcode: print variables come from the plan") {
+TEST_CASE("gcode: print variables come from the plan, and the box is that of the strands") {
   Sample sample;
   sample.settings.gcode.machine_start_gcode =
       "; {first_layer_print_min[0]} {first_layer_print_max[1]} {max_layer_z} {total_layer_count} {input_filename_base} "
       "[print_time]";
-  CHECK(has_line(sample.text(), "; -0.2 10.2 0.4 2 part 2m 30s"));
+  CHECK(has_line(sample.text(), "; -0.221 10.221 0.4 2 part 2m 30s"));
 }
 
 TEST_CASE("gcode: start G-code of Cura's finds its names") {
