@@ -5,8 +5,11 @@
 #include "gcode/writer.h"
 #include "motion/motion.h"
 #include "pipeline/codec.h"
+#include "settings/first_layer.h"
 
+#include <array>
 #include <sstream>
+#include <variant>
 
 #include <catch2/catch.hpp>
 
@@ -20,7 +23,7 @@ Extrude line(Point from, Point to, ToolId tool) {
   return {.path = {{from, 400, 1.F}, {to, 400, 1.F}}, .role = Role::outer_wall, .tool = tool, .height = 200};
 }
 
-/// Two layers; each tool draws a line of 20 mm in the first, T1 one of 10 mm in the second.
+/// Two layers; each tool draws a line of 20 mm in the first, whose settings are scope 1, T1 one of 10 mm in the second.
 PrintPlan two_tools() {
   PrintPlan plan;
   LayerPlan first{.z = 200, .height = 200};
@@ -37,6 +40,9 @@ PrintPlan two_tools() {
   LayerPlan second{.z = 400, .height = 200, .time = {.index = 1, .number = 1}};
   second.steps = {Retract{}, Pause{"lay the nut in"}, Travel{{{20_mm, 40_mm, 400}}}, Prime{},
                   line({20_mm, 40_mm}, {30_mm, 40_mm}, 1)};
+  first.scope = 1;
+  for (auto& step : first.steps)
+    if (auto* bead = std::get_if<Extrude>(&step)) bead->scope = 1;
   plan.layers = {first, second};
   return plan;
 }
@@ -60,7 +66,8 @@ struct Printed {
   std::string text;
 
   explicit Printed(Settings of) : settings(std::move(of)) {
-    auto planned = motion::plan(motion::rules_of(settings), two_tools());
+    const std::array rules{motion::rules_of(settings), motion::rules_of(on_first_layer(settings), &settings)};
+    auto planned = motion::plan(rules, two_tools());
     statistics = planned.statistics;
     std::vector<gcode::LayerDigest> digests;
     for (const auto& layer : planned.plan.layers) {
