@@ -41,6 +41,10 @@ class Gatherer {
   bool has_comments() const { return reader_.context().began(); }
 
   Toolpaths finish() {
+    if (!out_.layers.empty()) {
+      auto& events = out_.layers.front().events;
+      events.insert(events.begin(), before_.events.begin(), before_.events.end());
+    }
     if (!has_comments() && custom_ != none) out_.features[custom_] = "";  // nobody said what it is
     return std::move(out_);
   }
@@ -87,7 +91,7 @@ class Gatherer {
                             static_cast<float>(speed_mm_s > 0 ? std::abs(mm) / speed_mm_s : 0)});
   }
 
-  /// The layer that was written to last. Before the first motion there is nothing to show where.
+  /// The layer that was written to last; what comes before the first motion waits for the first layer.
   PathLayer& last_layer() { return out_.layers.empty() ? before_ : out_.layers.back(); }
 
   bool custom() const { return by_ == LayersBy::comments && reader_.context().custom(); }

@@ -38,7 +38,7 @@ TEST_CASE("weft compare: alike is status 0, differing 8, within a tolerance 0 ag
   CHECK(report["alike"] == false);
   CHECK(report["settings"].size() == 1);
   CHECK(report["settings"][0]["key"] == "infill_sparse_density");
-  CHECK(report["settings"][0]["b"] == "40");
+  CHECK(report["settings"][0]["b"] == "40%");
   CHECK(report["layers"].size() == 20);
   CHECK(report["figures"][1]["name"] == "plastic");
   CHECK(report["figures"][1]["b"] > report["figures"][1]["a"]);

@@ -55,7 +55,7 @@ if command -v python3 > /dev/null; then
     verdict=$(python3 -c '
 import html, json, re, sys
 dom = open(sys.argv[1]).read()
-data = json.loads(re.search(r"id=\"facts\">(\{.*?\})</script>", dom, re.S).group(1))
+data = json.loads(re.search(r"id=\"data\">(\{.*?\})</script>", dom, re.S).group(1))
 shown = html.unescape(re.search(r"data-trials=\"([^\"]*)\"", dom).group(1)).split("|")
 x, y = sys.argv[2].replace("%20", " ").split("&y=")
 of = {"time": lambda t: -t["time_s"], "material g": lambda t: -t["material_g"], "strength": lambda t: t["strength"]}

@@ -113,7 +113,8 @@ TEST_CASE("sweep: the page holds its data, whatever stands in it, and asks the n
   trials[1].values = {"2"};
   const auto page = sweep_page("<part>.stl", {"a"}, trials);
   CHECK_THAT(page, Contains("\\u003c/script>\\u003cb>") && Contains("iVBORwB4") && Contains("a.gcode.html"));
-  CHECK(page.find("http") == page.find("http://www.w3.org/2000/svg"));  // the name of SVG, which is never fetched
+  CHECK(page.find("http:") == page.find("http://www.w3.org/2000/svg"));
+  CHECK(page.find("https:") == std::string::npos);  // the name of SVG, which is never fetched
   std::size_t ends = 0;
   for (std::size_t at = 0; (at = page.find("</script>", at)) != std::string::npos; ++at) ++ends;
   CHECK(ends == 2);  // facts, script

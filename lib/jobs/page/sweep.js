@@ -2,7 +2,7 @@
 // The page of weft sweep: a table, a scatter of two figures, parallel coordinates.
 "use strict";
 onerror=(m)=>{document.body.dataset.error=m};
-const $=id=>document.getElementById(id),data=JSON.parse($("facts").textContent),NS="http://www.w3.org/2000/svg";
+const $=id=>document.getElementById(id),data=JSON.parse($("data").textContent),NS="http://www.w3.org/2000/svg";
 const el=(name,at={},text)=>{const e=document.createElementNS(NS,name);for(const k in at)e.setAttribute(k,at[k]);if(text!==undefined)e.textContent=text;return e};
 const clock=s=>s>=3600?`${Math.floor(s/3600)}h ${String(Math.floor(s/60)%60).padStart(2,"0")}m`:`${Math.floor(s/60)}m ${String(Math.round(s)%60).padStart(2,"0")}s`;
 const trials=data.trials,ok=trials.filter(t=>t.ok);

@@ -207,14 +207,20 @@ class Beads {
     this.common = {target: camera.target, camera: camera.axes, scale: camera.scale};
   }
 
-  /** Moves whose junctions are in [first, end). @param style {round, coarse, tint, plane, offset} */
+  /** Moves whose junctions are in [first, end). @param style {round, coarse, tint, plane, offset, depth} */
   beads(index, first, end, style) {
     const gl = this.gl, p = this.prints[index], program = this.program(style.round, !!style.plane).use();
     program.set({...this.common, eye: this.camera.eye, light: this.camera.light, origin: this.origin, grain: page.grain, dots: this.camera.dots, tint: style.tint || [0, 0, 0, 0]});
     if (style.plane) program.set({plane: style.plane, offset: style.offset});
     this.bind(0, p.junctions); this.bind(1, p.indices); this.bind(2, p.palette);
     program.texture('junctions', 0).texture('indices', 1).texture('palette', 2);
-    if (!style.coarse) return void (end > first && gl.drawArrays(gl.TRIANGLES, 6 * first, 6 * (end - first)));
+    gl.depthFunc(style.depth || gl.LEQUAL);
+    if (style.coarse) this.drawCoarse(p, first, end);
+    else if (end > first) gl.drawArrays(gl.TRIANGLES, 6 * first, 6 * (end - first));
+    gl.depthFunc(gl.LEQUAL);
+  }
+  drawCoarse(p, first, end) {
+    const gl = this.gl;
     const {buffer, list} = this.coarse(p), from = lowerBound(list, first), to = lowerBound(list, end);
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, buffer);
     if (to > from) gl.drawElements(gl.TRIANGLES, 6 * (to - from), gl.UNSIGNED_INT, 24 * from);

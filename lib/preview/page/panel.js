@@ -49,10 +49,14 @@ function showDifferences(box) {
   $('differences-box').hidden = !c;
   if (!c) return;
   box.append(make('p', {}, c.verdict));
-  const number = v => v === null ? '' : Math.abs(v) >= 1000 ? v.toFixed(0) : String(+v.toPrecision(5));
-  const t = table('Figures', ['', 'first', 'second', 'differ by'], c.figures.map(f => [f.name, `${number(f.a)} ${f.unit}`, `${number(f.b)} ${f.unit}`, f.percent === null ? '' : `${f.percent.toFixed(2)} %`]));
+  const number = v => Math.abs(v) >= 1000 ? v.toFixed(0) : String(+v.toPrecision(4));
+  const t = table('Figures', ['', 'first', 'second', '%'], c.figures.map(f => [f.unit ? `${f.name}, ${f.unit.replace(/([23])$/, d => ' ²³'[d - 1])}` : f.name, number(f.a), number(f.b), f.percent.toFixed(2)]));
   c.figures.forEach((f, i) => { if (f.beyond) t.rows[i + 1].className = 'differs'; });
   box.append(t, curves('Area that only one covers', 'mm²', [c.layers.map(l => [l[0], l[1]]), c.layers.map(l => [l[0], l[2]])]));
-  if (c.settings.length) box.append(table(`Settings (${c.settings.length})`, ['', 'first', 'second'], c.settings.map(s => [s.key, s.a, s.b])));
+  if (c.settings.length) {
+    const settings = table(`Settings (${c.settings.length})`, ['', 'first', 'second'], c.settings.map(s => [s.key, s.a, s.b]));
+    settings.className = 'words';
+    box.append(settings);
+  }
   else box.append(make('p', {}, c.settingsNote));
 }

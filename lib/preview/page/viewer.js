@@ -117,14 +117,20 @@ function renderSolid(indices, area, ratio) {
   painter.look(area, {...camera.forShaders(area[2] / ratio, area[3] / ratio), dots: camera.zoom * ratio});
   drawBed();
   for (const i of indices) {
-    const s = shownOf(i), tint = state.layout === 'over' ? [...rgb(i ? page.colours.b : page.colours.a).map(v => v / 255), 0.8] : undefined;
-    painter.beads(i, s.first, s.end, {round: !state.moving, coarse: state.moving && (total > manyBeads || slow), tint, ...cut});
+    const s = shownOf(i), style = {round: !state.moving, coarse: state.moving && (total > manyBeads || slow), ...cut};
+    if (state.layout !== 'over') painter.beads(i, s.first, s.end, style);
+    else for (const pass of passes(gl)[i]) painter.beads(i, s.first, s.end, {...style, ...pass});
     if (checked('travels')) painter.travels(i, s.first, s.end, [...rgb(page.colours.travel).map(v => v / 255), 1]);
     for (const what of ['retractions', 'seams'])
       if (checked(what)) painter.plain(what, gl.POINTS, slice(points(prints[i], what), s.first, s.end), [...rgb(page.colours[what]).map(v => v / 255), 1], {size: 5 * ratio, nearer: 0.002});
     if (checked('model') && prints[i].solid) painter.plain('model' + i, gl.TRIANGLES, prints[i].solid, [0.35, 0.55, 0.85, 0.22], {through: true});
   }
   drawFindings(indices, ratio);
+}
+/** Two prints over each other: what only one has is in its colour, what stands in the same place in both is grey. */
+function passes(gl) {
+  const tint = (colour, share) => [...rgb(colour).map(v => v / 255), share];
+  return [[{tint: tint(page.colours.a, 0.85)}], [{tint: tint('#b4b4b4', 0.9), depth: gl.EQUAL}, {tint: tint(page.colours.b, 0.85), depth: gl.LESS}]];
 }
 function drawBed() {
   if (!page.overlay) return;
