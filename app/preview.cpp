@@ -181,8 +181,9 @@ void write_preview(const std::string& destination, const audit::Passed& gcode, c
   const auto kind = preview_kind(destination);
   if (kind == preview::Kind::html) {
     const auto paths = toolpaths_of(gcode.gcode(), settings, destination);
-    return write_output(destination, page_of(paths, gcode.gcode(), destination, {.title = title},
-                                             overlay_of(settings.machine, gcode.report()), models));
+    const auto overlay = overlay_of(settings.machine, gcode.report());
+    const std::string page = page_of(paths, gcode.gcode(), destination, {.title = title}, overlay, models);
+    return write_output(destination, page);
   }
   const auto paths = preview::read(gcode.gcode(), diameter_of_e(settings));
   if (paths.layers.empty()) throw Error{Error::Kind::file, "there is no motion to draw", destination};

@@ -90,7 +90,8 @@ class Browser:
         elif kind == "Runtime.consoleAPICalled" and p["type"] in ("error", "warning", "assert"):
             self.errors.append(" ".join(str(a.get("value", a.get("description"))) for a in p["args"]))
         elif kind == "Log.entryAdded" and p["entry"]["level"] in ("error", "warning"):
-            self.errors.append(p["entry"]["text"])
+            if "(OpenGL, Performance" not in p["entry"]["text"]:  # the driver's word on a screenshot
+                self.errors.append(p["entry"]["text"])
         elif kind == "Network.requestWillBeSent":
             self.requests.append(p["request"]["url"][:200])
 

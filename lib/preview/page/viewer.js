@@ -105,10 +105,7 @@ function render() {
   // Frames of a moving camera that come slowly: the card, or what stands in for it, is busy.
   if (state.moving && state.last && from - state.last > 200 && from - state.last < 2000) slow = true;
   state.last = state.moving ? from : 0;
-  if (!document.body.dataset.first) {
-    if (painter.gl) painter.gl.readPixels(0, 0, 1, 1, painter.gl.RGBA, painter.gl.UNSIGNED_BYTE, new Uint8Array(4));  // waits for it
-    document.body.dataset.first = Math.round(performance.now() - began);
-  }
+  if (!document.body.dataset.first) requestAnimationFrame(() => { document.body.dataset.first ||= Math.round(performance.now() - began); });  // when it is shown
   document.body.dataset.frames = 1 + +(document.body.dataset.frames || 0);
 }
 
