@@ -10,8 +10,10 @@
 namespace weft::infill {
 namespace {
 
-constexpr Um sliver =
-    50;  // half a cell of the grid that borders of solid follow: where these jitter nothing is carried
+// Borders between kinds of fill follow a grid of 0.1 mm and step by its cells.
+constexpr Um jitter = 50;  // a shell's strips narrower than twice that are such steps
+constexpr Um sliver = 10;  // what stands out less than twice that beyond what carries itself hangs nowhere
+constexpr Um rim = 25;     // so far beyond it goes on, and is wanted as well
 
 Regions sparse_of(const LayerAreas& layer) {
   Regions out;
@@ -19,12 +21,16 @@ Regions sparse_of(const LayerAreas& layer) {
   return out;
 }
 
-/// What of a layer's shell stands beyond the shell below by more than carries itself.
+/// What of a layer's shell stands beyond the shell below, where that is further than carries itself.
 Regions hanging(const Regions& shell, const Regions& below, double carries_um) {
   constexpr double everything_um = 1e7;  // of 90°: no bed is as wide
   if (carries_um > everything_um) return {};
-  const Regions carried = geometry::offset(below, {.by = static_cast<Um>(std::lround(carries_um))});
-  return geometry::opening(geometry::subtract(shell, carried), sliver);
+  const auto by = static_cast<Um>(std::lround(carries_um));
+  const Regions furthest = geometry::opening(
+      geometry::subtract(shell, geometry::offset(below, {.by = by, .corner = geometry::Corner::bevel})), sliver,
+      geometry::Corner::bevel);
+  if (furthest.empty()) return {};
+  return geometry::subtract(geometry::offset(furthest, {.by = by + rim, .corner = geometry::Corner::bevel}), below);
 }
 
 }  // namespace
@@ -37,12 +43,13 @@ void keep_below_tops(const InfillSettings& infill, const ShellObject& object, st
   for (std::size_t i = areas.size(); i-- > 0;) {
     stop_if_asked();
     const Regions sparse = sparse_of(areas[i]);
-    Regions own = geometry::subtract(*object.layers[i].outline, sparse);
+    Regions own =
+        geometry::opening(geometry::subtract(*object.layers[i].outline, sparse), jitter, geometry::Corner::bevel);
     if (i + 1 < areas.size()) {
       wanted = geometry::unite(wanted, hanging(shell, own, lean * object.layers[i + 1].height));
       wanted = geometry::intersect(wanted, sparse);
     }
-    const Regions filled = geometry::opening(wanted, line / 2);
+    const Regions filled = geometry::opening(wanted, line / 2, geometry::Corner::bevel);
     for (PartAreas& part : areas[i])
       if (!part.sparse.empty()) part.sparse = geometry::intersect(part.sparse, filled);
     shell = std::move(own);

@@ -202,6 +202,7 @@ class Exporter {
     say("small_perimeter_speed", v.speed_small_perimeter ? number(v.speed_small_perimeter->of(v.speed_wall_0)) : "0",
         "speed_small_perimeter");
     say("first_layer_speed", print("speed_layer_0"), "speed_layer_0");
+    say("infill_only_where_needed", s_.infill.infill_support_enabled ? "1" : "0", "infill_support_enabled");
     say("overhangs", "1");
     overhangs();
     say("travel_speed_z", print("speed_z_hop"), "speed_z_hop");

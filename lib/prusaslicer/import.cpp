@@ -287,6 +287,10 @@ class Translator {
       const double layers = lines_.figure(*e).v;
       set("infill_sparse_thickness", layers > 1 ? number(std::min(layers * height_, 5.0), 3) : "auto", *e);
     }
+    if (const auto* e = lines_.find("infill_only_where_needed")) {
+      set("infill_support_enabled", lines_.flag(*e) ? "true" : "false", *e);
+      if (lines_.flag(*e)) set("infill_support_angle", "50", *e);
+    }
     if (const auto* e = lines_.find("bridge_angle"))
       set("bridge_angle", lines_.figure(*e).v == 0 ? "auto" : number(lines_.figure(*e).v), *e);
     if (const auto* e = lines_.find("elefant_foot_compensation"))

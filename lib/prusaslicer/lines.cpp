@@ -77,9 +77,15 @@ void modernise(IniEntry& e) {
 /// A list of numbers, one for each filament or extruder, that is empty: vendors' bundles have `filament_cost =`, and
 /// PrusaSlicer then takes what it takes without the key.
 bool says_nothing(const IniEntry& e) {
-  const auto* row = find_key(e.key);
-  return row && e.value.empty() && row->written == Written::plain && row->form != Form::none &&
-         (row->of_filament || row->name.starts_with("filament_"));
+  if (!e.value.empty()) return false;
+  const auto plain = [](const Key* row) {
+    return row && row->written == Written::plain && row->form != Form::none ? row : nullptr;
+  };
+  const std::string_view key = e.key;
+  const bool of_filament = key.starts_with("filament_");
+  if (const auto* row = plain(find_key(key))) return row->of_filament || of_filament;
+  const auto* row = of_filament ? plain(find_key(key.substr(9))) : nullptr;  // a filament's own value of another key
+  return row && row->of_filament;
 }
 
 }  // namespace

@@ -10,11 +10,18 @@ using namespace weft::test;
 
 namespace {
 
+/// Two walls of 0.45 mm: the middle of an outer wall above lies on them up to 0.61 mm inside the outline.
+WallSettings two_walls() {
+  WallSettings settings = by_volume();
+  settings.wall_line_count = 2;
+  settings.wall_line_width_0 = settings.wall_line_width_x = 0.45_mm;
+  return settings;
+}
+
 /// Walls around the box of a layer above which the outline stands further in by so much on all sides.
 std::size_t beads_below(Um step, bool on_slopes, Um wide = 20_mm) {
-  WallSettings settings = by_volume();
+  WallSettings settings = two_walls();
   settings.wall_extra_on_slopes = on_slopes;
-  settings.wall_line_count = 2;
   const Regions here{rectangle(0, 0, wide, wide)}, above{rectangle(step, step, wide - step, wide - step)};
   const SlicedLayer layer = layer_of(here);
   return walls::build(settings, {.layer = layer, .index = 1, .nozzle_diameter = usual_nozzle, .above = &above})
@@ -34,9 +41,8 @@ TEST_CASE("walls: wall_extra_on_slopes adds the walls that the outer walls above
 
 TEST_CASE("walls: wall_extra_on_slopes leaves a part alone that only a small part of the outline above needs walls of",
           "[walls]") {
-  WallSettings settings = by_volume();
+  WallSettings settings = two_walls();
   settings.wall_extra_on_slopes = true;
-  settings.wall_line_count = 2;
   // One side of four steps in: a quarter of the outline.
   const Regions here{rectangle(0, 0, 20_mm, 20_mm)}, above{rectangle(1.2_mm, 0, 20_mm, 20_mm)};
   const SlicedLayer layer = layer_of(here);
