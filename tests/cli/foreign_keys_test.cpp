@@ -128,7 +128,8 @@ TEST_CASE("prusaslicer keys: solid_infill_every_layers makes every so many layer
   for (const int layer : {5, 10, 15, 20, 25}) {
     CHECK(was.layers.at("Internal infill").count(layer) == 1);
     CHECK(now.layers.at("Internal infill").count(layer) == 0);
-    CHECK(now.layers.at("Solid infill").count(layer) == 1);
+    // Over sparse infill a solid layer is a bridge, as PrusaSlicer's is.
+    CHECK(now.layers.at("Solid infill").count(layer) + now.layers.at("Bridge infill").count(layer) >= 1);
   }
   CHECK(now.layers.at("Internal infill").count(11) == 1);
 }
