@@ -60,6 +60,17 @@ class Planner {
     std::uint32_t passage = none, throat = none;  ///< index of it
     Span span{};
   };
+  /// Core edges of one count that touch are a region, known by the first of them.
+  struct CountRegions {
+    std::vector<std::uint32_t> root;        ///< by edge; of() leads to the region
+    std::vector<double> length, low, high;  ///< by region: its way, its least and most thickness
+    std::vector<double> ends;               ///< … and how many it has, twice
+    std::uint32_t of(std::uint32_t edge);
+  };
+  /// Where a region meets another.
+  struct Border {
+    std::uint32_t region, other;
+  };
   struct Descent {
     std::uint32_t half;
     Span span;
@@ -111,8 +122,14 @@ class Planner {
   void cut_at_thresholds();
   /// The band of the widest bead when that many share a thickness.
   double widest(Count count, double thickness);
-  /// Regions of one count along the core, joined where they touch.
+  /// Short regions take the count of a longer one beside them, where that fits there.
   void filter();
+  /// The next core edge around the end of a half.
+  std::uint32_t next_core(std::uint32_t h) const;
+  CountRegions regions_of_counts() const;
+  /// Either way round, the shortest regions first; counts their ends.
+  std::vector<Border> borders_of(CountRegions& regions) const;
+  bool gives_way(const CountRegions& regions, const Border& border);
   /// A mouth between parts of the same number of beads is none: the beads go through.
   void open_needless_mouths();
   /// How wide a bead may grow for a short way, rather than be joined by another.

@@ -80,82 +80,99 @@ double Planner::widest(Count count, double thickness) {
   return most;
 }
 
+std::uint32_t Planner::CountRegions::of(std::uint32_t edge) {
+  while (root[edge] != edge) edge = root[edge] = root[root[edge]];
+  return edge;
+}
+
+std::uint32_t Planner::next_core(std::uint32_t h) const {
+  std::uint32_t g = s_.halves[h].next;
+  while (!edges_[g / 2].core) g = s_.halves[Skeleton::twin(g)].next;
+  return g;
+}
+
+Planner::CountRegions Planner::regions_of_counts() const {
+  const auto edges = static_cast<std::uint32_t>(edges_.size());
+  CountRegions out;
+  out.root.resize(edges);
+  std::iota(out.root.begin(), out.root.end(), 0U);
+  StopNowAndThen stop(256);
+  for (std::uint32_t h = 0; h < s_.halves.size(); ++h) {
+    stop.step();
+    if (!edges_[h / 2].core) continue;
+    const std::uint32_t g = next_core(h);
+    if (edges_[g / 2].count == edges_[h / 2].count) {
+      const std::uint32_t here = out.of(h / 2), there = out.of(g / 2);
+      out.root[std::max(here, there)] = std::min(here, there);
+    }
+  }
+  out.length.assign(edges, 0), out.low.assign(edges, 1e18), out.high.assign(edges, 0), out.ends.assign(edges, 0);
+  for (std::uint32_t e = 0; e < edges; ++e) {
+    if (!edges_[e].core) continue;
+    const std::uint32_t r = out.of(e);
+    out.length[r] += s_.length(e);
+    for (const std::uint32_t h : {2 * e, 2 * e + 1}) {
+      out.low[r] = std::min(out.low[r], 2 * s_.start(h).clearance);
+      out.high[r] = std::max(out.high[r], 2 * s_.start(h).clearance);
+    }
+  }
+  return out;
+}
+
+std::vector<Planner::Border> Planner::borders_of(CountRegions& regions) const {
+  std::vector<Border> out;
+  StopNowAndThen stop(256);
+  for (std::uint32_t h = 0; h < s_.halves.size(); ++h) {
+    stop.step();
+    if (!edges_[h / 2].core) continue;
+    const std::uint32_t here = regions.of(h / 2), there = regions.of(next_core(h) / 2);
+    if (here == there) continue;
+    out.push_back({here, there});
+    out.push_back({there, here});
+  }
+  for (const Border& b : out) regions.ends[b.region] += 1;
+  const auto& length = regions.length;
+  std::sort(out.begin(), out.end(), [&](const Border& p, const Border& q) {
+    if (length[p.region] != length[q.region]) return length[p.region] < length[q.region];
+    if (p.region != q.region) return p.region < q.region;
+    return length[p.other] > length[q.other];
+  });
+  return out;
+}
+
+bool Planner::gives_way(const CountRegions& regions, const Border& b) {
+  const double length = regions.length[b.region], low = regions.low[b.region], high = regions.high[b.region];
+  if (length >= o_.filter || regions.length[b.other] <= length) return false;
+  const Count mine = edges_[b.region].count, other = edges_[b.other].count;
+  if (std::abs(mine.beads() - other.beads()) != 1 || mine.beads() == 0 || other.beads() == 0) return false;
+  const double t = threshold(w_, std::min(mine.beads(), other.beads()));
+  const double deviation = other.beads() > mine.beads() ? t - low : high - t;
+  if (deviation <= o_.filter_deviation) return true;
+  if (mine.beads() < other.beads() || length >= regions.ends[b.region] / 2 * w_.inner) return false;
+  // Where several parts meet there is a little more room than in each: no wall turns back in that.
+  const bool junction = regions.ends[b.region] > 5;
+  const double widest_there = widest(other, high);
+  if (other.pairs > 0) return junction && widest_there < wide_bead();
+  return widest_there < (junction && high < 1.5 * regions.low[b.other] ? w_.most : wide_bead());
+}
+
 void Planner::filter() {
   for (int round = 0; round < 4; ++round) {
-    const auto edges = static_cast<std::uint32_t>(edges_.size());
-    std::vector<std::uint32_t> root(edges);
-    std::iota(root.begin(), root.end(), 0U);
-    auto find = [&](std::uint32_t e) {
-      while (root[e] != e) e = root[e] = root[root[e]];
-      return e;
-    };
-    StopNowAndThen stop(256);
-    for (std::uint32_t h = 0; h < s_.halves.size(); ++h) {
-      stop.step();
-      if (!edges_[h / 2].core) continue;
-      std::uint32_t g = s_.halves[h].next;  // the next core edge around the end
-      while (!edges_[g / 2].core) g = s_.halves[Skeleton::twin(g)].next;
-      if (edges_[g / 2].count == edges_[h / 2].count)
-        root[std::max(find(g / 2), find(h / 2))] = std::min(find(g / 2), find(h / 2));
-    }
-    std::vector<double> length(edges, 0), low(edges, 1e18), high(edges, 0);
-    for (std::uint32_t e = 0; e < edges; ++e) {
-      if (!edges_[e].core) continue;
-      const std::uint32_t r = find(e);
-      length[r] += s_.length(e);
-      for (const std::uint32_t h : {2 * e, 2 * e + 1}) {
-        low[r] = std::min(low[r], 2 * s_.start(h).clearance);
-        high[r] = std::max(high[r], 2 * s_.start(h).clearance);
-      }
-    }
-    struct Border {
-      std::uint32_t region, other;
-    };
-    std::vector<Border> borders;
-    for (std::uint32_t h = 0; h < s_.halves.size(); ++h) {
-      stop.step();
-      if (!edges_[h / 2].core) continue;
-      std::uint32_t g = s_.halves[h].next;
-      while (!edges_[g / 2].core) g = s_.halves[Skeleton::twin(g)].next;
-      if (find(g / 2) != find(h / 2)) {
-        borders.push_back({find(h / 2), find(g / 2)});
-        borders.push_back({find(g / 2), find(h / 2)});
-      }
-    }
-    std::sort(borders.begin(), borders.end(), [&](const Border& p, const Border& q) {
-      if (length[p.region] != length[q.region]) return length[p.region] < length[q.region];
-      if (p.region != q.region) return p.region < q.region;
-      return length[p.other] > length[q.other];
-    });
-    std::vector<double> mouths(edges, 0);  // ends of each region, twice
-    for (const Border& b : borders) mouths[b.region] += 1;
-    std::vector<std::uint8_t> fixed(edges, 0);
-    std::vector<Count> changed(edges);
+    auto regions = regions_of_counts();
+    enum class Fate : std::uint8_t { open, stays, changes };
+    std::vector<Fate> fate(edges_.size());
+    std::vector<Count> changed(edges_.size());
     bool any = false;
-    for (const Border& b : borders) {
-      if (length[b.region] >= o_.filter || fixed[b.region] || fixed[b.other]) continue;
-      if (length[b.other] <= length[b.region]) continue;
-      const Count mine = edges_[b.region].count, other = edges_[b.other].count;
-      if (std::abs(mine.beads() - other.beads()) != 1) continue;
-      const double t = threshold(w_, std::min(mine.beads(), other.beads()));
-      if (mine.beads() == 0 || other.beads() == 0) continue;
-      const double deviation = other.beads() > mine.beads() ? t - low[b.region] : high[b.region] - t;
-      // Where several parts meet there is a little more room than in each: no wall turns back in that.
-      const bool junction = mouths[b.region] > 5;
-      const double widest_there = widest(other, high[b.region]);
-      const bool cramped =
-          mine.beads() > other.beads() && length[b.region] < mouths[b.region] / 2 * w_.inner &&
-          (other.pairs > 0 ? junction && widest_there < wide_bead()
-                           : widest_there < (junction && high[b.region] < 1.5 * low[b.other] ? w_.most : wide_bead()));
-      if (deviation > o_.filter_deviation && !cramped) continue;
-      fixed[b.region] = fixed[b.other] = 1;
-      changed[b.region] = other;
-      fixed[b.region] = 2;
+    for (const Border& b : borders_of(regions)) {
+      if (fate[b.region] != Fate::open || fate[b.other] != Fate::open || !gives_way(regions, b)) continue;
+      fate[b.region] = Fate::changes;
+      fate[b.other] = Fate::stays;
+      changed[b.region] = edges_[b.other].count;
       any = true;
     }
     if (!any) return;
-    for (std::uint32_t e = 0; e < edges; ++e)
-      if (edges_[e].core && fixed[find(e)] == 2) edges_[e].count = changed[find(e)];
+    for (std::uint32_t e = 0; e < edges_.size(); ++e)
+      if (edges_[e].core && fate[regions.of(e)] == Fate::changes) edges_[e].count = changed[regions.of(e)];
   }
 }
 
