@@ -84,7 +84,7 @@ Regions free_part(const Regions& area, const KeepOut& out, const Regions& contac
   if (contacts.empty())
     append(barred, out.near);
   else
-    append(barred, geometry::subtract(out.near, contacts));
+    append(barred, geometry::subtract(out.near, grown(contacts, object.nozzle)));  // a strip alone could not be printed
   return barred.empty() ? left : geometry::subtract(left, barred);
 }
 

@@ -124,6 +124,18 @@ TEST_CASE("support: what reaches out further than the angle allows is wanted, an
   }
 }
 
+TEST_CASE("support: the rim of a slope is held, where each layer asks for a strip thinner than a bead") {
+  Body body;
+  body.add(30, {rectangle(-5000, -5000, 5000, 5000)});
+  for (int i = 1; i <= 15; ++i) body.add(1, {rectangle(-5000 - i * 260, -5000, 5000 + i * 260, 5000)});
+  for (const auto structure : every_structure) {
+    const auto plan = planned(on(structure), body);
+    INFO(static_cast<int>(structure));
+    CHECK(plan.figures.needed_mm2 == Approx(15 * 2 * 0.26 * 10).epsilon(0.02));
+    CHECK(plan.figures.left_mm2 < 0.02 * plan.figures.needed_mm2);
+  }
+}
+
 TEST_CASE("support: a bridge between two rests is left out, one longer than allowed is not") {
   for (const Um span : {10'000, 30'000}) {
     Body body;
