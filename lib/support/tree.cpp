@@ -153,7 +153,8 @@ class Grower {
   /// How thick a branch is that far below its tip.
   double thickness(double was, Um below_tip) const {
     const double branch = std::max(tip_, s_.support_tree_branch_diameter / 2.0);
-    constexpr double flare = 0.12;  // tips stay thin where they are many, and are branches some millimetres below
+    constexpr double flare = 0.35;  // a tip is a branch within three times the difference; thinner ones, each with a
+                                    // loop of its own, take more
     const double angle = std::tan(s_.support_tree_branch_diameter_angle * std::numbers::pi / 180);
     const double ramp = tip_ + below_tip * flare;
     const double wanted = ramp < branch ? ramp : branch + (below_tip - (branch - tip_) / flare) * angle;
