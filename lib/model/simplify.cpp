@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "model/simplify.h"
 
+#include "core/stop.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -204,11 +206,12 @@ class Remaining {
     if (is_end(from)) return {at_[from], error(at_[from], at_[after_[to]])};
     if (is_end(to)) return {at_[to], error(at_[before_[from]], at_[to])};
     const std::size_t first = at_[before_[from]], last = at_[after_[to]];
-    // Where the path turns back both ends are missed alike.
+    // Where the path turns back both ends are missed alike. The middle comes last: of a single piece it is the end that
+    // is met first, which is another from the other end.
     const bool first_is_long = length(before_[from], from) > length(to, after_[to]);
     Merged best{0, 1e300};
     for (const std::size_t at :
-         {middle(at_[from], at_[to]), at_[first_is_long ? from : to], at_[first_is_long ? to : from]})
+         {at_[first_is_long ? from : to], at_[first_is_long ? to : from], middle(at_[from], at_[to])})
       if (const double e = std::max(error(first, at), error(at, last)); e < best.error * (1 - 1e-6)) best = {at, e};
     return best;
   }
@@ -269,7 +272,9 @@ std::vector<std::size_t> without_short_pieces(const VertexPath& path, const std:
   };
   for (std::size_t i = 0; i + 1 < chosen.size(); ++i) add(i, i + 1);
   if (shortest.empty()) return chosen;
+  StopNowAndThen stop(64);
   while (!shortest.empty()) {
+    stop.step();
     const auto [length, from, to] = shortest.top();
     shortest.pop();
     if (!left.is_piece(from, to, length) || (left.is_end(from) && left.is_end(to))) continue;
@@ -286,6 +291,7 @@ std::vector<std::size_t> without_short_pieces(const VertexPath& path, const std:
 
 void smooth_widths(VertexPath& path, bool closed, double reach) {
   if (path.size() < 3 || reach <= 0) return;
+  stop_if_asked();
   const auto bends = bends_of_width(path, closed, reach);
   if (std::find(bends.begin(), bends.end(), 1) == bends.end()) return;
   path = finer(path, bends, closed, reach);
@@ -308,6 +314,7 @@ void smooth_widths(VertexPath& path, bool closed, double reach) {
 }
 
 std::vector<std::size_t> chosen_vertices(const VertexPath& path) {
+  stop_if_asked();
   struct Span {
     std::size_t first, last;
   };
@@ -323,7 +330,9 @@ std::vector<std::size_t> chosen_vertices(const VertexPath& path) {
     last = i;
   }
   constexpr double equal = 1 + 1e-6;
+  StopNowAndThen stop(64);
   while (!open.empty()) {
+    stop.step();
     const Span span = open.back();
     open.pop_back();
     const Chord chord(path[span.first], path[span.last]);
@@ -372,6 +381,7 @@ void cut_ramps(VertexPath& path, bool closed) {
 }
 
 VertexPath projected(const VertexPath& path, const std::vector<std::size_t>& at, bool closed) {
+  stop_if_asked();
   const Projection projection(path, at, closed);
   VertexPath out;
   for (const std::size_t i : at) out.push_back(path[i]);
