@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/fixtures.h"
 #include "mesh/three_mf_paint.h"
 #include "mesh/zip_fixture.h"
