@@ -310,17 +310,23 @@ void Reader::tool_change(const Call& c) {
   take_tool_offsets();
 }
 
-/// M486 S2 A"bracket": the object that follows; S-1: none.
+/// M486 S2: the object that follows; S-1: none. M486 A"bracket": its name, also where its number comes again.
 void Reader::label_object(const Call& c) {
+  constexpr std::size_t most_names = 4096;
   const std::string_view text = c.text;
+  if (const auto s = text.find('S'); s != std::string_view::npos && s < text.find('A')) {
+    auto id = text.substr(s + 1);
+    id = id.substr(0, id.find_first_of(" \t\r;*"));
+    object_id_ = id.starts_with("-") ? std::string_view{} : id;
+    const auto known = object_names_.find(id);
+    context_.set_object(known == object_names_.end() ? std::string_view(object_id_) : std::string_view(known->second));
+  }
   if (const auto at = text.find('A'); at != std::string_view::npos) {
     auto name = text.substr(at + 1);
     if (name.starts_with('"')) name = name.substr(1, name.find('"', 1) - 1);
+    if (!object_id_.empty() && (object_names_.size() < most_names || object_names_.contains(object_id_)))
+      object_names_[object_id_] = name;
     context_.set_object(name);
-  } else if (const auto s = text.find('S'); s != std::string_view::npos) {
-    auto id = text.substr(s + 1);
-    id = id.substr(0, id.find_first_of(" \t\r;*"));
-    context_.set_object(id.starts_with("-") ? std::string_view{} : id);
   }
 }
 

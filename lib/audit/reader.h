@@ -98,7 +98,7 @@ class Reader {
   /// (G10) is not in it: see retracted().
   double pushed_alone() const { return pushed_alone_; }
   double drawn_alone() const { return drawn_alone_; }
-  bool retracted() const { return retracted_; }  ///< by G10
+  bool retracted() const { return retracted_; }      ///< by G10
   double speed_mm_s() const { return speed_mm_s_; }  ///< of the last motion, as F asks for it; 0 when it never did
   std::span<const Opaque> opaque() const { return opaque_; }  ///< in order of first use, at most 64 names
   std::int64_t opaque_count() const { return opaque_count_; }
@@ -279,9 +279,11 @@ class Reader {
   std::array<std::array<double, 3>, 10> workspaces_{};     ///< offsets; [1] is G54
   std::array<std::array<bool, 3>, 10> workspace_known_{};  ///< said in this file, or G54
   std::size_t workspace_ = 1;
-  std::map<std::string, State, std::less<>> saved_;  ///< by SAVE_GCODE_STATE
-  std::vector<State> pushed_;                        ///< by M120 of RepRapFirmware
-  int motion_mode_ = -1;                             ///< G0 … G3, for lines that are only words
+  std::map<std::string, State, std::less<>> saved_;               ///< by SAVE_GCODE_STATE
+  std::string object_id_;                                         ///< of M486; empty: none
+  std::map<std::string, std::string, std::less<>> object_names_;  ///< by that
+  std::vector<State> pushed_;                                     ///< by M120 of RepRapFirmware
+  int motion_mode_ = -1;                                          ///< G0 … G3, for lines that are only words
   int plane_ = 17, tool_ = 0;
   std::int16_t mode_cause_ = -1;      ///< G90 or G91 is not known, because of
   double raised_mm_ = 0;              ///< before it was homed

@@ -210,6 +210,10 @@ TEST_CASE("audit: features, layers and objects are read in the dialects of Prusa
   CHECK(cura.layer == 2);
   CHECK(finding("; BEGIN_LAYER_OBJECT z=0.2\n;; --- layer 1 (0.2 @ 0.4) ---\n").layer == 1);
   const auto marlin = finding(";LAYER_CHANGE\nM486 S2\nM486 A\"bracket\"\n;TYPE:Something new\n");
+  // Names that are given once, at the head, hold where their number comes again.
+  const auto again =
+      finding("M486 T2\nM486 S0\nM486 Abox_1\nM486 S1\nM486 Abox_2\nM486 S-1\n;LAYER_CHANGE\nM486 S0\n;TYPE:Skirt\n");
+  CHECK(again.object == "box_1");
   CHECK(marlin.feature == "something new");
   CHECK(marlin.object == "bracket");
 }
