@@ -58,8 +58,9 @@ Split cheaper(const SupportSettings& s, const Object& object, const Stack& stack
   for (const Point3 tip : branches.tips_at)
     if (const auto patch = index.region_at({tip.x, tip.y}))
       branches_mm3[*patch] += tree_mm3 * (tip.z - object.floor) / std::max(1.0, heights);
-  for (const auto& regions : branches.left)
-    for (const Region& region : regions) branches_mm3[patch_of(region)] += 1e9;  // columns have to come anyway
+  for (std::size_t k = 0; k < branches.left.size(); ++k)  // what no branch gets to stands on columns of its own
+    for (const Region& region : branches.left[k])
+      branches_mm3[patch_of(region)] += column_mm3(s, {region}, line, stack.levels[k].z - object.floor);
 
   Split out{std::vector<Regions>(contacts.size()), std::vector<Regions>(contacts.size())};
   for (std::size_t k = 0; k < contacts.size(); ++k)
