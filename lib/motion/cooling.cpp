@@ -2,7 +2,9 @@
 #include "motion/cooling.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
+#include <optional>
 
 namespace weft::motion {
 namespace {
@@ -57,19 +59,66 @@ double fan_share(const CoolingSettings& cooling, std::size_t number, double seco
   return percent / 100.0;
 }
 
+namespace {
+
+/// By the quarters of its width that a wall lies over air with.
+constexpr std::array over_air_fans{&CoolingSettings::overhang_fan_speed_25, &CoolingSettings::overhang_fan_speed_50,
+                                   &CoolingSettings::overhang_fan_speed_75, &CoolingSettings::overhang_fan_speed_100};
+
+/// The fan that what a bead lies over asks for; nothing: the layer's.
+std::optional<double> over_air_percent(const CoolingSettings& cooling, const Extrude& bead) {
+  if (row_of(bead.role).over_air) return cooling.bridge_fan_speed;
+  if (bead.air_quarters == 0) return std::nullopt;
+  const auto own = cooling.*over_air_fans.at(bead.air_quarters - 1U);
+  return own || bead.air_quarters <= 2 ? own : cooling.bridge_fan_speed;
+}
+
+/// The fan for each bead of a layer in their order; where it would turn slower for less time than a fan takes to, it
+/// does not.
+template <class F>
+std::vector<double> without_short_lulls(const std::vector<Step>& steps, const F& fan_of) {
+  constexpr double to_slow_down_s = 1;
+  std::vector<double> wanted;
+  double lull_s = 0;
+  std::size_t high = 0;  // the last bead before the lull, which began after it
+  for (const Step& step : steps) {
+    const auto* bead = std::get_if<Extrude>(&step);
+    if (bead == nullptr) continue;
+    wanted.push_back(fan_of(*bead));
+    const std::size_t i = wanted.size() - 1;
+    if (wanted[i] >= wanted[high]) {
+      if (lull_s < to_slow_down_s)
+        for (std::size_t k = high + 1; k < i; ++k) wanted[k] = wanted[high];
+      high = i, lull_s = 0;
+      continue;
+    }
+    double um = 0;
+    for (std::size_t k = 1; k < bead->path.size(); ++k) um += distance(bead->path[k - 1].at, bead->path[k].at);
+    lull_s += um / 1000 / std::max(bead->speed_mm_s, 1e-3);
+    if (lull_s >= to_slow_down_s) high = i, lull_s = 0;
+  }
+  return wanted;
+}
+
+}  // namespace
+
 void set_fan(const CoolingSettings& cooling, LayerPlan& layer, double seconds) {
   const std::size_t number = layer.time.number;
   const double share = fan_share(cooling, number, seconds);
   const bool over_air_too = cooling.cool_fan_enabled && number >= static_cast<std::size_t>(cooling.cool_fan_off_layers);
-  const double over_air = over_air_too ? std::max(share, cooling.bridge_fan_speed / 100.0) : share;
+  const auto fan_of = [&](const Extrude& bead) {
+    return over_air_too ? std::max(share, over_air_percent(cooling, bead).value_or(0) / 100.0) : share;
+  };
+  const std::vector<double> wanted = without_short_lulls(layer.steps, fan_of);
   std::vector<Step> steps;
   steps.reserve(layer.steps.size() + 8);
   steps.emplace_back(SetFan{share});
   double now = share;
+  std::size_t next = 0;  // of `wanted`
   const overloaded before{
-      [&](const Extrude& bead) {
-        const double wanted = row_of(bead.role).over_air ? over_air : share;
-        if (wanted != now) steps.emplace_back(SetFan{now = wanted});
+      [&](const Extrude&) {
+        const double fan = wanted[next++];
+        if (fan != now) steps.emplace_back(SetFan{now = fan});
       },
       LeavesAlone<Travel, Retract, Prime, SetFan, ObjectStart, ObjectEnd, ToolChange, SetTemperature, Pause>{}};
   for (auto& step : layer.steps) {

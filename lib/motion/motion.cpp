@@ -15,13 +15,14 @@
 namespace weft::motion {
 namespace {
 
+/// @param goes_on the wall before it: both are pieces of one
 /// @returns its volume, mm³
-double count_bead(const Extrude& bead, Statistics& s) {
+double count_bead(const Extrude& bead, bool goes_on, Statistics& s) {
   auto& feature = s.features[static_cast<std::size_t>(bead.role)];
   const bool wall = is_wall(bead.role);
   const double height_mm = to_mm(bead.height);
   double mm = 0, mm3 = 0;
-  if (wall) ++s.walls.beads;
+  if (wall && !goes_on) ++s.walls.beads;
   for (std::size_t i = 1; i < bead.path.size(); ++i) {
     const auto &a = bead.path[i - 1], &b = bead.path[i];
     const double length = distance(a.at, b.at) / 1000.0;
@@ -36,6 +37,8 @@ double count_bead(const Extrude& bead, Statistics& s) {
       s.walls.min_flow_ratio = std::min(s.walls.min_flow_ratio, static_cast<double>(j.flow));
       s.walls.min_width = std::min(s.walls.min_width, flow::line_width(j.width, bead.height));
     }
+  if (bead.air_quarters > 0) s.walls.over_air_mm.at(bead.air_quarters - 1U) += mm;
+  if (bead.role == Role::overhang_wall) s.walls.whole_over_air_mm += mm;
   feature.mm += mm;
   feature.mm3 += mm3;
   return mm3;
@@ -98,14 +101,17 @@ Statistics count(const Rules& rules, const LayerPlan& layer, std::optional<Point
     tool_primes.resize(std::max<std::size_t>(tool_primes.size(), loaded + std::size_t{1}));
     ++tool_primes[loaded];
   };
+  bool after_wall = false;
   const overloaded count_step{[&](const Extrude& bead) {
-                                const double mm3 = count_bead(bead, s);
+                                const double mm3 = count_bead(bead, after_wall, s);
+                                after_wall = is_wall(bead.role);
                                 if (bead.tool != any_tool) loaded = bead.tool;
                                 if (loaded != any_tool) s.tool(loaded).filament_mm3 += mm3;
                                 at = place_of(bead, bead.path.size() - 1, layer.z);
                               },
                               [&](const Travel& travel) {
                                 count_travel(travel, at, s);
+                                after_wall = false;
                                 at = travel.path.back();
                               },
                               [&](const Retract& retract) {

@@ -6,6 +6,7 @@
 #include "motion/resample.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -28,15 +29,31 @@ double nominal_area_mm2(const Rules& rules, Role role, Um height) {
   return flow::area_mm2(to_mm(width), to_mm(height));
 }
 
+/// The length of the closed bead that this is, or was cut from; 0: it is an open one.
+double loop_um(const Extrude& bead) {
+  if (bead.loop_length > 0) return bead.loop_length;
+  if (bead.path.front().at != bead.path.back().at) return 0;
+  double um = 0;
+  for (std::size_t i = 1; i < bead.path.size(); ++i) um += distance(bead.path[i - 1].at, bead.path[i].at);
+  return um;
+}
+
 /// What small closed walls are slowed to.
 double with_small_perimeter(const Rules& rules, const Extrude& bead, double speed_mm_s) {
-  if (!rules.speeds.speed_small_perimeter || !is_wall(bead.role) || bead.path.front().at != bead.path.back().at)
-    return speed_mm_s;
-  double um = 0;
-  for (std::size_t i = 1; i < bead.path.size() && um <= rules.speeds.small_perimeter_length; ++i)
-    um += distance(bead.path[i - 1].at, bead.path[i].at);
-  if (um > rules.speeds.small_perimeter_length) return speed_mm_s;
+  if (!rules.speeds.speed_small_perimeter || !is_wall(bead.role)) return speed_mm_s;
+  const double um = loop_um(bead);
+  if (um == 0 || um > rules.speeds.small_perimeter_length) return speed_mm_s;
   return std::min(speed_mm_s, rules.speeds.speed_small_perimeter->of(speed_mm_s));
+}
+
+/// By the quarters of its width that a wall lies over air with.
+constexpr std::array over_air_speeds{&SpeedSettings::speed_overhang_25, &SpeedSettings::speed_overhang_50,
+                                     &SpeedSettings::speed_overhang_75, &SpeedSettings::speed_overhang_100};
+
+/// What walls that hang are slowed to. What hangs with all of its width has a role of its own, and its speed.
+double with_overhang(const Rules& rules, const Extrude& bead, double speed_mm_s) {
+  if (bead.air_quarters == 0 || bead.role == Role::overhang_wall) return speed_mm_s;
+  return std::min(speed_mm_s, (rules.speeds.*over_air_speeds.at(bead.air_quarters - 1U)).of(speed_mm_s));
 }
 
 /// The largest speed at which a segment of that area and length may follow one of flow rate q (and half duration t)
@@ -114,7 +131,8 @@ double travel_acceleration_mm_s2(const Rules& rules) {
 }
 
 void set_bead_speed(const Rules& rules, Extrude& bead) {
-  const double speed = with_small_perimeter(rules, bead, feature_speed_mm_s(rules, bead.role));
+  const double speed =
+      with_overhang(rules, bead, with_small_perimeter(rules, bead, feature_speed_mm_s(rules, bead.role)));
   const double height_mm = to_mm(bead.height), share = rules.material.material_flow / 100.0;
   const double most_mm3_s = rules.material.material_max_volumetric_speed;
   const bool follows_width =

@@ -4,6 +4,7 @@
 #include "gcode/digest.h"
 #include "model/sequence.h"
 #include "motion/motion.h"
+#include "overhangs/overhangs.h"
 #include "pipeline/add_raft.h"
 #include "pipeline/check.h"
 #include "pipeline/codec.h"
@@ -143,7 +144,8 @@ travel::LayerInput plate_layer(const TimelineLayer& moment, const std::vector<Co
                              .outline = weft::moved(std::move(layer.outline), copy.by),
                              .skin = read.skin ? weft::moved(std::move(layer.skin), copy.by) : Regions{},
                              .top = read.top ? weft::moved(std::move(layer.top), copy.by) : Regions{},
-                             .sparse = read.sparse ? weft::moved(std::move(layer.sparse), copy.by) : Regions{}});
+                             .sparse = read.sparse ? weft::moved(std::move(layer.sparse), copy.by) : Regions{},
+                             .over_air = weft::moved(std::move(layer.over_air), copy.by)});
   }
   return input;
 }
@@ -202,6 +204,13 @@ std::optional<Point> start_of(const Settings& settings) {
   return open ? std::nullopt : audit::place_after(m, settings.gcode.machine_start_gcode);
 }
 
+/// Of all objects of a layer.
+Regions over_air_of(travel::LayerInput& input) {
+  Regions out;
+  for (auto& object : input.objects) std::move(object.over_air.begin(), object.over_air.end(), std::back_inserter(out));
+  return out;
+}
+
 /// Ways, speeds and times. What a layer was made of is let go of as it goes.
 std::vector<PackedLayer> plan_moves(const Scopes& scopes, std::vector<travel::Prepared> prepared,
                                     std::vector<travel::Ordered> ordered, Notices& notices, PlanFor use) {
@@ -211,9 +220,11 @@ std::vector<PackedLayer> plan_moves(const Scopes& scopes, std::vector<travel::Pr
   if (count > 0) from[0] = start_of(settings);
   for (std::size_t i = 1; i < count; ++i) from[i] = ordered[i - 1].end ? ordered[i - 1].end : from[i - 1];
   std::vector<motion::Rules> rules;
+  std::vector<overhangs::Strand> strands;
   for (std::size_t i = 0; i < scopes.size(); ++i) {
     const auto id = static_cast<ScopeId>(i);
     rules.push_back(motion::rules_of(scopes[id], &scopes[scopes.above_first_layer(id)]));
+    strands.push_back({scopes[id].machine.nozzle_diameter, scopes[id].shells.bridge_flow / 100});
   }
   std::vector<travel::Routed> departures(count);  // without their plans, which go on
   struct Begun {
@@ -226,7 +237,9 @@ std::vector<PackedLayer> plan_moves(const Scopes& scopes, std::vector<travel::Pr
       [&](std::size_t i) {
         auto layer = std::move(prepared[i]);
         travel::prepare_ways(settings.travel, layer);
-        return travel::route(settings.travel, settings.retraction, layer, ordered[i], from[i]);
+        auto routed = travel::route(settings.travel, settings.retraction, layer, ordered[i], from[i]);
+        overhangs::mark(strands, over_air_of(layer.input), routed.plan);
+        return routed;
       },
       [&](std::size_t i, travel::Routed routed) {
         departures[i].departures = routed.departures;

@@ -3,6 +3,7 @@
 #include "geometry/offset.h"
 #include "infill/infill.h"
 #include "infill/shells.h"
+#include "overhangs/overhangs.h"
 #include "pipeline/cached.h"
 #include "pipeline/object_scopes.h"
 #include "pipeline/stages.h"
@@ -179,8 +180,10 @@ Walls build_walls(const WallHands& handed, const Scopes& scopes, const Cuts& cut
                                   .above = above,
                                   .settings_above = &walls_above});
     };
-    if (areas[i].size() == 1) return build(areas[i].front().scope, cuts[i].layer);
-    return walls_of_areas(told_apart(handed, areas[i]), cuts[i].layer, build);
+    auto layer = areas[i].size() == 1 ? build(areas[i].front().scope, cuts[i].layer)
+                                      : walls_of_areas(told_apart(handed, areas[i]), cuts[i].layer, build);
+    layer.over_air = overhangs::worth_keeping(std::move(over_air));
+    return layer;
   });
 }
 
@@ -411,6 +414,7 @@ PrintedLayers put_together(Cuts cuts, const std::vector<Areas>& areas, Walls wal
               std::move(fill.skin),
               std::move(fill.top),
               std::move(fill.sparse),
+              std::move(walls[i].over_air),
               std::move(walls[i].beads)};
     std::move(fill.beads.begin(), fill.beads.end(), std::back_inserter(out[i].beads));
     tell_scopes(areas[i], out[i].beads);

@@ -26,6 +26,7 @@ struct PrintedLayer {
   Regions skin;     ///< top, bottom and other solid fill
   Regions top;      ///< seen from above
   Regions sparse;
+  Regions over_air;  ///< nothing lies below
   Beads beads;  ///< walls of each part in the order they are printed, then fills
 };
 using PrintedLayers = std::vector<PrintedLayer>;

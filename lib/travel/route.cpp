@@ -83,6 +83,7 @@ class Writer {
     auto path = path_of(bead, turn);
     held.closed_outer = bead.closed && bead.role == Role::outer_wall;
     held.closed_wall = held.closed_outer || (bead.closed && bead.role == Role::inner_wall);
+    const Um loop = bead.closed ? rounded(1000 * length_mm(bead)) : 0;
     // On the bed a ramp would begin in it.
     held.scarf = held.closed_outer && settings_.scarf_joint_seam_length > 0 && !layer_.input.time.first();
     if (held.scarf) {
@@ -97,6 +98,7 @@ class Writer {
       if (bead.closed) held.onward = path;
       held.pieces.push_back({std::move(path), bead.role, bead.tool, bead.scope, height, 0, {}});
     }
+    for (Extrude& piece : held.pieces) piece.loop_length = loop;
     return held;
   }
 

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "overhangs/air.h"
+
+#include <algorithm>
+
+namespace weft::overhangs {
+
+bool Air::edge_near(Point a, Point b, Um reach) {
+  const auto [x0, x1] = std::minmax(a.x, b.x);
+  const auto [y0, y1] = std::minmax(a.y, b.y);
+  const Box box{{x0 - reach, y0 - reach}, {x1 + reach, y1 + reach}};
+  index_.near(box, found_);
+  return !found_.empty();
+}
+
+bool Air::at(Point p) {
+  if (!last_) {
+    last_in_air_ = index_.winding(p).value_or(0) > 0;
+  } else {
+    index_.crossings(*last_, p, crossings_);
+    if (!crossings_.empty()) last_in_air_ = crossings_.back().enters;
+  }
+  last_ = p;
+  return last_in_air_;
+}
+
+double Air::share(Point p, Point side) {
+  const bool in_air = at(p);
+  return (share_of_half(p, p + side, in_air) + share_of_half(p, p - side, in_air)) / 2;
+}
+
+double Air::share_of_half(Point from, Point to, bool in_air) {
+  index_.crossings(from, to, crossings_);
+  double sum = 0, begin = 0;
+  for (const auto& crossing : crossings_) {
+    if (in_air) sum += crossing.along - begin;
+    in_air = crossing.enters, begin = crossing.along;
+  }
+  return in_air ? sum + 1 - begin : sum;
+}
+
+}  // namespace weft::overhangs

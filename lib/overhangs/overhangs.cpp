@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "overhangs/overhangs.h"
+
+#include "core/stop.h"
+#include "model/flow.h"
+#include "overhangs/air.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <utility>
+
+namespace weft::overhangs {
+namespace {
+
+constexpr double step_um = 400;       // between looks: about a bead's width
+constexpr double shortest_um = 1000;  // of a piece
+constexpr double least_share = 0.1;   // of the width: less is the roughness of a wall
+constexpr double whole_share = 0.95;
+
+/// How a place of a bead lies: 0 on what is below, 1 … 4 quarters over air, `whole` all over air.
+using Level = std::uint8_t;
+constexpr Level whole = 5;
+
+Level level_of(double share) {
+  if (share < least_share) return 0;
+  return share >= whole_share ? whole : static_cast<Level>(std::clamp(std::ceil(share * 4), 1.0, 4.0));
+}
+
+/// A place on a path: on the segment from that junction.
+struct Place {
+  std::size_t segment = 0;
+  double along = 0;
+};
+
+/// A stretch of a bead that lies in one way.
+struct Run {
+  Place from, to;
+  double length_um = 0;
+  Level level = 0;
+  bool strand = false;
+};
+
+void add(Place from, Place to, double length_um, Level level, std::vector<Run>& runs) {
+  if (!runs.empty() && runs.back().level == level)
+    runs.back().to = to, runs.back().length_um += length_um;
+  else
+    runs.push_back({from, to, length_um, level, false});
+}
+
+/// How the bead lies all along.
+std::vector<Run> runs_of(const std::vector<Junction>& path, Air& air) {
+  std::vector<Run> runs;
+  StopNowAndThen stop(64);
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    stop.step();
+    const Junction &a = path[i], &b = path[i + 1];
+    const double length = distance(a.at, b.at);
+    if (length == 0) continue;
+    if (!air.edge_near(a.at, b.at, std::max(a.width, b.width) / 2)) {
+      add({i, 0}, {i, 1}, length, air.at(lerp(a.at, b.at, 0.5)) ? whole : Level{0}, runs);
+      continue;
+    }
+    const int looks = static_cast<int>(std::ceil(length / step_um));
+    const double nx = -(b.at.y - a.at.y) / length, ny = (b.at.x - a.at.x) / length;
+    for (int k = 0; k < looks; ++k) {
+      const double along = (k + 0.5) / looks, half = (a.width + along * (b.width - a.width)) / 2;
+      const Level level = level_of(air.share(lerp(a.at, b.at, along), {rounded(half * nx), rounded(half * ny)}));
+      add({i, static_cast<double>(k) / looks}, {i, (k + 1.0) / looks}, length / looks, level, runs);
+    }
+  }
+  return runs;
+}
+
+int unlike(const Run& a, const Run& b) {
+  return std::abs(static_cast<int>(a.level) - static_cast<int>(b.level));
+}
+
+/// Short runs go to the neighbour that is most like them, where both are to the one that hangs further.
+std::vector<Run> without_short(const std::vector<Run>& runs) {
+  std::vector<Run> out;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    add(runs[i].from, runs[i].to, runs[i].length_um, runs[i].level, out);
+    Run& last = out.back();
+    const bool first = out.size() == 1, end = i + 1 == runs.size();
+    if (last.length_um >= shortest_um || (first && end)) continue;
+    const auto before = [&] { return out[out.size() - 2]; };
+    const bool back =
+        end ||
+        (!first && (unlike(last, before()) < unlike(last, runs[i + 1]) ||
+                    (unlike(last, before()) == unlike(last, runs[i + 1]) && before().level >= runs[i + 1].level)));
+    if (!back) {
+      last.level = runs[i + 1].level;
+      continue;
+    }
+    const Run short_one = last;
+    out.pop_back();
+    out.back().to = short_one.to, out.back().length_um += short_one.length_um;
+  }
+  return out;
+}
+
+Junction junction_at(const std::vector<Junction>& path, Place place) {
+  const Junction &a = path[place.segment], &b = path[place.segment + 1];
+  if (place.along <= 0) return a;
+  if (place.along >= 1) return b;
+  const auto t = static_cast<float>(place.along);
+  return {lerp(a.at, b.at, place.along), rounded(a.width + place.along * (b.width - a.width)),
+          a.flow + t * (b.flow - a.flow)};
+}
+
+std::vector<Junction> piece_of(const std::vector<Junction>& path, const Run& run) {
+  std::vector<Junction> piece{junction_at(path, run.from)};
+  const auto add_junction = [&](const Junction& j) {
+    if (j.at != piece.back().at || j != path[run.from.segment]) piece.push_back(j);
+  };
+  for (std::size_t i = run.from.segment + 1; i <= run.to.segment; ++i) add_junction(path[i]);
+  const Junction end = junction_at(path, run.to);
+  if (end.at != piece.back().at || piece.size() < 2) piece.push_back(end);
+  return piece;
+}
+
+/// Whether the path keeps to the straight line between its ends: over air it is pulled there.
+bool straight(const std::vector<Junction>& path, Um within) {
+  const geometry::Segment chord{path.front().at, path.back().at};
+  return std::all_of(path.begin(), path.end(),
+                     [&](const Junction& j) { return geometry::foot_of(j.at, chord).distance_um <= within; });
+}
+
+/// Whether what lies beside a run over air carries its end.
+bool holds(const Run& beside) {
+  return beside.level <= 2;
+}
+
+/// Marks runs that are laid as strands. Where a closed bead begins over air, its end leads on to its beginning.
+void find_strands(const Extrude& bead, const Strand& strand, std::vector<Run>& runs) {
+  const std::size_t count = runs.size();
+  if (count < 2) return;
+  const bool round = bead.loop_length > 0 || bead.path.front().at == bead.path.back().at;
+  const bool joined = round && runs.front().level == whole && runs.back().level == whole;
+  const Um within = strand.nozzle / 2;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (runs[i].level != whole || (joined && (i == 0 || i + 1 == count))) continue;
+    if (!round && (i == 0 || i + 1 == count)) continue;
+    const Run &before = runs[(i + count - 1) % count], &after = runs[(i + 1) % count];
+    runs[i].strand = holds(before) && holds(after) && straight(piece_of(bead.path, runs[i]), within);
+  }
+  if (!joined || count < 3) return;
+  auto both = piece_of(bead.path, runs.back());
+  const auto first = piece_of(bead.path, runs.front());
+  both.insert(both.end(), first.begin(), first.end());
+  runs.front().strand = runs.back().strand = holds(runs[1]) && holds(runs[count - 2]) && straight(both, within);
+}
+
+/// The pieces of a bead, with what each of them is.
+void cut(const Extrude& bead, const std::vector<Run>& runs, const Strand& strand, std::vector<Step>& steps) {
+  const auto flow = static_cast<float>(flow::bridge_flow(strand.nozzle, bead.height) * strand.share);
+  for (const Run& run : runs) {
+    Extrude piece = bead;
+    piece.path = piece_of(bead.path, run);
+    piece.air_quarters = std::min<Level>(run.level, 4);
+    if (run.level == whole) piece.role = Role::overhang_wall;
+    if (run.strand)
+      for (Junction& j : piece.path) j.width = strand.nozzle, j.flow = flow;
+    steps.emplace_back(std::move(piece));
+  }
+}
+
+}  // namespace
+
+Regions worth_keeping(Regions over_air) {
+  constexpr double narrow_um = 200;                                           // of beads
+  constexpr double least_mm2 = least_share * shortest_um * narrow_um * 1e-6;  // less hangs nowhere far and long enough
+  std::erase_if(over_air, [&](const Region& region) { return area_mm2(region) < least_mm2; });
+  return over_air;
+}
+
+void mark(std::span<const Strand> strands, Regions over_air, LayerPlan& layer) {
+  const Regions wide = worth_keeping(std::move(over_air));
+  if (wide.empty()) return;
+  Air air(wide);
+  std::vector<Step> steps;
+  steps.reserve(layer.steps.size() + 16);
+  for (Step& step : layer.steps) {
+    stop_if_asked();
+    const auto* bead = std::get_if<Extrude>(&step);
+    if (bead != nullptr && is_wall(bead->role) && bead->below.empty() && bead->path.size() > 1) {
+      Box box;
+      Um widest = 0;
+      for (const Junction& j : bead->path) box.add(j.at), widest = std::max(widest, j.width);
+      if (air.near(box, widest / 2)) {
+        auto runs = without_short(runs_of(bead->path, air));
+        if (runs.size() > 1 || (runs.size() == 1 && runs[0].level > 0)) {
+          const Strand& strand = strands[bead->scope < strands.size() ? bead->scope : 0];
+          find_strands(*bead, strand, runs);
+          cut(*bead, runs, strand, steps);
+          continue;
+        }
+      }
+    }
+    steps.push_back(std::move(step));
+  }
+  layer.steps = std::move(steps);
+}
+
+}  // namespace weft::overhangs
