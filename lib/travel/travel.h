@@ -34,7 +34,7 @@ struct ObjectLayer {
   Regions skin;             ///< all solid fill: what combing = noskin keeps off
   Regions top;              ///< what will be seen from above: what combing = no_outer_surfaces keeps off
   Regions sparse;           ///< sparse infill: what combing = infill keeps to
-  Regions over_air;         ///< where nothing lies below; bridges beside walls there are printed before them
+  Regions over_air;         ///< where nothing lies below
 };
 
 /// Which areas of an ObjectLayer are read with these settings; the others may be left empty.

@@ -406,6 +406,76 @@ TEST_CASE("motion: small closed walls are slowed, long and open ones are not") {
   CHECK(open.speed_mm_s == 40);
 }
 
+TEST_CASE("motion: a small loop that is open at its seam, or cut, is slowed like the whole of it") {
+  const auto rules = plain_rules();
+  auto piece = line({{0, 400}, {3'000, 400}}, Role::outer_wall);
+  piece.loop_length = 12'000;
+  set_bead_speed(rules, piece);
+  CHECK(piece.speed_mm_s == 20);
+  piece.loop_length = 120'000;
+  set_bead_speed(rules, piece);
+  CHECK(piece.speed_mm_s == 40);
+}
+
+TEST_CASE("motion: a wall over air has the speed of the share of its width that hangs, and is never faster for it") {
+  auto rules = plain_rules();
+  rules.speeds.speed_overhang_25 = {100, true}, rules.speeds.speed_overhang_50 = {75, true};
+  rules.speeds.speed_overhang_75 = {20, false}, rules.speeds.speed_overhang_100 = {500, false};
+  rules.speeds.speed_overhang = {25, true};
+  const auto speed = [&](int quarters, Role role = Role::outer_wall) {
+    auto bead = line({{0, 400}, {10'000, 400}}, role);
+    bead.air_quarters = static_cast<std::uint8_t>(quarters);
+    set_bead_speed(rules, bead);
+    return bead.speed_mm_s;
+  };
+  CHECK(speed(0) == 40);
+  CHECK(speed(1) == 40);
+  CHECK(speed(2) == 30);
+  CHECK(speed(3) == 20);
+  CHECK(speed(4) == 40);
+  CHECK(speed(4, Role::overhang_wall) == 10);
+  CHECK(speed(2, Role::inner_wall) == 45);
+}
+
+TEST_CASE("motion: the fan follows what a wall hangs over, and does not slow down for less than a second") {
+  Rules rules = plain_rules();
+  auto& c = rules.cooling;
+  c.cool_min_layer_time = 0, c.cool_min_layer_time_fan_speed_max = 0;
+  c.cool_fan_off_layers = 0, c.cool_fan_full_layer = 0, c.cool_fan_speed_min = 50, c.bridge_fan_speed = 90;
+  c.overhang_fan_speed_50 = 70;
+  const auto fans = [&](std::vector<std::pair<int, Um>> quarters_and_lengths) {
+    std::vector<Step> steps;
+    Um x = 0;
+    for (const auto& [quarters, length] : quarters_and_lengths) {
+      auto bead = line({{x, 400}, {x + length, 400}}, Role::outer_wall);
+      bead.air_quarters = static_cast<std::uint8_t>(quarters);
+      steps.emplace_back(std::move(bead));
+      x += length;
+    }
+    std::vector<int> out;
+    for (const auto& step : plan_layer(rules, layer_of(std::move(steps)), Point3{0, 0, 400}).plan.steps)
+      if (const auto* fan = std::get_if<SetFan>(&step)) out.push_back(static_cast<int>(std::lround(100 * fan->share)));
+    return out;
+  };
+  constexpr Um far = 100'000, near = 5'000;  // more than a second and less
+  CHECK(fans({{0, far}, {1, far}}) == std::vector{50});
+  CHECK(fans({{0, far}, {2, far}, {3, far}, {4, far}, {0, far}}) == std::vector{50, 70, 90, 50});
+  CHECK(fans({{3, near}, {0, near}, {3, near}, {0, far}}) == std::vector{50, 90, 50});
+  c.cool_fan_enabled = false;
+  CHECK(fans({{4, far}}) == std::vector{0});
+}
+
+TEST_CASE("motion: lengths over air are counted by the share that hangs, and pieces of a wall are one") {
+  auto a = line({{0, 400}, {10'000, 400}}, Role::outer_wall),
+       b = line({{10'000, 400}, {13'000, 400}}, Role::outer_wall);
+  auto c = line({{13'000, 400}, {15'000, 400}}, Role::overhang_wall);
+  b.air_quarters = 2, c.air_quarters = 4;
+  const auto walls = plan_layer(plain_rules(), layer_of({a, b, c}), Point3{0, 0, 400}).statistics.walls;
+  CHECK(walls.beads == 1);
+  CHECK(walls.over_air_mm == std::array{0.0, 3.0, 0.0, 2.0});
+  CHECK(walls.whole_over_air_mm == 2);
+}
+
 TEST_CASE("motion: a travel is put in where a bead begins away from the nozzle") {
   const auto planned =
       plan_layer(plain_rules(),
