@@ -17,10 +17,10 @@ inline constexpr Um arc = 5_um;
 
 /// How far a bead's path may be moved to be printed with fewer moves: less than a printer's belts give.
 /// model/simplify.
-inline constexpr Um path = 6_um;
+inline constexpr Um path = 10_um;
 
-/// … and how far its band may lie off: a fortieth of a bead, the spread of good filament. model/simplify.
-inline constexpr Um band = 10_um;
+/// … and how far its band may lie off: a twentieth of a bead, the spread of filament. model/simplify.
+inline constexpr Um band = 20_um;
 
 /// A segment along which a bead's band changes by more than this is cut, because firmware extrudes evenly along a
 /// segment. motion/resample.

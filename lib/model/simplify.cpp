@@ -13,7 +13,7 @@
 namespace weft {
 namespace {
 
-constexpr double short_piece = tolerances::least_move + 2 * tolerances::path;
+constexpr double short_piece = tolerances::least_move + 2 * tolerances::path;  // both its ends may be moved yet
 
 double length_of(const PathVertex& a, const PathVertex& b) {
   const double x = b.x - a.x, y = b.y - a.y;
@@ -119,44 +119,23 @@ class Projection {
   std::vector<double> whole_;
 };
 
-/// Where the width changes otherwise than before, by more than half a micron within the reach; the ends of a path that
-/// is not closed are mirrors.
-std::vector<std::uint8_t> bends_of_width(const VertexPath& path, bool closed, double reach) {
-  constexpr double even_um = 0.5, least = 1e-3;
-  const std::size_t n = path.size();
-  std::vector<std::uint8_t> bends(n, 0);
-  const auto slope = [&](std::size_t i, std::size_t j) {
-    return (path[j].band - path[i].band) / std::max(least, length_of(path[i], path[j]));
-  };
-  double before = closed ? slope(n - 1, 0) : 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double after = i + 1 < n ? slope(i, i + 1) : closed ? slope(i, 0) : 0;
-    bends[i] = std::abs(after - before) * reach > even_um;
-    before = after;
-  }
-  return bends;
-}
-
-/// More vertices near those where the width bends, on pieces that are longer than the reach: what changes there changes
-/// there only.
-VertexPath finer(const VertexPath& path, const std::vector<std::uint8_t>& bends, bool closed, double reach) {
-  constexpr std::array graded{0.5, 1.5, 3.5};  // of the reach
+/// More vertices near the ends of pieces that are longer than the reach: what changes there changes there only.
+VertexPath finer_at_ends(const VertexPath& path, bool closed, double reach) {
   VertexPath out;
-  out.reserve(2 * path.size());
+  out.reserve(3 * path.size());
   for (std::size_t i = 0; i < path.size(); ++i) {
     out.push_back(path[i]);
     if (i + 1 == path.size() && !closed) break;
-    const std::size_t j = (i + 1) % path.size();
-    if (!bends[i] && !bends[j]) continue;
-    const PathVertex &a = path[i], &b = path[j];
+    const PathVertex &a = path[i], &b = path[(i + 1) % path.size()];
     const double length = length_of(a, b);
     const auto add = [&](double s) {
       const double t = s / length;
       out.push_back({a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.band + t * (b.band - a.band)});
     };
-    for (auto r = graded.begin(); bends[i] && r != graded.end(); ++r)
-      if (*r * reach < length / 2) add(*r * reach);
-    for (auto r = graded.rbegin(); bends[j] && r != graded.rend(); ++r)
+    constexpr std::array graded{0.5, 1.5, 3.5};  // of the reach
+    for (const double r : graded)
+      if (r * reach < length / 2) add(r * reach);
+    for (auto r = graded.rbegin(); r != graded.rend(); ++r)
       if (*r * reach < length / 2) add(length - *r * reach);
   }
   return out;
@@ -178,87 +157,46 @@ void begin_at_corner(VertexPath& path) {
 class Remaining {
  public:
   Remaining(const VertexPath& path, const std::vector<std::size_t>& chosen)
-      : path_(path), at_(chosen), out_(chosen.size(), 0), before_(chosen.size()), after_(chosen.size()) {
+      : path_(path), chosen_(chosen), out_(chosen.size(), 0), before_(chosen.size()), after_(chosen.size()) {
     std::iota(before_.begin() + 1, before_.end(), std::size_t{0});
     std::iota(after_.begin(), after_.end(), std::size_t{1});
   }
-  bool is_end(std::size_t i) const { return i == 0 || i + 1 == at_.size(); }
+  bool is_end(std::size_t i) const { return i == 0 || i + 1 == chosen_.size(); }
+  bool is_piece(std::size_t from, std::size_t to) const { return !out_[from] && !out_[to] && after_[from] == to; }
   std::size_t before(std::size_t i) const { return before_[i]; }
   std::size_t after(std::size_t i) const { return after_[i]; }
-  bool is_piece(std::size_t from, std::size_t to, double length) const {
-    return !out_[from] && !out_[to] && after_[from] == to && this->length(from, to) == length;
-  }
   double length(std::size_t from, std::size_t to) const { return length_of(at(from), at(to)); }
+  /// How far it lies off the chord past it.
+  double missed(std::size_t i) const { return is_end(i) ? 1e18 : Chord(at(before_[i]), at(after_[i])).error(at(i)); }
   /// Whether the path turns there by more than 60°.
   bool turns(std::size_t i) const {
     if (is_end(i)) return false;
     const PathVertex &a = at(before_[i]), &b = at(i), &c = at(after_[i]);
     return (b.x - a.x) * (c.x - b.x) + (b.y - a.y) * (c.y - b.y) < 0.5 * length_of(a, b) * length_of(b, c);
   }
-
-  /// A vertex that may stand for both ends of a piece, and how far what is between its neighbours lies off then.
-  struct Merged {
-    std::size_t at;
-    double error;
-  };
-  /// The best of the ends and the middle of the way between them; an end of the path stays.
-  Merged merged(std::size_t from, std::size_t to) const {
-    if (is_end(from)) return {at_[from], error(at_[from], at_[after_[to]])};
-    if (is_end(to)) return {at_[to], error(at_[before_[from]], at_[to])};
-    const std::size_t first = at_[before_[from]], last = at_[after_[to]];
-    // Where the path turns back both ends are missed alike. The middle comes last: of a single piece it is the end that
-    // is met first, which is another from the other end.
-    const bool first_is_long = length(before_[from], from) > length(to, after_[to]);
-    Merged best{0, 1e300};
-    for (const std::size_t at :
-         {at_[first_is_long ? from : to], at_[first_is_long ? to : from], middle(at_[from], at_[to])})
-      if (const double e = std::max(error(first, at), error(at, last)); e < best.error * (1 - 1e-6)) best = {at, e};
-    return best;
-  }
-  /// Puts a vertex in the place of both ends of a piece. Returns the one that stays.
-  std::size_t merge(std::size_t from, std::size_t to, std::size_t at) {
-    const std::size_t goes = is_end(to) ? from : to, stays = is_end(to) ? to : from;
-    out_[goes] = 1;
-    after_[before_[goes]] = after_[goes];
-    before_[after_[goes]] = before_[goes];
-    at_[stays] = at;
-    return stays;
+  void leave_out(std::size_t i) {
+    out_[i] = 1;
+    after_[before_[i]] = after_[i];
+    before_[after_[i]] = before_[i];
   }
   std::vector<std::size_t> chosen() const {
     std::vector<std::size_t> left;
-    for (std::size_t i = 0; i < at_.size(); ++i)
-      if (!out_[i]) left.push_back(at_[i]);
+    for (std::size_t i = 0; i < chosen_.size(); ++i)
+      if (!out_[i]) left.push_back(chosen_[i]);
     return left;
   }
 
  private:
-  const PathVertex& at(std::size_t i) const { return path_[at_[i]]; }
-  double error(std::size_t first, std::size_t last) const {
-    const Chord chord(path_[first], path_[last]);
-    double most = 0;
-    for (std::size_t i = first + 1; i < last; ++i) most = std::max(most, chord.error(path_[i]));
-    return most;
-  }
-  /// The vertex nearest to half the way.
-  std::size_t middle(std::size_t first, std::size_t last) const {
-    double whole = 0;
-    for (std::size_t i = first; i < last; ++i) whole += length_of(path_[i], path_[i + 1]);
-    for (double s = 0; first < last; ++first) {
-      s += length_of(path_[first], path_[first + 1]);
-      if (2 * s - length_of(path_[first], path_[first + 1]) >= whole) break;
-    }
-    return first;
-  }
+  const PathVertex& at(std::size_t i) const { return path_[chosen_[i]]; }
 
   const VertexPath& path_;
-  std::vector<std::size_t> at_;
+  const std::vector<std::size_t>& chosen_;
   std::vector<std::uint8_t> out_;
   std::vector<std::size_t> before_, after_;
 };
 
-/// Where the path turns beside a piece that is too short its ends become one vertex: a short piece that goes on tells
-/// of a bend or of a width, and no machine stops there. The shortest go first, so that a path is the same from either
-/// end.
+/// Of both ends of a piece that is too short the one goes that is missed less; where it is the path's end, the other.
+/// A step of width that goes on stays. The shortest pieces go first, so that a path is the same from either end.
 std::vector<std::size_t> without_short_pieces(const VertexPath& path, const std::vector<std::size_t>& chosen) {
   struct Piece {
     double length;
@@ -277,12 +215,17 @@ std::vector<std::size_t> without_short_pieces(const VertexPath& path, const std:
     stop.step();
     const auto [length, from, to] = shortest.top();
     shortest.pop();
-    if (!left.is_piece(from, to, length) || (left.is_end(from) && left.is_end(to))) continue;
-    if (!left.turns(from) && !left.turns(to)) continue;
-    const std::size_t i = left.merge(from, to, left.merged(from, to).at);
-    // A piece beside it is another now, and its ends turn otherwise.
-    for (std::size_t k = i, n = 0; n < 2 && !(k == 0); k = left.before(k), ++n) add(left.before(k), k);
-    for (std::size_t k = i, n = 0; n < 2 && k + 1 != chosen.size(); k = left.after(k), ++n) add(k, left.after(k));
+    if (!left.is_piece(from, to) || (left.is_end(from) && left.is_end(to))) continue;
+    const double first = left.missed(from), last = left.missed(to);
+    // Where the path turns back both are missed alike.
+    const bool leave_first =
+        first != last ? first < last : left.length(left.before(from), from) < left.length(to, left.after(to));
+    if (std::min(first, last) > 1 && !left.turns(from) && !left.turns(to)) continue;
+    const std::size_t i = leave_first ? from : to, before = left.before(i), after = left.after(i);
+    left.leave_out(i);
+    add(before, after);
+    if (before > 0) add(left.before(before), before);
+    if (!left.is_end(after)) add(after, left.after(after));
   }
   return left.chosen();
 }
@@ -290,11 +233,8 @@ std::vector<std::size_t> without_short_pieces(const VertexPath& path, const std:
 }  // namespace
 
 void smooth_widths(VertexPath& path, bool closed, double reach) {
-  if (path.size() < 3 || reach <= 0) return;
-  stop_if_asked();
-  const auto bends = bends_of_width(path, closed, reach);
-  if (std::find(bends.begin(), bends.end(), 1) == bends.end()) return;
-  path = finer(path, bends, closed, reach);
+  if (path.size() < 3 || reach <= 0 || is_even(path)) return;
+  path = finer_at_ends(path, closed, reach);
   const std::size_t n = path.size();
   constexpr double least = 1e-3;  // a step is stiff, but not endlessly so
   std::vector<double> diagonal(n, 0.0), above(n, 0.0), right(n, 0.0);
@@ -314,7 +254,6 @@ void smooth_widths(VertexPath& path, bool closed, double reach) {
 }
 
 std::vector<std::size_t> chosen_vertices(const VertexPath& path) {
-  stop_if_asked();
   struct Span {
     std::size_t first, last;
   };
@@ -381,7 +320,6 @@ void cut_ramps(VertexPath& path, bool closed) {
 }
 
 VertexPath projected(const VertexPath& path, const std::vector<std::size_t>& at, bool closed) {
-  stop_if_asked();
   const Projection projection(path, at, closed);
   VertexPath out;
   for (const std::size_t i : at) out.push_back(path[i]);
@@ -394,7 +332,9 @@ VertexPath projected(const VertexPath& path, const std::vector<std::size_t>& at,
         },
         length);
   };
+  stop_if_asked();
   const auto x = off(&PathVertex::x), y = off(&PathVertex::y);
+  stop_if_asked();
   const std::size_t n = x.size();
   std::vector<std::uint8_t> still(out.size(), 0);  // ends, and steps of width: they would turn
   if (!closed) still.front() = still.back() = 1;

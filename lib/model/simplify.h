@@ -24,11 +24,12 @@ using VertexPath = std::vector<PathVertex>;
 void smooth_widths(VertexPath& path, bool closed, double reach);
 
 /// Leaves out what chords stand for: the path stays within tolerances::path and the band within
-/// tolerances::band of what they were, but that it turns by more than 60° beside no piece that is shorter than
-/// tolerances::least_move. Ends stay. Pieces lie in the middle of what they stand for and lay what was laid there, as
-/// nearly as places and widths that are linear between vertices can. Post: at least two vertices, three of a closed
-/// path. Cost: O(n log n) where the path turns evenly. Source: Douglas & Peucker 1973, with the width as a third
-/// coordinate; L² projection on hat functions.
+/// tolerances::band of what they were, but that no piece is shorter than tolerances::least_move that is not a path or a
+/// step of width that goes on. Ends
+/// stay. Pieces lie in the middle of what they stand for and lay what was laid there, as nearly as places and widths
+/// that are linear between vertices can. Post: at least two vertices, three of a closed path. Cost: O(n log n) where
+/// the path turns evenly. Source: Douglas & Peucker 1973, with the width as a third coordinate; L² projection on hat
+/// functions.
 void simplify(VertexPath& path, bool closed);
 
 /// Firmware extrudes evenly along a move: into how many pieces one of that length (µm) is cut along which the band

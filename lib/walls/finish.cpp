@@ -2,7 +2,6 @@
 #include "walls/finish.h"
 
 #include "core/stop.h"
-#include "core/tolerances.h"
 #include "model/simplify.h"
 
 #include <algorithm>
@@ -13,17 +12,16 @@ namespace {
 
 using Vertex = Line::Vertex;
 
-// Along a bead its width is the mean of what lies so near: a step becomes a ramp about as long as the shortest move.
-constexpr double reach_um = tolerances::least_move / 2.0;
+constexpr double reach_um = 50;      // within which a width becomes its mean: plastic flows as far as a nozzle is wide
 constexpr double even_inside = 0.5;  // of the width: an end inside that tapers more keeps its steps
 constexpr double any_taper = 1.0;    // … no end tapers more
 
 /// Widths that plastic can follow, along a path with as few vertices as it needs.
-void simplify(std::vector<Vertex>& path, bool closed) {
+void simplify(std::vector<Vertex>& path, bool closed, double reach) {
   VertexPath simple;
   simple.reserve(path.size());
   for (const Vertex& v : path) simple.push_back({v.at.x, v.at.y, v.width});
-  smooth_widths(simple, closed, reach_um);
+  smooth_widths(simple, closed, reach);
   stop_if_asked();
   simplify(simple, closed);
   stop_if_asked();
@@ -127,7 +125,7 @@ void finish(Line line, const FinishOptions& o, std::vector<Line>& out, double& d
       std::all_of(line.path.begin(), line.path.end(), [&](const Vertex& v) { return v.width >= o.least_feature; });
   if (line.closed && all_thick) {
     line.path.pop_back();
-    simplify(line.path, true);
+    simplify(line.path, true, o.reach);
     out.push_back(std::move(line));
     return;
   }
@@ -145,7 +143,7 @@ void finish(Line line, const FinishOptions& o, std::vector<Line>& out, double& d
       std::reverse(stretch.begin(), stretch.end());
     }
     keep_within(stretch, o.most_width);
-    simplify(stretch, false);
+    simplify(stretch, false, o.reach);
     const auto most_um = [&](bool meets) { return line.inset == 0 && !meets ? o.even_taper : 1e9; };
     steady_start(stretch, any_taper, most_um(first_meets));
     // Travel may begin there, too. A single bead that goes on into a thicker part keeps its steps: evened, they would

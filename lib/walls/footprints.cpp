@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "walls/footprints.h"
 
-#include "core/tolerances.h"
 #include "walls/keep_volume.h"
 #include "walls/move_aside.h"
 
@@ -60,16 +59,15 @@ double too_far(Room& in, Place a, Place b, double half, double room, double outs
   return beyond <= noticed_um ? 0 : (beyond - outside) * std::min(most_slant, (half - room) / beyond);
 }
 
-/// How much a junction must give on either side, and how much narrower it must get.
+/// How much a junction must give on either side.
 struct Give {
-  double left = 0, right = 0, width = 0;
+  double left = 0, right = 0;
 };
 
 void give_way(const std::vector<Give>& gives, Um narrowest, Bead& bead) {
   std::vector<double> inwards;
   for (std::size_t j = 0; j < bead.path.size(); ++j) {
-    const auto [left, right, width] = gives[j];
-    if (width > 0) lay(bead.path[j], laid(bead.path[j]) - width, narrowest);
+    const auto [left, right] = gives[j];
     if (const double less = 2 * (bead.closed ? std::min(left, right) : std::max(left, right)); less > 0)
       lay(bead.path[j], laid(bead.path[j]) - less, narrowest);
     inwards.push_back(right - left);
@@ -109,16 +107,8 @@ Bead Footprints::kept(const Suspect& suspect, double outside, const Bead& bead) 
       const Give give{too_far(room_, p.b, p.a, p.half, room.left, outside),
                       too_far(room_, p.a, p.b, p.half, room.right, outside)};
       any = any || give.left + give.right > 0;
-      const double wider = laid(out.path[(k + 1) % n]) - laid(out.path[k]);
-      if (std::abs(wider) > tolerances::band_step) {  // a ramp begins later, and what lies before it stays
-        double& less = gives[wider > 0 ? (k + 1) % n : k].width;
-        less = std::max(less, std::min(std::abs(wider), 4 * std::max(give.left, give.right)));
-        continue;
-      }
-      for (const std::size_t j : {k, (k + 1) % n}) {
-        gives[j].left = std::max(gives[j].left, give.left);
-        gives[j].right = std::max(gives[j].right, give.right);
-      }
+      for (const std::size_t j : {k, (k + 1) % n})
+        gives[j] = {std::max(gives[j].left, give.left), std::max(gives[j].right, give.right)};
     }
     if (!any) break;
     give_way(gives, narrowest_, out);

@@ -132,6 +132,7 @@ Part part_of(const WallSettings& settings, const Widths& widths, const Region& r
   finishing.stable_inner = std::max<double>(settings.min_output_width, widths.inner / 4);
   finishing.most_width = widths.most;
   options.corner_width = settings.wall_corner_width / 100;
+  if (options.corner_width < 1) finishing.reach = 10;  // they get narrower within a piece
   options.narrowest = std::max(finishing.stable_outer, finishing.stable_inner);
   const Laying laying = lay(skeleton, widths, options);
   // So small a part gets an even bead: what pieces of it would gain they would swell over each other.

@@ -180,9 +180,9 @@ TEST_CASE("walls: no bead of a random polygon is wider than max_wall_line_width"
 }
 
 TEST_CASE("walls: the mirror image of a part gets the mirror image of its beads", "[walls][law]") {
-  // … within 0.01 mm. In the few others a choice falls by which of two ways is as good as even,
+  // … within what a path may be moved by. In the few others a choice falls by which of two ways is as good as even,
   // such as which pocket of a small part gets a bead.
-  check_law({.name = "mirror"}, 10, [](const Regions& regions) {
+  check_law({.name = "mirror"}, tolerances::path, [](const Regions& regions) {
     const auto here = walls_of(regions);
     auto there = walls_of(mirrored(regions));
     for (Bead& bead : there.beads)
