@@ -4,6 +4,7 @@
 #include "core/stop.h"
 #include "limits.h"
 #include "slice_job.h"
+#include "tasks/tasks.h"
 
 namespace po = boost::program_options;
 
@@ -18,6 +19,7 @@ void add_limit_options(po::options_description& to) {
 void within_limits(const Command& command, const std::function<void()>& work) {
   const Limits limits(limit_of(command.options, "timeout"), limit_of(command.options, "max-memory"));
   Watchdog watchdog(limits, [&](const Error& error, const Report&) { Console(command.console).error(error); });
+  const tasks::ThreadLimit threads(command.threads);
   const std::function<bool()> whether = [&] { return limits.reached(); };
   const StopWhen stop_when(&whether);
   try {

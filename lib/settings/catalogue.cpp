@@ -191,6 +191,8 @@ std::any read_value(const CatalogueEntry& entry, const std::string& text, const 
 }
 
 std::string_view nearest_setting(std::string_view wrong, std::string_view (*also_called)(std::string_view)) {
+  constexpr std::size_t longest = 100;  // of what may be a word; a distance takes as many steps as a name has letters
+  if (wrong.size() > longest) return {};
   const std::string wanted = underscored(wrong);
   std::string_view best;
   std::size_t least = wanted.size() / 2 + 1;  // more than half of it wrong is no likeness

@@ -15,7 +15,14 @@
 namespace weft::tasks {
 
 unsigned thread_count(unsigned threads) {
-  return obtainable(threads != 0 ? threads : static_cast<unsigned>(tbb::info::default_concurrency()));
+  const auto wanted = threads != 0 ? threads : static_cast<unsigned>(tbb::info::default_concurrency());
+  const auto had = obtainable(wanted);
+  // To the end of the program: TBB would ask for the rest where a limit that is lower ends.
+  if (had < wanted) {
+    static const auto* const all_there_are = new tbb::global_control(tbb::global_control::max_allowed_parallelism, had);
+    (void)all_there_are;
+  }
+  return had;
 }
 
 std::vector<Broken> run_crew(unsigned threads, const std::function<std::optional<std::size_t>()>& next,

@@ -92,6 +92,15 @@ TEST_CASE("hostile: what cannot be written is told before the work") {
   CHECK(!desk.scratch.has("a.gcode"));
 }
 
+TEST_CASE("hostile: a list of one endless word is refused at once, in few words") {
+  const Desk desk;
+  desk.scratch.write("deep.jsonl", std::string(100'000, '[') + "\n");
+  const auto run = shell("timeout 20 $WEFT batch deep.jsonl -o out", desk.scratch.path());
+  CHECK(run.status == 2);
+  CHECK_THAT(run.err, Contains("deep.jsonl:1: column '[[[["));
+  CHECK(run.err.size() < 1000);
+}
+
 TEST_CASE("hostile: a message is one line that does nothing to a terminal") {
   const Desk desk;
   desk.fails("$WEFT slice $'no\\e[31m\\nne\\r.stl' -o a.gcode", 6, "no\\x1b[31m\\x0ane\\x0d.stl");
