@@ -3,6 +3,7 @@
 #include "geometry/offset.h"
 #include "infill/infill.h"
 #include "infill/shells.h"
+#include "model/flow.h"
 #include "overhangs/overhangs.h"
 #include "pipeline/cached.h"
 #include "pipeline/object_scopes.h"
@@ -154,9 +155,14 @@ WallLayer walls_of_areas(const std::vector<Told>& told, const SlicedLayer& layer
 }
 
 /// About what walls leave of a layer: enough for the layers around it to know their skin.
-Regions inside_of(const WallHands& handed, const Areas& areas, const Regions& regions) {
+Regions inside_of(const WallHands& handed, const Areas& areas, const SlicedLayer& layer, std::size_t index) {
   const auto& [walls, nozzle] = handed[areas.front().scope];
-  return geometry::offset(regions, {.by = -walls.wall_line_count * walls.wall_line_width_x.value_or(nozzle)});
+  const int lines = walls.wall_line_count + (walls.alternate_extra_wall && index % 2 == 1 ? 1 : 0);
+  if (lines == 0) return layer.regions;
+  const auto band = [&](Um width) { return flow::spacing(width, layer.height, walls.overlap_factor); };
+  const Um outer = band(walls.wall_line_width_0.value_or(flow::automatic_outer_width(nozzle)));
+  const Um inner = band(walls.wall_line_width_x.value_or(flow::automatic_width(nozzle, layer.height)));
+  return geometry::offset(layer.regions, {.by = -outer - (lines - 1) * inner});
 }
 
 Walls build_walls(const WallHands& handed, const Scopes& scopes, const Cuts& cuts, const std::vector<Areas>& areas,
@@ -164,7 +170,7 @@ Walls build_walls(const WallHands& handed, const Scopes& scopes, const Cuts& cut
   return tasks::parallel_map(cuts.size(), [&](std::size_t i) {
     if (!sample.has(i)) {
       WallLayer bare;
-      bare.inside = inside_of(handed, areas[i], cuts[i].layer.regions);
+      bare.inside = inside_of(handed, areas[i], cuts[i].layer, i);
       return bare;
     }
     Regions over_air = i > 0 ? geometry::subtract(cuts[i].layer.regions, cuts[i - 1].layer.regions) : Regions{};
@@ -332,7 +338,7 @@ void measure(const Running& job, const WallHands& handed, const Cuts& cuts, cons
              const std::vector<infill::LayerAreas>& parts, std::size_t copies) {
   const auto measures = tasks::parallel_map(cuts.size(), [&](std::size_t i) {
     const auto& layer = cuts[i].layer;
-    return measure_of(layer, inside_of(handed, areas[i], layer.regions), parts[i]);
+    return measure_of(layer, inside_of(handed, areas[i], layer, i), parts[i]);
   });
   for (std::size_t i = Sample::own_kind; i < measures.size(); ++i)
     (job.sample.has(i) ? job.measure->planned : job.measure->left_out).add(measures[i], static_cast<double>(copies));
