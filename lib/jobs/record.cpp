@@ -131,8 +131,13 @@ std::optional<Record> read_record(const fs::path& folder, const JobLine& job) {
     if (json.at("format") != record_format) return std::nullopt;
     const auto& r = json.at("report");
     Record out;
-    out.id = r.at("id");
-    out.output = r.at("output");
+    // A name that is no UTF-8 is written as one that is.
+    const auto read = [&](const char* name, const std::string& own) {
+      const std::string written = r.at(name);
+      return written == escape::utf8(own) ? own : written;
+    };
+    out.id = read("id", job.id);
+    out.output = read("output", job.output);
     out.inputs_sha256 = json.at("inputs_sha256");
     out.build = json.at("build");
     out.gcode_sha256 = r.at("gcode_sha256");

@@ -7,7 +7,8 @@ namespace weft {
 /// What a job would take, for quotes: no text is made, nothing is written and nothing is audited.
 struct EstimateOptions {
   bool exact = false;  ///< every layer is planned: the figures are those of `run`. Else every fourth one is, and stands
-                       ///< for its neighbours; measured on parts of a hand's size that is within 1 to 2 %
+                       ///< for its neighbours; measured, that is within 1 to 2 %, and 4 % where a single
+                       ///< layer of bridges counts
 };
 
 /// Fills in the report as `run` does, but for hashes and audit: its verdict is "unaudited".

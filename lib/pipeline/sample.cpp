@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/sample.h"
 
+#include <array>
 #include <optional>
+#include <vector>
 
 namespace weft::pipeline {
 namespace {
@@ -32,6 +34,25 @@ LayerMeasure::Amount missing(const SampleMeasure& measure, Growth g) {
   const auto &planned = measure.planned[g], &left_out = measure.left_out[g];
   return {planned.length > 0 ? left_out.length / planned.length : 0,
           planned.volume > 0 ? left_out.volume / planned.volume : 0};
+}
+
+/// Kinds of fill that no layer of the sample has go by another that it has, area by area: a part may have a single top.
+struct StandIn {
+  Role role, by;
+};
+std::vector<StandIn> stand_ins(const Statistics& above, const SampleMeasure& measure) {
+  constexpr std::array fills{Role::solid_infill, Role::top_skin, Role::bridge};
+  std::vector<StandIn> out;
+  for (const Role role : fills) {
+    const Growth own = *growth_of(role);
+    if (measure.planned[own].length > 0 || measure.left_out[own].length <= 0) continue;
+    for (const Role by : fills)
+      if (measure.planned[*growth_of(by)].length > 0 && above.features[static_cast<std::size_t>(by)].mm > 0) {
+        out.push_back({role, by});
+        break;
+      }
+  }
+  return out;
 }
 
 /// What a plan of the same statistics, of which each count and length is `factor` times as large, takes more.
@@ -99,6 +120,15 @@ Statistics extrapolated(const Statistics& bottom, const Statistics& above, const
     out.features[r].mm3 += more.volume * feature.mm3;
     more_s += more.length * feature.s;
     more_mm3 += more.volume * feature.mm3;
+  }
+  for (const auto& [role, by] : stand_ins(above, measure)) {
+    const auto& of = measure.left_out[*growth_of(role)];
+    const auto& planned = measure.planned[*growth_of(by)];
+    const auto& like = above.features[static_cast<std::size_t>(by)];
+    auto& feature = out.features[static_cast<std::size_t>(role)];
+    const double length = of.length / planned.length, volume = of.volume / planned.volume;
+    feature.mm += length * like.mm, feature.s += length * like.s, feature.mm3 += volume * like.mm3;
+    more_s += length * like.s, more_mm3 += volume * like.mm3;
   }
   const double layers = missing(measure, Growth::layers).length;
   add_travels(out, above, layers);

@@ -51,7 +51,7 @@ TEST_CASE("estimate: with --exact it says what slicing says, and writes nothing"
   }
 }
 
-TEST_CASE("estimate: a quarter of the layers tells time, filament and cost within three in a hundred") {
+TEST_CASE("estimate: a quarter of the layers tells time, filament and cost within four in a hundred") {
   // What people quote by: the error is that of the layers left out, and the parts are of the kind that farms print.
   const Scratch scratch;
   scratch.write("box.stl", box_stl(30, 20, 25));
@@ -61,9 +61,9 @@ TEST_CASE("estimate: a quarter of the layers tells time, filament and cost withi
       const std::vector<std::string> set{"--infill-sparse-density", density, "--filament-cost", "20"};
       const auto sliced = report_of(scratch, {"slice", model, "-o", "a.gcode"}, set);
       const auto estimated = report_of(scratch, {"estimate", model}, set);
-      CHECK(estimated["print_time_s"].get<double>() == Approx(sliced["print_time_s"].get<double>()).epsilon(0.03));
-      CHECK(estimated["filament"]["g"].get<double>() == Approx(sliced["filament"]["g"].get<double>()).epsilon(0.03));
-      CHECK(estimated["cost"]["total"].get<double>() == Approx(sliced["cost"]["total"].get<double>()).epsilon(0.03));
+      CHECK(estimated["print_time_s"].get<double>() == Approx(sliced["print_time_s"].get<double>()).epsilon(0.04));
+      CHECK(estimated["filament"]["g"].get<double>() == Approx(sliced["filament"]["g"].get<double>()).epsilon(0.04));
+      CHECK(estimated["cost"]["total"].get<double>() == Approx(sliced["cost"]["total"].get<double>()).epsilon(0.04));
       CHECK(estimated["layers"] == sliced["layers"]);
     }
 }

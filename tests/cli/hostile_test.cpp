@@ -3,6 +3,7 @@
 // contract, at once.
 #include "cli/program.h"
 #include "sanitized.h"
+#include "source.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -43,7 +44,8 @@ TEST_CASE("hostile: pipes, devices and folders are refused as inputs by their na
   desk.fails("$WEFT slice part.stl -p folder.ini -o a.gcode", 6, "folder.ini: is a folder");
   desk.fails("$WEFT verify pipe.gcode part.stl", 6, "pipe.gcode: is a pipe");
   desk.fails("$WEFT preview pipe.gcode -o a.png", 6, "pipe.gcode: is a pipe");
-  desk.fails("$WEFT audit pipe.gcode -p marlin-220", 6, "pipe.gcode: is a pipe");
+  desk.fails("$WEFT audit pipe.gcode -p " + (tests::source / "profiles/printers/marlin-220.ini").string(), 6,
+             "pipe.gcode: is a pipe");
   desk.fails("$WEFT inspect pipe.stl", 6, "pipe.stl: is a pipe");
   desk.fails("$WEFT batch pipe.gcode -o out", 6, "pipe.gcode: is a pipe");
   CHECK(!desk.scratch.has("a.gcode"));
@@ -190,9 +192,11 @@ TEST_CASE("hostile: profiles may be bounded to a folder, links and inheritance i
   desk.scratch.write("root/own/good.ini", "inherits = ../base.ini\n");
   desk.scratch.write("root/own/bad.ini", "inherits = ../../secrets/s.ini\n");
   REQUIRE(shell("ln -s ../../secrets/s.ini root/own/link.ini", desk.scratch.path()).status == 0);
+  const auto profiles = (tests::source / "profiles").string();
   const std::string slice = "$WEFT slice part.stl --profile-root root -o a.gcode -p ";
   CHECK(shell(slice + "root/own/good.ini -q", desk.scratch.path()).status == 0);
-  CHECK(shell(slice + "marlin-220 -q", desk.scratch.path()).status == 0);  // found by name: installed for all
+  CHECK(shell("WEFT_PROFILES=" + profiles + " " + slice + "marlin-220 -q", desk.scratch.path()).status ==
+        0);  // found by name: installed for all
   REQUIRE(shell("rm a.gcode", desk.scratch.path()).status == 0);
   for (const std::string outside : {"secrets/s.ini", "root/own/bad.ini", "root/own/link.ini", "root/../secrets/s.ini"})
     desk.fails(slice + outside, 6, "lies outside the folder that profiles may come from");
