@@ -39,6 +39,8 @@ class Gatherer {
   }
 
   bool has_comments() const { return reader_.context().began(); }
+  /// Slic3r tells where its start G-code ends, and nothing of layers.
+  bool has_layers() const { return has_comments() && reader_.context().layer() >= 0; }
 
   Toolpaths finish() {
     if (!out_.layers.empty()) {
@@ -221,7 +223,7 @@ void read_lines(Gatherer& gatherer, std::string_view gcode) {
 Toolpaths read(std::string_view gcode, Um filament_diameter, Chord chord) {
   Gatherer gatherer(filament_diameter, chord, Gatherer::LayersBy::comments);
   read_lines(gatherer, gcode);
-  if (gatherer.has_comments()) return gatherer.finish();
+  if (gatherer.has_layers()) return gatherer.finish();
   Gatherer again(filament_diameter, chord, Gatherer::LayersBy::height);
   read_lines(again, gcode);
   return again.finish();

@@ -113,3 +113,15 @@ TEST_CASE("preview: an arc has as many pieces as a picture of it shows, however 
   CHECK(pieces(500, {}) >= 60);
   CHECK(pieces(500, {.mm = 0.01, .share = 0}) >= 400);  // through a window
 }
+
+TEST_CASE("preview: a file whose comments tell of no layers has those that its heights make", "[preview]") {
+  const auto paths = read(  // as Slic3r 1.3 writes it
+      "; Filament gcode\nG21 ; set units to millimeters\nM82\nG92 E0\nG1 Z0.2 F600\nG1 X10 Y10 F6000\nG1 X20 E1 "
+      "F1800\nG1 Z0.4 F600\nG1 X20 Y20\nG1 "
+      "X10 E2\n"
+      "; Filament-specific end gcode \n",
+      1750);
+  REQUIRE(paths.layers.size() == 2);
+  CHECK(paths.layers[1].z == 400);
+  CHECK(paths.layers[1].height == 200);
+}
