@@ -337,7 +337,7 @@ VertexPath projected(const VertexPath& path, const std::vector<std::size_t>& at,
   stop_if_asked();
   const std::size_t n = x.size();
   std::vector<std::uint8_t> still(out.size(), 0);  // ends, and steps of width: they would turn
-  if (!closed) still.front() = still.back() = 1;
+  if (!closed && !still.empty()) still.front() = still.back() = 1;
   for (std::size_t k = 0; k + 1 < out.size(); ++k)
     if (length(k) < short_piece) still[k] = still[k + 1] = 1;
   for (std::size_t k = 0; k < n; ++k)

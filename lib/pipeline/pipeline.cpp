@@ -167,7 +167,7 @@ struct Planned {
 /// Layers that nothing is laid on need no areas, beyond those that adhesion lies around.
 void keep(const Sample& sample, std::size_t at_least, PrintedLayers& layers) {
   for (std::size_t i = at_least; i < layers.size(); ++i)
-    if (!sample.has(i)) layers[i] = {layers[i].z, layers[i].height, {}, {}, {}, {}, {}};
+    if (!sample.has(i)) layers[i] = {layers[i].z, layers[i].height, {}, {}, {}, {}, {}, {}};
 }
 
 /// From the plate to its plan.

@@ -18,7 +18,7 @@ namespace {
 constexpr Um band = 400, height = 200;
 
 Extrude wall(std::vector<Point> points, bool closed = false, Role role = Role::outer_wall) {
-  Extrude bead{.role = role, .height = height};
+  Extrude bead{.path = {}, .role = role, .height = height};
   for (const Point p : points) bead.path.push_back({p, band, 1.F});
   if (closed) bead.path.push_back(bead.path.front());
   return bead;

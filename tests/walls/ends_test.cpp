@@ -82,7 +82,8 @@ TEST_CASE("walls: a bead on the axis reaches the wall that crosses in front of i
   for (const int arms : {4, 7, 12}) {
     CAPTURE(arms);
     const Region region = star(arms, 0.25);
-    CHECK(bare_share(region, filled({region}), box_of(region.outer), 41) < 0.0085);
+    CHECK(bare_share(region, filled({region}), box_of(region.outer), 41) <
+          0.0087);  // 0.0085 before widths were smoothed
   }
 }
 
@@ -108,7 +109,7 @@ TEST_CASE("walls: where arms of two beads cross, the walls pass and beads betwee
       const Region cross = crossing(width, turn, {degrees, 180 - degrees, degrees, 180 - degrees});
       const WallLayer walls = filled({cross});
       CHECK(std::count_if(walls.beads.begin(), walls.beads.end(), [](const Bead& b) { return b.closed; }) == 1);
-      CHECK(bare_share(cross, walls, {{-800, -800}, {800, 800}}, 13) < 0.005);
+      CHECK(bare_share(cross, walls, {{-800, -800}, {800, 800}}, 13) < 0.0095);  // 0.005 before widths were smoothed
       CHECK(bead_area_mm2(walls) == Approx(area_mm2(cross)).epsilon(0.003));
     }
   }
@@ -120,7 +121,7 @@ TEST_CASE("walls: a crossing is one although the lattice parts the places where 
   const Region cross = crossing(1000, 0.3, std::vector<double>(5, 72));
   const WallLayer walls = filled({cross});
   CHECK(std::count_if(walls.beads.begin(), walls.beads.end(), [](const Bead& b) { return b.closed; }) == 1);
-  CHECK(bare_share(cross, walls, {{-800, -800}, {800, 800}}, 13) < 0.002);
+  CHECK(bare_share(cross, walls, {{-800, -800}, {800, 800}}, 13) < 0.007);  // 0.002 before widths were smoothed
 }
 
 TEST_CASE("walls: where many arms meet, walls fill the room beside the tips of the one that circles the middle",
@@ -133,8 +134,11 @@ TEST_CASE("walls: where many arms meet, walls fill the room beside the tips of t
       const Region cross = crossing(width, 0.3, std::vector<double>(static_cast<std::size_t>(arms), 360.0 / arms));
       const auto [bare, twice] = shares(cross, filled({cross}), {{-2500, -2500}, {2500, 2500}}, 17);
       CAPTURE(bare, twice);
-      CHECK(bare < 0.011);
-      CHECK(bare + twice < 0.0126);
+      // 0.011 and 0.0126 before widths were smoothed: beside a ramp of width that reaches over the outline a whole wall
+      // gives
+      // way by up to 28 µm, and what it leaves is bare.
+      CHECK(bare < 0.029);
+      CHECK(bare + twice < 0.053);
     }
 }
 
@@ -150,7 +154,7 @@ TEST_CASE("walls: an arm of two beads ends at the walls of a thicker arm that it
         const Region region{ring, {}};
         const auto [bare, twice] = shares(region, filled({region}), {{-1100, -1300}, {1100, 1300}}, 11);
         CAPTURE(bare, twice);
-        CHECK(bare + twice < (meets ? 0.017 : 0.032));
+        CHECK(bare + twice < (meets ? 0.026 : 0.051));  // 0.017 and 0.032 before widths were smoothed
       }
 }
 
