@@ -139,7 +139,7 @@ void refuse_losses(const prusaslicer::Translation& translated, const std::string
 /// What was said beside the file holds instead of what it says.
 void take_in(Foreign& foreign, const ImportOptions& options) {
   for (const auto& [key, text] : options.options) {
-    std::erase_if(foreign.lines, [&](const IniEntry& e) { return e.key == key; });
+    std::erase_if(foreign.lines, [&key = key](const IniEntry& e) { return e.key == key; });
     foreign.histories.erase(key);
     foreign.lines.push_back({{}, key, text, -1});
   }
