@@ -3,6 +3,7 @@
 
 #include "pipeline/profile_file.h"
 #include "pipeline/write_file.h"
+#include "profile/tool_values.h"
 #include "profile_folders.h"
 #include "prusaslicer/keys.h"
 #include "settings/catalogue.h"
@@ -37,6 +38,14 @@ po::options_description common_options() {
       "strict", po::bool_switch(), "what a PrusaSlicer profile would lose is an error, not a warning")(
       "set,s", po::value<std::vector<std::string>>()->value_name("KEY=VALUE"),
       "one setting; repeatable; overrides every profile. `--key VALUE` does the same")(
+      "tool", po::value<std::vector<std::string>>()->value_name("N=FILE"),
+      "the filament of tool N, an ini profile; repeatable")(
+      "pause", po::value<std::vector<std::string>>()->value_name("Z[=TEXT]"),
+      "the printer waits at that height (pause_at_heights); repeatable")(
+      "color-change", po::value<std::vector<std::string>>()->value_name("Z[=TEXT]"),
+      "other filament is put in by hand there (color_change_at_heights); repeatable")(
+      "change", po::value<std::vector<std::string>>()->value_name("Z=TOOL"),
+      "from there on everything is printed with T1, T0 … (tool_change_at_heights); repeatable")(
       "output,o", po::value<std::string>()->value_name("PATH"), "where the result goes; - is standard output")(
       "report", po::value<std::string>()->value_name("FILE"), "machine-readable JSON report; - is standard output")(
       "threads,j", po::value<unsigned>()->value_name("N"),
@@ -77,12 +86,14 @@ po::options_description setting_options() {
 }
 
 /// PrusaSlicer's keys that are none of weft's, as options too.
-po::options_description prusaslicer_options() {
+po::options_description prusaslicer_options(const po::options_description& ours) {
   po::options_description out;
-  const auto ours = setting_options(), common = common_options();
+  std::set<std::string> names;  // that are taken: asking the descriptions takes as long as slicing a small part
+  for (const auto& options : {ours, common_options()})
+    for (const auto& option : options.options()) names.insert(option->long_name());
   for (const auto& row : prusaslicer::keys()) {
     const auto name = dashed(row.name);
-    if (ours.find_nothrow(name, false) || common.find_nothrow(name, false) || out.find_nothrow(name, false)) continue;
+    if (!names.insert(name).second) continue;
     auto* value = po::value<std::vector<std::string>>();
     if (row.written == prusaslicer::Written::flag) value->implicit_value({"1"}, "1");
     out.add_options()(name.c_str(), value);
@@ -91,8 +102,8 @@ po::options_description prusaslicer_options() {
 }
 
 /// Program_options takes "-90" for an option: a number behind a long option is joined to it. Underscores become dashes.
-std::vector<std::string> normalised(const std::vector<std::string>& words) {
-  const auto settings = setting_options(), theirs = prusaslicer_options();
+std::vector<std::string> normalised(const std::vector<std::string>& words, const po::options_description& settings,
+                                    const po::options_description& theirs) {
   const auto switched_off = [&](const std::string& word) -> std::string {  // --no-wipe
     if (word.rfind("--no-", 0) != 0) return {};
     const std::string key = dashed(word.substr(5));
@@ -217,6 +228,72 @@ std::optional<mesh::MarkKind> mark_of(std::string_view option) {
   return std::nullopt;
 }
 
+/// The setting that an option adds a height to; null: it is none of them.
+const CatalogueEntry* heights_of(std::string_view option) {
+  constexpr std::array<std::array<std::string_view, 2>, 3> options{{{"pause", "pause_at_heights"},
+                                                                    {"color-change", "color_change_at_heights"},
+                                                                    {"change", "tool_change_at_heights"}}};
+  for (const auto& [name, key] : options)
+    if (option == name) return find_setting(key);
+  return nullptr;
+}
+
+/// --tool 1=petg.ini
+std::pair<int, std::string> tool_of(const std::string& text) {
+  const auto equals = text.find('=');
+  const std::size_t begin = text.starts_with('T') ? 1 : 0;
+  int number = -1;
+  try {
+    value::parse(text.substr(begin, equals == std::string::npos ? 0 : equals - begin), Unit::none, number);
+  } catch (const std::invalid_argument&) {
+    number = -1;
+  }
+  if (equals == std::string::npos || equals + 1 == text.size() || number < 0 || number > 31)
+    throw Error{Error::Kind::usage, fmt::format("'{}' is not N=FILE", text), "--tool",
+                "as in --tool 1=petg.ini; tools are counted from 0"};
+  return {number, text.substr(equals + 1)};
+}
+
+/// One setting of the command line; an option beside profiles where it is one.
+void apply_setting(Profile& profile, const std::string& key, const std::string& text, const ImportOptions& options) {
+  constexpr std::string_view file_of_tool = ".inherits";
+  if (key.starts_with("tool.") && key.ends_with(file_of_tool)) {
+    const auto [number, file] = tool_of(key.substr(5, key.size() - 5 - file_of_tool.size()) + "=" + text);
+    return apply_tool_file(profile, number, file, options);
+  }
+  if (const auto* heights = key.starts_with("--") ? heights_of(key.substr(2)) : nullptr) {
+    const auto before = heights->print(profile.settings);
+    return apply_value(profile, std::string(heights->key), before + (before.empty() ? "" : "; ") + text, key);
+  }
+  apply_value(profile, key, text, "--set " + key);
+}
+
+/// A word whose place among the others matters: models and their marks, profiles, settings.
+/// @param settings, theirs the options that are weft's and PrusaSlicer's keys
+void take_in_order(Command& command, const po::option& option, const po::options_description& settings,
+                   const po::options_description& theirs) {
+  if (const auto kind = mark_of(option.string_key)) {
+    if (command.inputs.empty())
+      throw Error{Error::Kind::usage, "stands before any model", "--" + option.string_key, "name the model first"};
+    command.marks.push_back({command.inputs.size() - 1, *kind, option.value.at(0)});
+  }
+  if (option.string_key == "tool") {
+    const auto [number, file] = tool_of(option.value.at(0));
+    command.settings.emplace_back(fmt::format("tool.{}.inherits", number), file);
+  }
+  if (heights_of(option.string_key)) command.settings.emplace_back("--" + option.string_key, option.value.at(0));
+  if (option.string_key == "set")
+    command.settings.push_back(assignment(option.value.at(0)));
+  else if (settings.find_nothrow(option.string_key, false))
+    command.settings.emplace_back(option.string_key, option.value.empty() ? "true" : option.value[0]);
+  else if (theirs.find_nothrow(option.string_key, false))
+    command.import.options.emplace_back(underscored(option.string_key), option.value.empty() ? "1" : option.value[0]);
+  else if (option.string_key == "profile" || option.string_key == "load")
+    command.profiles.emplace_back(option.value.at(0));
+  else if (option.string_key == "input")
+    command.inputs.push_back(option.value.at(0));
+}
+
 }  // namespace
 
 Command parse_command(const std::vector<std::string>& words, const po::options_description& verb_options,
@@ -224,7 +301,7 @@ Command parse_command(const std::vector<std::string>& words, const po::options_d
   po::options_description all, hidden;
   hidden.add_options()("input", po::value<std::vector<std::string>>());
   const auto settings = setting_options();
-  const auto foreign = prusaslicer_options();
+  const auto foreign = prusaslicer_options(settings);
   po::options_description theirs;  // what the verb itself understands means that
   for (const auto& option : foreign.options())
     if (!verb_options.find_nothrow(option->long_name(), false)) theirs.add(option);
@@ -234,31 +311,12 @@ Command parse_command(const std::vector<std::string>& words, const po::options_d
 
   Command command;
   try {
-    const auto parsed = po::command_line_parser(normalised(words))
-                            .options(all)
-                            .positional(positional)
-                            .style(po::command_line_style::unix_style & ~po::command_line_style::allow_guessing)
-                            .run();
+    const auto typed = normalised(words, settings, foreign);
+    const auto style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
+    const auto parsed = po::command_line_parser(typed).options(all).positional(positional).style(style).run();
     po::store(parsed, command.options);
     po::notify(command.options);
-    for (const auto& option : parsed.options) {
-      if (const auto kind = mark_of(option.string_key)) {
-        if (command.inputs.empty())
-          throw Error{Error::Kind::usage, "stands before any model", "--" + option.string_key, "name the model first"};
-        command.marks.push_back({command.inputs.size() - 1, *kind, option.value.at(0)});
-      }
-      if (option.string_key == "set")
-        command.settings.push_back(assignment(option.value.at(0)));
-      else if (settings.find_nothrow(option.string_key, false))
-        command.settings.emplace_back(option.string_key, option.value.empty() ? "true" : option.value[0]);
-      else if (theirs.find_nothrow(option.string_key, false))
-        command.import.options.emplace_back(underscored(option.string_key),
-                                            option.value.empty() ? "1" : option.value[0]);
-      else if (option.string_key == "profile" || option.string_key == "load")
-        command.profiles.emplace_back(option.value.at(0));
-      else if (option.string_key == "input")
-        command.inputs.push_back(option.value.at(0));
-    }
+    for (const auto& option : parsed.options) take_in_order(command, option, settings, theirs);
   } catch (const po::error& problem) {
     rethrow_as_usage(problem);
   }
@@ -291,7 +349,7 @@ Profile resolve(const Command& command) {
   Profile profile;
   for (const auto& file : command.profiles) apply_profile(profile, file, command.import);
   apply_options(profile, command.import);
-  for (const auto& [key, text] : command.settings) apply_value(profile, key, text, "--set " + key);
+  for (const auto& [key, text] : command.settings) apply_setting(profile, key, text, command.import);
   check_consistency(profile);
   Files files = command.files;
   for (const auto& parent : profile.parents) files.reads(parent.string());

@@ -24,7 +24,7 @@ struct Command {
   unsigned threads = 0;  ///< 0: all cores
   ConsoleOptions console;
   bool help = false;
-  std::vector<ModelMark> marks;  ///< --support-enforcer and its like, of the model before them
+  std::vector<ModelMark> marks;                   ///< --support-enforcer and its like, of the model before them
   boost::program_options::variables_map options;  ///< of the verb
   Files files;                                    ///< that are read, and written
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command.h"
+#include "gcode/writer.h"
 #include "pipeline/check.h"
 #include "pipeline/profile_file.h"
 #include "profile/rules.h"
@@ -158,6 +159,7 @@ void check(const Command& command) {
   (void)format_of(command);
   Console console(command.console);
   const auto profile = resolved_aloud(command, console);
+  gcode::check_custom_code(profile.settings);
   auto doubts = doubts_about(profile);
   for (auto& notice : pipeline::check(profile.settings)) doubts.push_back(std::move(notice));
   for (const auto& doubt : doubts) console.warning(doubt);

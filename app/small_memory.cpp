@@ -12,6 +12,8 @@
 /// where the system grants no range, is malloc's. Source of the pages' lists: Leijen, Zorn & de Moura 2019, "Mimalloc:
 /// free list sharding in action".
 ///
+/// operator new is also where work is stopped that a library does in one go (core/stop_inside.h).
+///
 /// Where a sanitizer watches memory the operators are its own; `take` and `give` are there for tests that it sees.
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -23,6 +25,8 @@
 #endif
 
 #include "small_memory.h"
+
+#include "core/stop_inside.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -337,6 +341,7 @@ void give(void* memory) noexcept {
 
 #if defined(__linux__) && !defined(WEFT_MEMORY_IS_WATCHED)
 void* operator new(std::size_t bytes) {
+  weft::StopInside::step();
   return weft::small_memory::take(bytes);
 }
 

@@ -64,6 +64,11 @@ void compare(const Command& command, Console& console) {
   Job job;
   for (const auto& model : made_of.models)
     job.models.push_back(find_model(model, {command.inputs.begin() + 1, command.inputs.end()}, path));
+  for (const auto& mark : made_of.marks)
+    job.marks.push_back({mark.model, mark.kind,
+                         mark.sha256.empty() ? mark.name
+                                             : find_model({mark.sha256, mark.name},
+                                                          {command.inputs.begin() + 1, command.inputs.end()}, path)});
   job.settings = std::move(made_of.settings);
   job.placement = made_of.placement;
   job.audit = made_of.audit;

@@ -37,7 +37,7 @@ set(CPACK_DEBIAN_DEV_PACKAGE_NAME weft-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 # What weft-config.cmake looks for.
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libcgal-dev, libeigen3-dev, libpolyclipping-dev, libfmt-dev, libtbb-dev, \
-nlohmann-json3-dev, nettle-dev, libminizip-dev, libexpat1-dev, libpng-dev, libboost-dev, pkg-config")
+nlohmann-json3-dev, nettle-dev, libminizip-dev, libexpat1-dev, libpng-dev, libpcre2-dev, zlib1g-dev, libboost-dev, pkg-config")
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "weft (= ${PROJECT_VERSION})")
 set(CPACK_STRIP_FILES ON)
 include(CPack)

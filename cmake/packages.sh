@@ -10,6 +10,7 @@ packages=(
   libfmt-dev libtbb-dev libboost-program-options-dev nlohmann-json3-dev nettle-dev
   gettext                                                       # labels of settings in other languages
   libminizip-dev libexpat1-dev libpng-dev zlib1g-dev            # 3MF, pictures, pages
+  libpcre2-dev                                                  # substitutions in the G-code
   catch2 libzip-dev                                             # tests
 )
 

@@ -3,13 +3,26 @@
 # What the house asks of its sources, beyond what compilers see:  bash tests/house.sh
 # No file above 500 lines, no function above 60 but those that tests/house.txt names with a reason, no marker of things
 # left undone, a line of licence at the top of each file, a word on every header, and the layout of .clang-format.
-# Needs universal-ctags and clang-format (bash cmake/packages.sh universal-ctags clang-format). Run by hand: it still finds
-# lines of licence and functions to mend. Exit status: the number of kinds of faults.
+# Needs universal-ctags and clang-format (bash cmake/packages.sh universal-ctags clang-format). Exit status: the number of
+# kinds of faults; 127: it could not look.
 set -uo pipefail
 shopt -s lastpipe  # what `tell` counts at the end of a pipe counts here
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-mapfile -t sources < <(git ls-files '*.cpp' '*.h')
-mapfile -t ours < <(git ls-files 'lib/*.cpp' 'lib/*.h' 'app/*.cpp' 'app/*.h')
+if git ls-files --error-unmatch tests/house.sh > /dev/null 2>&1; then
+  all=$(git ls-files)
+else  # sources without a checkout
+  all=$(find . -name 'build*' -prune -o -type f -print | sed 's,^\./,,' | LC_ALL=C sort)
+fi
+mapfile -t sources < <(grep -E '\.(cpp|h)$' <<< "$all")
+mapfile -t ours < <(grep -E '^(lib|app)/.*\.(cpp|h)$' <<< "$all")
+mapfile -t scripts < <(grep -E '\.(sh|py|cmake)$|CMakeLists\.txt$|^\.ci/run$' <<< "$all")
+mapfile -t read < <(grep -E '^(lib|app|tests|examples|profiles)/' <<< "$all")
+for tool in ctags clang-format; do
+  command -v "$tool" > /dev/null && continue
+  echo "house: no $tool: bash cmake/packages.sh universal-ctags clang-format" >&2
+  exit 127
+done
+[ "${#ours[@]}" -gt 100 ] || { echo "house: no sources" >&2; exit 127; }
 kinds=0
 tell() {  # what, the faults on standard input
   local faults
@@ -33,9 +46,9 @@ awk 'NR == FNR { long[$1 " " $2] = 1; next } NF && !($0 in long)' <(echo "$long"
   tell 'tests/house.txt names what is no longer above 60 lines'
 
 marker='TO''DO|FIX''ME|X''XX|HA''CK'  # in pieces, so that this line is none
-git grep -nIE "\b($marker)\b" -- lib app tests examples profiles | tell 'markers'
+grep -nHIE "\b($marker)\b" "${read[@]}" | tell 'markers'
 
-for file in "${sources[@]}" $(git ls-files '*.sh' '*.py' '*.cmake' '*CMakeLists.txt' .ci/run); do
+for file in "${sources[@]}" "${scripts[@]}"; do
   head -n 3 "$file" | grep -q 'SPDX-License-Identifier: GPL-3.0-or-later' || echo "$file"
 done | tell 'files without a line of licence'
 

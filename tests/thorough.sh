@@ -3,6 +3,7 @@
 # What takes too long for .ci/run, to be run before a capability is called done:  bash tests/thorough.sh
 #   - the thread sanitizer over what runs on several threads,
 #   - the same bytes from clang as from g++ (tests/jobs/compilers.sh),
+#   - 3,000 mutated inputs of every kind through the program,
 #   - each fuzzer for a minute (MINUTES=15 bash tests/thorough.sh: for as many).
 # The closing lines say what of it passed; exit status: how many did not.
 set -uo pipefail
@@ -21,6 +22,9 @@ told "thread sanitizer: $threaded" $?
 bash tests/run.sh release -R '^$' --no-tests=ignore && cmake --preset clang > /dev/null &&
   cmake --build --preset clang --target weft_app && bash tests/jobs/compilers.sh build/release/app/weft
 told 'the same bytes from clang' $?
+
+python3 tests/fuzz/hostile.py build/release/app/weft 3000 | tail -n 3
+told '3,000 mutated inputs' "${PIPESTATUS[0]}"
 
 cmake --preset fuzz > /dev/null && cmake --build --preset fuzz
 told 'fuzzers built' $?

@@ -26,7 +26,8 @@ std::vector<RaftLayer> raft_layers(const RaftSettings& settings, Um nozzle, Um l
   for (int i = 0; i < settings.raft_interface_layers; ++i)
     add(RaftPart::between, between, settings.raft_interface_line_spacing.value_or(2 * band_at(between)));
   for (int i = 0; i < settings.raft_surface_layers; ++i)
-    add(RaftPart::surface, settings.raft_surface_thickness.value_or(layer_height), 0);
+    add(RaftPart::surface, settings.raft_surface_thickness.value_or(layer_height),
+        settings.raft_surface_line_spacing.value_or(0));
   return out;
 }
 

@@ -12,6 +12,14 @@ void Comments::custom(Text& out) const {
   out << (dialect == CommentDialect::cura ? ";TYPE:CUSTOM\n" : ";TYPE:Custom\n");
 }
 
+void Comments::pause(Text& out, bool swaps_filament, ToolId tool) const {
+  if (dialect == CommentDialect::cura) return;
+  if (swaps_filament)
+    out << ";COLOR_CHANGE,T" << std::int64_t{tool} << '\n';
+  else
+    out << ";PAUSE_PRINT\n";
+}
+
 void Comments::layer(Text& out, std::size_t index, Um z, Um height, bool names_itself) const {
   if (dialect == CommentDialect::cura) {
     out << ";LAYER:" << static_cast<std::int64_t>(index) << '\n';

@@ -16,6 +16,7 @@ struct Comments {
   /// `;TYPE:` and a line end.
   void feature(Text& out, Role role) const;
   void custom(Text& out) const;
+  void pause(Text& out, bool swaps_filament, ToolId tool) const;
 
   /// What a layer begins with.
   /// @param names_itself the custom G-code that follows holds ;BEFORE_LAYER_CHANGE

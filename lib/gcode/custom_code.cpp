@@ -4,6 +4,9 @@
 #include "core/escape.h"
 #include "gcode/header.h"
 #include "gcode/placeholders.h"
+#include "prusaslicer/keys.h"
+#include "settings/catalogue.h"
+#include "settings/tools.h"
 #include "settings/value.h"
 
 #include <algorithm>
@@ -130,17 +133,49 @@ CustomCode::CustomCode(const GcodeSettings& g)
       before_layer(g.before_layer_gcode, "before_layer_gcode"),
       layer(g.layer_gcode, "layer_gcode"),
       tool_change(g.tool_change_gcode, "tool_change_gcode"),
+      load(g.machine_extruder_start_code, "machine_extruder_start_code"),
+      unload(g.machine_extruder_end_code, "machine_extruder_end_code"),
+      pause(g.pause_gcode, "pause_gcode"),
+      color_change(g.color_change_gcode, "color_change_gcode"),
       between_objects(g.between_objects_gcode, "between_objects_gcode"),
       end(g.machine_end_gcode, "machine_end_gcode") {}
 
 void CustomCode::check(const Variables& variables) const {
   Variables globals;
-  for (const auto* code : {&start, &before_layer, &layer, &tool_change, &between_objects, &end})
+  for (const auto* code :
+       {&start, &before_layer, &layer, &tool_change, &load, &unload, &pause, &color_change, &between_objects, &end})
     code->check(variables, globals);
 }
 
+namespace {
+
+/// What tools may have of their own is a list of theirs.
+void add_tools(const Job& job, Variables& out) {
+  for (std::size_t tool = 1; tool < job.tools.size(); ++tool) {
+    const auto own = variables_of(job.tools[tool]);
+    const auto add = [&](std::string_view name) {
+      const auto to = out.find(name);
+      const auto from = own.find(name);
+      if (to == out.end() || from == own.end() || to->second.values.size() != tool || from->second.values.size() != 1)
+        return;
+      to->second.values.push_back(from->second.values.front());
+      to->second.text.clear();
+    };
+    for (const auto& entry : catalogue()) {
+      if (!differs_by_tool(entry) || entry.scope != Scope::tool) continue;
+      add(entry.key);
+      for (const auto& row : prusaslicer::keys())
+        if (row.ours == entry.key && row.name != entry.key) add(row.name);
+    }
+    for (const auto* name : {"first_layer_temperature", "retract_length"}) add(name);
+  }
+}
+
+}  // namespace
+
 Variables print_variables(const Job& job) {
   auto out = variables_of(job.settings);
+  add_tools(job, out);
   add_boxes(job, out);
   add_figures(job, out);
   add_names(job, out);
@@ -148,7 +183,7 @@ Variables print_variables(const Job& job) {
   out["max_layer_z"] = macro::variable(to_mm(top_of(job.plan)));
   out["num_objects"] = out["num_instances"] = count(job.plan.objects.size());
   const auto& tools = job.statistics.tools;
-  out["num_extruders"] = count(std::max<std::size_t>(1, tools.size()));
+  out["num_extruders"] = count(std::max<std::size_t>({1, tools.size(), job.tools.size()}));
   out["num_printing_extruders"] = count(
       tools.empty() ? 1 : static_cast<std::size_t>(std::count_if(tools.begin(), tools.end(), [](const auto& tool) {
         return tool.filament_mm3 > 0;
@@ -166,6 +201,12 @@ Variables print_variables(const Job& job) {
 void set_layer(Variables& variables, std::size_t index, Um z) {
   variables["layer_num"] = count(index);
   variables["layer_z"] = macro::variable(to_mm(z));
+}
+
+macro::Template template_of(const HeightMark& mark) {
+  std::string code;
+  value::parse(mark.text, Unit::none, code);
+  return macro::Template(code, "gcode_at_heights");
 }
 
 void set_tool_change(Variables& variables, ToolId from, ToolId to, Um z) {
@@ -210,8 +251,11 @@ Heating heating_in(std::string_view code, const macro::Template& read, const Mat
                          "first_layer_bed_temperature"}) &&
                (macro_is_handed(code, m.material_bed_temperature) ||
                 macro_is_handed(code, m.material_bed_temperature_layer_0.value_or(0)))),
-          any_command({"M141", "M191"}) || (mentions({"build_volume_temperature", "chamber_temperature"}) &&
-                                            macro_is_handed(code, m.build_volume_temperature))};
+          any_command({"M141", "M191"}) ||
+              (mentions({"build_volume_temperature", "chamber_temperature"}) &&
+               macro_is_handed(code, m.build_volume_temperature)) ||
+              (mentions({"build_volume_wait_temperature", "chamber_minimal_temperature"}) &&
+               macro_is_handed(code, m.build_volume_wait_temperature.value_or(0)))};
 }
 
 }  // namespace weft::gcode

@@ -10,7 +10,7 @@ namespace weft::gcode {
 
 /// The texts, read. Expanded in this order they share global variables.
 struct CustomCode {
-  macro::Template start, before_layer, layer, tool_change, between_objects, end;
+  macro::Template start, before_layer, layer, tool_change, load, unload, pause, color_change, between_objects, end;
 
   /// @throws Error{settings} for syntax
   explicit CustomCode(const GcodeSettings& settings);
@@ -23,6 +23,9 @@ struct CustomCode {
 /// bytes. layer_num, layer_z and the numbers of the tools are those of the start; set_layer changes them.
 macro::Variables print_variables(const Job& job);
 void set_layer(macro::Variables& variables, std::size_t index, Um z);
+
+/// The G-code of `gcode_at_heights` for a height, read.
+macro::Template template_of(const HeightMark& mark);
 
 /// From that tool to another, on a layer whose top is at z.
 void set_tool_change(macro::Variables& variables, ToolId from, ToolId to, Um z);

@@ -89,7 +89,8 @@ void Dialect::travel_acceleration(Text& out, std::int64_t mm_s2) const {
 }
 
 void Dialect::select(Text& out, ToolId tool) const {
-  if (firmware != Firmware::klipper)
+  if (tool_select == ToolSelect::swap) return color_change(out, fmt::format("load T{}", int{tool}));
+  if (tool_select == ToolSelect::t || firmware != Firmware::klipper)
     out << 'T' << std::int64_t{tool} << '\n';
   else if (tool == 0)
     out << "ACTIVATE_EXTRUDER EXTRUDER=extruder\n";
@@ -139,6 +140,13 @@ void Dialect::pause(Text& out, const std::string& text) const {
       out << "M0" << (text.empty() ? "" : " ") << text << '\n';
       break;
   }
+}
+
+void Dialect::color_change(Text& out, const std::string& text) const {
+  if (firmware == Firmware::klipper || firmware == Firmware::repetier)
+    return pause(out, text.empty() ? "change the filament" : text);
+  if (!text.empty()) out << "M117 " << text << '\n';
+  out << "M600\n";
 }
 
 std::string Dialect::machine_limits(const MachineSettings& m) const {

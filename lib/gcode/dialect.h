@@ -2,8 +2,7 @@
 #pragma once
 #include "gcode/text.h"
 #include "model/plan.h"
-#include "settings/groups/gcode.h"
-#include "settings/groups/machine.h"
+#include "settings/settings.h"
 
 #include <string>
 #include <vector>
@@ -22,6 +21,7 @@ struct Dialect {
   Firmware firmware = Firmware::marlin2;
   ObjectLabels labels = ObjectLabels::firmware;
   CommentDialect comments = CommentDialect::prusaslicer;
+  ToolSelect tool_select = ToolSelect::firmware;
 
   /// @param share 0 … 1
   void fan(Text& out, double share) const;
@@ -38,6 +38,8 @@ struct Dialect {
   void temperature(Text& out, const SetTemperature& heat) const;
   /// Waits for the user; what firmwares call this they do in ways of their own.
   void pause(Text& out, const std::string& text) const;
+  /// Waits until the user has put other filament in: M600 where the firmware knows it, else a pause.
+  void color_change(Text& out, const std::string& text) const;
 
   /// Limits of speed, acceleration and jerk; nothing for Klipper, which has them in its own configuration.
   std::string machine_limits(const MachineSettings& machine) const;
@@ -56,8 +58,8 @@ struct Dialect {
   bool in_comments() const;
 };
 
-inline Dialect dialect_of(const MachineSettings& machine, const GcodeSettings& gcode) {
-  return {machine.firmware, gcode.gcode_label_objects, gcode.gcode_comment_dialect};
+inline Dialect dialect_of(const Settings& s) {
+  return {s.machine.firmware, s.gcode.gcode_label_objects, s.gcode.gcode_comment_dialect, s.tools.tool_select};
 }
 
 /// Names that every firmware takes as one word, and no two of them alike: letters, digits, '_' and what is not ASCII,

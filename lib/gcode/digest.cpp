@@ -47,10 +47,13 @@ void Extents::unite(const Extents& other) {
 }
 
 LayerDigest digest_of(const Settings& settings, const LayerPlan& layer) {
-  const Dialect dialect = dialect_of(settings.machine, settings.gcode);
+  const Dialect dialect = dialect_of(settings);
   LayerDigest out;
   out.bytes = 1024 + 96 * layer.steps.size();
-  const auto set_retracted = [&](bool v) { (out.changes.empty() ? out.retracted : out.changes.back().retracted) = v; };
+  const auto set_retracted = [&](bool v, bool to_change) {
+    (out.changes.empty() ? out.retracted : out.changes.back().retracted) = v;
+    (out.changes.empty() ? out.to_change : out.changes.back().to_change) = to_change;
+  };
   const auto lose_place = [&] {
     out.place_lost = true;
     out.at.reset(), out.wiped_to.reset();
@@ -59,9 +62,9 @@ LayerDigest digest_of(const Settings& settings, const LayerPlan& layer) {
                         [&](const Travel& travel) { take_in(out, travel, dialect.separate_travel_acceleration()); },
                         [&](const Retract& retract) {
                           take_in(out, retract, layer.z);
-                          set_retracted(true);
+                          set_retracted(true, retract.to_change);
                         },
-                        [&](const Prime&) { set_retracted(false); },
+                        [&](const Prime&) { set_retracted(false, false); },
                         [&](const SetFan& fan) { out.fan = fan.share; },
                         [&](const ToolChange& change) {
                           out.changes.push_back({change.tool, {}});
@@ -69,6 +72,7 @@ LayerDigest digest_of(const Settings& settings, const LayerPlan& layer) {
                         },
                         [&](const Pause& pause) {
                           out.bytes += pause.text.size();
+                          out.pauses.push_back(pause);
                           lose_place();
                         },
                         LeavesAlone<ObjectStart, ObjectEnd, SetTemperature>{}};
@@ -80,10 +84,10 @@ void advance(MachineState& state, const LayerDigest& layer) {
   if (layer.place_lost) state.at.reset(), state.z = MachineState::from_above;
   if (layer.at) state.at = layer.at;
   if (layer.wiped_to && state.at) state.at = Point3{layer.wiped_to->x, layer.wiped_to->y, state.at->z};
-  if (layer.retracted) state.set_retracted(*layer.retracted);
+  if (layer.retracted) state.set_retracted(*layer.retracted, layer.to_change);
   for (const auto& change : layer.changes) {
     state.tool = change.tool;
-    if (change.retracted) state.set_retracted(*change.retracted);
+    if (change.retracted) state.set_retracted(*change.retracted, change.to_change);
   }
   if (layer.retracted || !layer.changes.empty()) state.drawn_mm.reset();
   if (layer.fan) state.fan = *layer.fan;

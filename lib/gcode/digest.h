@@ -18,12 +18,16 @@ struct MachineState {
   double print_acceleration = 0, travel_acceleration = 0;  ///< mm/s²; 0: not said yet
   ToolId tool = 0;                                         ///< that is loaded
   std::bitset<any_tool + 1U> drawn_back{};                 ///< by tool: is its filament?
+  std::bitset<any_tool + 1U> drawn_to_change{};            ///< … so far as for a change
   static constexpr Um from_above = max_coord;              ///< for `z`: at some height over what is printed
   std::optional<Um> z{};             ///< where the nozzle is, as far as that is known before `at` is
   std::optional<double> drawn_mm{};  ///< of filament by start G-code, while it is drawn back; else as the settings say
 
   bool retracted() const { return drawn_back[tool]; }
-  void set_retracted(bool drawn) { drawn_back[tool] = drawn; }
+  void set_retracted(bool drawn, bool to_change = false) {
+    drawn_back[tool] = drawn;
+    drawn_to_change[tool] = drawn && (to_change || drawn_to_change[tool]);
+  }
 };
 
 /// Where the nozzle goes.
@@ -47,8 +51,11 @@ struct LayerDigest {
   struct Change {
     ToolId tool = 0;
     std::optional<bool> retracted;  ///< that tool, until the next change
+    bool to_change = false;         ///< … as another one follows
   };
+  bool to_change = false;  ///< … as another one follows
   std::vector<Change> changes;
+  std::vector<Pause> pauses;  ///< in the order of the steps
   std::optional<double> fan;
   double print_acceleration = 0, travel_acceleration = 0;  ///< mm/s²; 0: not said
 };

@@ -55,13 +55,8 @@ Size size_of(const Extrude& bead, const Junction& a, const Junction& b) {
 class LayerText {
  public:
   explicit LayerText(const LayerJob& job) : job_(job), state_(job.entry), out_(expected_bytes(job.plan)) {
-    const auto& material = job.settings.material;
-    const double diameter_mm = to_mm(material.filament_diameter);
-    const bool volumetric = job.settings.gcode.volumetric_extrusion;
-    const double area_mm2 = std::numbers::pi / 4 * diameter_mm * diameter_mm;
-    e_per_mm3_ = material.material_flow / 100.0 / (volumetric ? 1 : area_mm2) * units_per_mm;
-    e_per_mm_ = (volumetric ? area_mm2 : 1) * units_per_mm;
     writes_e_ = job.settings.gcode.write_extrusion;
+    use(state_.tool);
   }
 
   std::string all() && {
@@ -82,6 +77,19 @@ class LayerText {
   }
 
  private:
+  /// The tool's filament, and where its nozzle stands.
+  void use(ToolId tool) {
+    of_tool_ = tool < job_.tools.size() ? &job_.tools[tool] : &job_.settings;
+    const auto& offsets = job_.settings.machine.nozzle_offsets;
+    offset_ = !job_.tools.empty() && tool < offsets.size() ? offsets[tool] : Point{};
+    const auto& material = of_tool_->material;
+    const double diameter_mm = to_mm(material.filament_diameter);
+    const bool volumetric = job_.settings.gcode.volumetric_extrusion;
+    const double area_mm2 = std::numbers::pi / 4 * diameter_mm * diameter_mm;
+    e_per_mm3_ = material.material_flow / 100.0 / (volumetric ? 1 : area_mm2) * units_per_mm;
+    e_per_mm_ = (volumetric ? area_mm2 : 1) * units_per_mm;
+  }
+
   void head() {
     height_ = job_.plan.height;
     job_.comments.layer(out_, job_.index, job_.plan.z, job_.plan.height,
@@ -117,8 +125,8 @@ class LayerText {
   bool axes(Point3 to) {
     const auto& at = state_.at;
     if (at == to) return false;
-    if (!at || at->x != to.x) (out_ << " X").length(to.x);
-    if (!at || at->y != to.y) (out_ << " Y").length(to.y);
+    if (!at || at->x != to.x) (out_ << " X").length(to.x - offset_.x);
+    if (!at || at->y != to.y) (out_ << " Y").length(to.y - offset_.y);
     if (!at || at->z != to.z) (out_ << " Z").length(to.z);
     return true;
   }
@@ -207,7 +215,7 @@ class LayerText {
         travel_to(down ? Point3{to.x, to.y, *state_.z} : to, speed_between(travel, *state_.at, to));
         continue;
       }
-      ((out_ << "G0 X").length(to.x) << " Y").length(to.y);
+      ((out_ << "G0 X").length(to.x - offset_.x) << " Y").length(to.y - offset_.y);
       feed(travel.speed_mm_s);
       out_ << '\n';
       state_.at = {to.x, to.y, down ? *state_.z : z};
@@ -226,10 +234,14 @@ class LayerText {
   }
 
   void print(const Retract& retract) {
-    const auto& r = job_.settings.retraction;
-    const double amount = to_mm(r.retraction_amount) * e_per_mm_;
-    const bool draws = !state_.retracted();
-    state_.set_retracted(true);
+    const auto& r = of_tool_->retraction;
+    const Um wanted = retract.to_change ? of_tool_->tools.switch_extruder_retraction_amount : r.retraction_amount;
+    const Um drawn = !state_.retracted()                   ? 0
+                     : state_.drawn_to_change[state_.tool] ? wanted
+                                                           : std::min(wanted, r.retraction_amount);
+    const double amount = to_mm(wanted - drawn) * e_per_mm_;
+    const bool draws = !state_.retracted() || (retract.to_change && !r.firmware_retraction && wanted > drawn);
+    state_.set_retracted(true, retract.to_change);
     const double before = r.firmware_retraction ? 1 : retract.before_wipe;
     if (draws && r.firmware_retraction && writes_e_)
       out_ << "G10\n";
@@ -254,12 +266,16 @@ class LayerText {
 
   void print(const Prime&) {
     if (!state_.retracted()) return;
+    const bool changed = state_.drawn_to_change[state_.tool];
     state_.set_retracted(false);
-    const auto& r = job_.settings.retraction;
+    const auto& r = of_tool_->retraction;
+    const auto& t = of_tool_->tools;
     const double speed = r.retraction_prime_speed.value_or(r.retraction_retract_speed);
     if (r.firmware_retraction && !state_.drawn_mm && writes_e_) out_ << "G11\n";
-    const double drawn_mm = state_.drawn_mm.value_or(to_mm(r.firmware_retraction ? 0 : r.retraction_amount));
-    const double mm = drawn_mm + to_mm(r.retraction_extra_prime_amount);
+    const Um drawn = r.firmware_retraction ? 0 : changed ? t.switch_extruder_retraction_amount : r.retraction_amount;
+    const double drawn_mm = state_.drawn_mm.value_or(to_mm(drawn));
+    const double mm =
+        drawn_mm + to_mm(changed ? t.switch_extruder_extra_prime_amount : r.retraction_extra_prime_amount);
     state_.drawn_mm.reset();
     extruder_only(mm * e_per_mm_, speed);
   }
@@ -278,15 +294,22 @@ class LayerText {
 
   /// What the profile brings for it, and the tool itself unless that has chosen it.
   void print(const ToolChange& change) {
-    const std::string_view code =
-        tool_changes_ < job_.tool_changes.size() ? std::string_view(job_.tool_changes[tool_changes_]) : "";
+    const auto of = [](const std::vector<std::string>& codes, std::size_t i) {
+      return i < codes.size() ? std::string_view(codes[i]) : std::string_view();
+    };
+    const std::string_view code = of(job_.tool_changes, tool_changes_), loaded = of(job_.loaded, tool_changes_);
+    const bool chosen_already = job_.first_is_chosen && tool_changes_ == 0;
     ++tool_changes_;
-    custom(code);
-    Text chosen;
-    job_.dialect.select(chosen, change.tool);
-    const auto select = std::move(chosen).take();
-    if (!has_command(code, std::string_view(select).substr(0, select.size() - 1))) out_ << select;
+    if (!chosen_already) {
+      custom(code);
+      Text chosen;
+      job_.dialect.select(chosen, change.tool);
+      const auto select = std::move(chosen).take();
+      if (!has_command(code, std::string_view(select).substr(0, select.find('\n')))) out_ << select;
+    }
+    custom(loaded);
     state_.tool = change.tool;
+    use(change.tool);
     lose_place();
     if (job_.settings.gcode.relative_extrusion) return;
     out_ << "G92 E0\n";
@@ -294,7 +317,15 @@ class LayerText {
   }
   void print(const SetTemperature& heat) { job_.dialect.temperature(out_, heat); }
   void print(const Pause& pause) {
-    job_.dialect.pause(out_, pause.text);
+    const auto index = pauses_++;
+    const std::string_view code = index < job_.pauses.size() ? std::string_view(job_.pauses[index]) : "";
+    job_.comments.pause(out_, pause.swaps_filament, state_.tool);
+    if (!code.empty())
+      custom(code);
+    else if (pause.swaps_filament)
+      job_.dialect.color_change(out_, pause.text);
+    else
+      job_.dialect.pause(out_, pause.text);
     lose_place();
   }
 
@@ -302,6 +333,8 @@ class LayerText {
   void print(const ObjectEnd& object) { job_.dialect.object_end(out_, object.object, job_.names); }
 
   const LayerJob& job_;
+  const Settings* of_tool_ = nullptr;
+  Point offset_;  ///< of its nozzle, where the firmware does not allow for it
   MachineState state_;
   Text out_;
   double e_per_mm3_ = 0, e_per_mm_ = 0;  // units
@@ -310,7 +343,7 @@ class LayerText {
   std::int64_t e_written_ = 0;  // likewise
   std::int64_t feed_ = 0;       // 0: not said in this layer
   int role_ = -1;
-  std::size_t tool_changes_ = 0;
+  std::size_t tool_changes_ = 0, pauses_ = 0;
   Um height_ = 0, width_ = 0;
 };
 

@@ -10,6 +10,7 @@ namespace weft::gcode {
 /// What the text of one layer is made of.
 struct LayerJob {
   const Settings& settings;
+  const std::vector<Settings>& tools;  ///< of each; empty: there is one
   const Dialect& dialect;
   Comments comments;
   const LayerPlan& plan;
@@ -20,6 +21,9 @@ struct LayerJob {
   std::string_view before_layer;  ///< custom G-code
   std::string_view after_layer;
   const std::vector<std::string>& tool_changes;  ///< custom G-code of each
+  const std::vector<std::string>& loaded;        ///< likewise, after the tool was chosen
+  const std::vector<std::string>& pauses;        ///< likewise
+  bool first_is_chosen = false;                  ///< start G-code has chosen the first tool
   double end_s = 0;                              ///< time of the print when the layer is done
 };
 

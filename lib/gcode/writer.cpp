@@ -7,6 +7,7 @@
 #include "gcode/layer_text.h"
 #include "gcode/left_by.h"
 #include "settings/first_layer.h"
+#include "settings/tools.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,7 +41,8 @@ Writer::Writer(const Job& job, bool lenient)
     : job_(job),
       lenient_(lenient),
       first_(on_first_layer(job.settings).material),
-      dialect_(dialect_of(job.settings.machine, job.settings.gcode)),
+      dialect_(dialect_of(job.settings)),
+      substitutions_(job.settings.gcode.gcode_substitutions),
       names_(label_names(job.plan.objects)) {
   const auto& layers = job.plan.layers;
   MachineState state;
@@ -53,6 +55,10 @@ Writer::Writer(const Job& job, bool lenient)
   }
   entries_.push_back(state);
   elapsed_s_.push_back(elapsed_s);
+  if (!job.tools.empty())
+    for (std::size_t i = 0; i < layers.size(); ++i)
+      for (const auto& change : digest_of(job, i).changes)
+        if (std::find(used_.begin(), used_.end(), change.tool) == used_.end()) used_.push_back(change.tool);
   expand_custom_code();
   begin_where_start_ends();
 }
@@ -72,52 +78,128 @@ void Writer::expand_custom_code() {
   code.check(variables);
   macro::Scope scope{{}, seed_of(job_.settings.gcode.machine_start_gcode), lenient_};
   const auto expanded = [&](const macro::Template& t) { return with_newline(t.expand(variables, scope)); };
-  start_ = expanded(code.start);
+  std::vector<CustomCode> of_tools;
+  for (const auto& tool : job_.tools) of_tools.emplace_back(tool.gcode), of_tools.back().check(variables);
+  const auto of_tool = [&](ToolId tool) -> const CustomCode& { return tool < of_tools.size() ? of_tools[tool] : code; };
+  if (!used_.empty()) {
+    set_tool_change(variables, used_.front(), used_.front(), 0);
+    variables["initial_tool"] = variables["initial_extruder"] = macro::variable(std::int64_t{used_.front()});
+  }
+  start_ = expanded(code.start) + (used_.empty() ? expanded(code.load) : std::string());
+  start_selects_ = !used_.empty() && has_command(start_, fmt::format("T{}", used_.front()));
   const auto heating = heating_in(start_, code.start, job_.settings.material);
   start_sets_nozzle_ = heating.nozzle, start_sets_bed_ = heating.bed, start_sets_chamber_ = heating.chamber;
   const auto& g = job_.settings.gcode;
   const auto& layers = job_.plan.layers;
   before_layer_.resize(layers.size()), after_layer_.resize(layers.size()), tool_changes_.resize(layers.size());
+  pauses_.resize(layers.size());
+  loaded_.resize(layers.size());
+  std::optional<ToolId> loaded = used_.empty() ? std::optional<ToolId>(0) : std::nullopt;
   for (std::size_t i = 0; i < layers.size(); ++i) {
     stop_if_asked();
     const bool next_object = layers[i].time.comes_down;  // one object after the other
-    const auto changes = g.tool_change_gcode.empty() ? std::vector<LayerDigest::Change>{} : digest_of(job_, i).changes;
-    if (g.before_layer_gcode.empty() && g.layer_gcode.empty() && !next_object && changes.empty()) continue;
+    const bool codes_changes = !g.tool_change_gcode.empty() || !used_.empty();
+    const auto changes = codes_changes ? digest_of(job_, i).changes : std::vector<LayerDigest::Change>{};
+    const bool coded = !g.pause_gcode.empty() || !g.color_change_gcode.empty();
+    const auto pauses = coded ? digest_of(job_, i).pauses : std::vector<Pause>{};
+    if (g.before_layer_gcode.empty() && g.layer_gcode.empty() && !next_object && changes.empty() && pauses.empty() &&
+        job_.settings.tools.gcode_at_heights.empty())
+      continue;
     set_layer(variables, i, layers[i].z);
     if (next_object) before_layer_[i] = expanded(code.between_objects);
-    before_layer_[i] += expanded(code.before_layer);
+    before_layer_[i] += expanded(code.before_layer) + code_at_heights(i, variables, scope);
     after_layer_[i] = expanded(code.layer);
-    ToolId loaded = entries_[i].tool;
     for (const auto& change : changes) {
-      set_tool_change(variables, std::exchange(loaded, change.tool), change.tool, layers[i].z);
-      tool_changes_[i].push_back(expanded(code.tool_change));
+      const ToolId from = loaded.value_or(change.tool);
+      set_tool_change(variables, from, change.tool, layers[i].z);
+      if (!loaded && !used_.empty()) variables["previous_extruder"] = macro::variable(std::int64_t{-1});
+      tool_changes_[i].push_back((loaded && !used_.empty() ? expanded(of_tool(from).unload) : std::string()) +
+                                 expanded(code.tool_change));
+      loaded_[i].push_back(used_.empty() ? std::string() : expanded(of_tool(change.tool).load));
+      loaded = change.tool;
     }
+    for (const auto& pause : pauses)
+      pauses_[i].push_back(expanded(pause.swaps_filament ? code.color_change : code.pause));
   }
   if (!layers.empty()) set_layer(variables, layers.size() - 1, layers.back().z);
-  end_ = expanded(code.end);
-  if (lenient_) expanded(code.tool_change), expanded(code.between_objects);
+  end_ = expanded(of_tool(loaded.value_or(0)).unload) + expanded(code.end);
+  if (lenient_) {
+    expanded(code.tool_change), expanded(code.between_objects), expanded(code.pause), expanded(code.color_change);
+    for (const auto& mark : job_.settings.tools.gcode_at_heights) template_of(mark).check(variables, scope.globals);
+  }
+}
+
+/// What gcode_at_heights wants before this layer: the first that reaches above the mark, in each rise.
+std::string Writer::code_at_heights(std::size_t index, const macro::Variables& variables, macro::Scope& scope) const {
+  const auto& layer = job_.plan.layers[index];
+  const Um offset = job_.settings.machine.z_offset;
+  const Um below = index > 0 && !layer.time.comes_down ? job_.plan.layers[index - 1].z - offset : 0;
+  std::string out;
+  for (const auto& mark : job_.settings.tools.gcode_at_heights)
+    if (mark.z >= below && mark.z < layer.z - offset) out += with_newline(template_of(mark).expand(variables, scope));
+  return out;
 }
 
 std::string Writer::head() const {
   const auto& m = job_.settings.material;
   const int nozzle = first_.material_print_temperature, bed = first_.material_bed_temperature;
   const bool sets_nozzle = !start_sets_nozzle_ && nozzle > 0, sets_bed = !start_sets_bed_ && bed > 0;
-  const bool sets_chamber = !start_sets_chamber_ && m.build_volume_temperature > 0;
+  const std::int64_t chamber = start_sets_chamber_ ? 0 : m.build_volume_temperature;
+  const std::int64_t warm =
+      start_sets_chamber_ ? 0 : m.build_volume_wait_temperature.value_or(m.build_volume_temperature);
   Text out;
-  out << top_comments(job_) << '\n';
   dialect_.define_objects(out, job_.plan.objects, names_);
   if (job_.settings.gcode.gcode_progress) out << dialect_.progress(progress(0, elapsed_s_.back()));
   Comments{job_.settings.gcode.gcode_comment_dialect}.custom(out);
   if (job_.settings.gcode.gcode_machine_limits) out << dialect_.machine_limits(job_.settings.machine);
-  if (sets_chamber) out << "M141 S" << std::int64_t{m.build_volume_temperature} << '\n';
+  if (chamber > 0) out << "M141 S" << chamber << '\n';
   if (sets_bed) out << "M140 S" << std::int64_t{bed} << '\n';
-  if (sets_nozzle) out << "M104 S" << std::int64_t{nozzle} << '\n';
+  if (!used_.empty())
+    heat_at_start(out, false);
+  else if (sets_nozzle)
+    out << "M104 S" << std::int64_t{nozzle} << '\n';
   if (sets_bed && m.material_bed_temp_wait) out << "M190 S" << std::int64_t{bed} << '\n';
-  if (sets_chamber && m.material_bed_temp_wait) out << "M191 S" << std::int64_t{m.build_volume_temperature} << '\n';
+  if (warm > 0 && m.material_bed_temp_wait) {
+    out << "M191 S" << warm << '\n';
+    if (chamber > 0 && chamber != warm) out << "M141 S" << chamber << '\n';  // M191 has made it the target
+  }
   out << start_;
-  if (sets_nozzle && m.material_print_temp_wait) out << "M109 S" << std::int64_t{nozzle} << '\n';
+  if (!used_.empty() && m.material_print_temp_wait)
+    heat_at_start(out, true);
+  else if (sets_nozzle && m.material_print_temp_wait)
+    out << "M109 S" << std::int64_t{nozzle} << '\n';
   out << "G21\nG90\n";
   if (job_.settings.gcode.write_extrusion) out << (job_.settings.gcode.relative_extrusion ? "M83\n" : "M82\n");
+  return top_comments(job_) + '\n' + substitutions_.done(std::move(out).take());
+}
+
+/// Every nozzle that is used gets warm; the first is waited for. What the start G-code sets it sets itself.
+void Writer::heat_at_start(Text& out, bool wait) const {
+  const auto heat = [&](ToolId tool) {
+    const int celsius = on_first_layer(job_.tools[tool]).material.material_print_temperature;
+    const bool own = !shares_nozzle(job_.tools);
+    if (celsius > 0) dialect_.temperature(out, {SetTemperature::Heater::nozzle, own ? tool : any_tool, celsius, wait});
+  };
+  if (!start_sets_nozzle_) heat(used_.front());
+  if (wait || shares_nozzle(job_.tools)) return;
+  for (const ToolId tool : used_)
+    if (tool != used_.front()) heat(tool);
+}
+
+/// The nozzles' temperatures when the first layer is over, or another begins.
+std::string Writer::heat_after_first_layer(std::size_t index, bool first) const {
+  Text out;
+  const auto heat = [&](ToolId tool, ToolId named) {
+    const auto& usual = job_.tools[tool].material;
+    const auto low = on_first_layer(job_.tools[tool]).material;
+    if (usual.material_print_temperature != low.material_print_temperature)
+      dialect_.temperature(
+          out, {SetTemperature::Heater::nozzle, named, (first ? low : usual).material_print_temperature, false});
+  };
+  if (shares_nozzle(job_.tools))
+    heat(entries_[index].tool, any_tool);
+  else
+    for (const ToolId tool : used_) heat(tool, tool);
   return std::move(out).take();
 }
 
@@ -127,7 +209,9 @@ std::string Writer::layer(std::size_t index) const {
   const bool first = job_.plan.layers[index].time.first();
   if (index > 0 && job_.plan.layers[index - 1].time.first() != first) {  // the first layer is over, or another begins
     const auto& now = first ? first_ : m;
-    if (m.material_print_temperature != first_.material_print_temperature)
+    if (!used_.empty())
+      preamble += heat_after_first_layer(index, first);
+    else if (m.material_print_temperature != first_.material_print_temperature)
       preamble += fmt::format("M104 S{}\n", now.material_print_temperature);
     if (m.material_bed_temperature != first_.material_bed_temperature)
       preamble += fmt::format("M140 S{}\n", now.material_bed_temperature);
@@ -136,18 +220,23 @@ std::string Writer::layer(std::size_t index) const {
     const auto now = progress(elapsed_s_[index], elapsed_s_.back());
     if (now != progress(elapsed_s_[index - 1], elapsed_s_.back())) preamble += dialect_.progress(now);
   }
-  return layer_text({.settings = job_.settings,
-                     .dialect = dialect_,
-                     .comments = {job_.settings.gcode.gcode_comment_dialect},
-                     .plan = job_.plan.layers[index],
-                     .index = index,
-                     .entry = entries_[index],
-                     .names = names_,
-                     .preamble = preamble,
-                     .before_layer = before_layer_[index],
-                     .after_layer = after_layer_[index],
-                     .tool_changes = tool_changes_[index],
-                     .end_s = elapsed_s_[index + 1]});
+  auto text = layer_text({.settings = job_.settings,
+                          .tools = job_.tools,
+                          .dialect = dialect_,
+                          .comments = {job_.settings.gcode.gcode_comment_dialect},
+                          .plan = job_.plan.layers[index],
+                          .index = index,
+                          .entry = entries_[index],
+                          .names = names_,
+                          .preamble = preamble,
+                          .before_layer = before_layer_[index],
+                          .after_layer = after_layer_[index],
+                          .tool_changes = tool_changes_[index],
+                          .loaded = loaded_[index],
+                          .pauses = pauses_[index],
+                          .first_is_chosen = start_selects_ && index == 0,
+                          .end_s = elapsed_s_[index + 1]});
+  return substitutions_.done(std::move(text));
 }
 
 std::string Writer::tail() const {
@@ -156,8 +245,8 @@ std::string Writer::tail() const {
   if (entries_.back().fan > 0) dialect_.fan(out, 0);
   out << end_;
   if (job_.settings.gcode.gcode_progress) out << dialect_.progress({100, 0});
-  out << '\n' << bottom_comments(job_);
-  return std::move(out).take();
+  out << '\n';
+  return substitutions_.done(std::move(out).take()) + bottom_comments(job_);
 }
 
 std::string write(const Job& job) {

@@ -2,6 +2,8 @@
 #pragma once
 #include "gcode/dialect.h"
 #include "gcode/digest.h"
+#include "gcode/substitutions.h"
+#include "macro/macro.h"
 #include "model/plan.h"
 #include "model/statistics.h"
 #include "settings/settings.h"
@@ -27,6 +29,7 @@ struct Job {
   std::string provenance{};  ///< comment lines for the end of the file: what it was made of
   /// Of the plan's layers, whose steps then may be missing but while `Writer::layer` writes them. Empty: they are made.
   std::vector<LayerDigest> digests{};
+  std::vector<Settings> tools{};  ///< of each; empty: there is one
 };
 
 /// The file in pieces, which put together in order are the whole: head, each layer, tail. Layers do not depend on each
@@ -37,6 +40,7 @@ class Writer {
  public:
   /// Expands all custom G-code and finds what is in force when each layer begins. The job must outlive the writer.
   /// @throws Error{settings} naming setting, line and column: what is wrong with custom G-code (macro/macro.h)
+  /// or with gcode_substitutions
   explicit Writer(const Job& job) : Writer(job, false) {}
 
   std::string head() const;
@@ -47,18 +51,26 @@ class Writer {
   friend void check_custom_code(const Settings& settings);
   Writer(const Job& job, bool lenient);
   void expand_custom_code();
+  std::string code_at_heights(std::size_t index, const macro::Variables& variables, macro::Scope& scope) const;
   void begin_where_start_ends();
+  void heat_at_start(Text& out, bool wait) const;
+  std::string heat_after_first_layer(std::size_t index, bool first) const;
 
   const Job& job_;
   bool lenient_;            // a trial: the figures of the print are not the real ones
   MaterialSettings first_;  // on the first layer
   Dialect dialect_;
+  Substitutions substitutions_;
   std::vector<MachineState> entries_;                    // when each layer begins
   std::vector<double> elapsed_s_;                        // then; one more for the end
   std::vector<std::string> before_layer_, after_layer_;  // custom G-code, expanded; empty where there is none
   std::vector<std::vector<std::string>> tool_changes_;   // of each layer; likewise, and empty where there is no code
+  std::vector<std::vector<std::string>> loaded_;         // likewise, after the tool was chosen
+  std::vector<std::vector<std::string>> pauses_;         // likewise
   std::vector<std::string> names_;                       // of the objects
   std::string start_, end_;
+  std::vector<ToolId> used_;    // in the order that they are loaded; empty where there is one tool
+  bool start_selects_ = false;  // the first tool
   bool start_sets_nozzle_ = false, start_sets_bed_ = false, start_sets_chamber_ = false;
 };
 

@@ -5,14 +5,13 @@
 #include "geometry/nesting.h"
 #include "geometry/simplify.h"
 #include "geometry/spatial_index.h"
+#include "geometry/sweep.h"
 
 #include <algorithm>
 #include <iterator>
 #include <span>
 #include <stdexcept>
 #include <utility>
-
-#include <polyclipping/clipper.hpp>
 
 namespace weft::geometry::clipper {
 namespace {
@@ -157,7 +156,7 @@ Results swept_at_once(std::span<const Operation> operations, WindingRule rule, c
   for (const std::int64_t coarser : {1, 3, 16, 160}) {
     stop_if_asked();
     try {
-      ClipperLib::Clipper sweep;
+      Sweep sweep;
       const bool any_subject = add(sweep, subject, ClipperLib::ptSubject, coarser);
       const bool any_clip = add(sweep, clip, ClipperLib::ptClip, coarser);
       if (!any_subject && !any_clip) return Results(operations.size());
@@ -170,6 +169,7 @@ Results swept_at_once(std::span<const Operation> operations, WindingRule rule, c
     } catch (const ClipperLib::clipperException&) {
     }
   }
+  stop_if_asked();
   throw std::logic_error("geometry: a polygon Boolean failed on every grid");
 }
 

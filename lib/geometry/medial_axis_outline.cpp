@@ -2,10 +2,9 @@
 #include "geometry/medial_axis_outline.h"
 
 #include "core/stop.h"
+#include "geometry/sweep.h"
 
 #include <algorithm>
-
-#include <polyclipping/clipper.hpp>
 
 namespace weft::geometry::detail {
 namespace {
@@ -139,7 +138,7 @@ bool proven_simple(const Outline& outline) {
 }
 
 GridRings united(const GridRings& rings) {
-  ClipperLib::Clipper clipper;
+  clipper::Sweep sweep;
   ClipperLib::Paths subject, solution;
   for (const GridRing& ring : rings) {
     ClipperLib::Path path;
@@ -148,9 +147,12 @@ GridRings united(const GridRings& rings) {
   }
   GridRings out;
   stop_if_asked();
-  clipper.StrictlySimple(true);
-  clipper.AddPaths(subject, ClipperLib::ptSubject, true);
-  if (!clipper.Execute(ClipperLib::ctUnion, solution, ClipperLib::pftNonZero, ClipperLib::pftNonZero)) return out;
+  sweep.StrictlySimple(true);
+  sweep.AddPaths(subject, ClipperLib::ptSubject, true);
+  if (!sweep.Execute(ClipperLib::ctUnion, solution, ClipperLib::pftNonZero, ClipperLib::pftNonZero)) {
+    stop_if_asked();
+    return out;
+  }
   for (const auto& path : solution) {
     GridRing ring;
     for (const auto& p : path) ring.push_back({p.X, p.Y});

@@ -165,8 +165,10 @@ void SegmentIndex::for_each_near_line(Point a, Point b, F&& f) const {
   if (segments_.empty()) return;
   const Um bottom = std::max(std::min(a.y, b.y), box_.min.y), top = std::min(std::max(a.y, b.y), box_.max.y);
   if (bottom > top || std::max(a.x, b.x) < box_.min.x || std::min(a.x, b.x) > box_.max.x) return;
-  for (int r = row(bottom); r <= row(top); ++r) {
-    const Cells range = columns_in_row({a, b}, r);
+  const int first = row(bottom), last = row(top);
+  for (int r = first; r <= last; ++r) {
+    const Cells range =
+        first == last ? Cells{column(std::min(a.x, b.x)), column(std::max(a.x, b.x))} : columns_in_row({a, b}, r);
     for (int c = std::max(0, range.first); c <= std::min(columns_ - 1, range.last); ++c)
       for (const std::uint32_t i : cell(static_cast<std::size_t>(r * columns_ + c)))
         if (!f(i)) return;

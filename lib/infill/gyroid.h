@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "infill/scan.h"
+#include "infill/pattern.h"
 
 #include <vector>
 
 namespace weft::infill {
-
-/// A piece of the plane, fractional microns.
-struct Span2 {
-  Turned min, max;
-};
 
 /// The gyroid sin x cos y + sin y cos z + sin z cos x = 0 at height z, as curves that cross the whole of `area`.
 /// @param period  of the surface along each axis, µm

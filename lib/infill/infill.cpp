@@ -3,6 +3,7 @@
 
 #include "core/stop.h"
 #include "geometry/boolean.h"
+#include "geometry/offset.h"
 #include "infill/solid.h"
 #include "infill/sparse.h"
 #include "model/flow.h"
@@ -48,6 +49,26 @@ double angle_along_walls(const Region& region) {
   return length[peak] >= all / 2 ? angle[peak] : radians(45);
 }
 
+/// The direction of a straight strip no wider than some lines: across it they would be dabs with a turn between each
+/// two, on every second layer.
+std::optional<double> angle_along_strip(const Region& region, Um band) {
+  constexpr double widest = 3.5;    // bands
+  constexpr double straight = 0.8;  // of the edge's length that runs one way, less what runs across it
+  double all = 0, x = 0, y = 0;     // the direction of each edge at twice its angle: there and back are one
+  const auto look = [&](const Ring& ring) {
+    for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+      const double dx = ring[i].x - ring[j].x, dy = ring[i].y - ring[j].y, l = std::hypot(dx, dy);
+      if (l == 0) continue;
+      all += l, x += (dx * dx - dy * dy) / l, y += 2 * dx * dy / l;
+    }
+  };
+  look(region.outer);
+  for (const Ring& hole : region.holes) look(hole);
+  if (all == 0 || 2e6 * area_mm2(region) > widest * band * all || std::hypot(x, y) < straight * all)
+    return std::nullopt;
+  return std::atan2(y, x) / 2;
+}
+
 /// The directions, joints and order that a pattern of solid layers asks for.
 void apply(SkinPattern pattern, SolidStyle& style) {
   style.connect = style.connect && pattern != SkinPattern::monotonic_lines;
@@ -60,6 +81,15 @@ void spread_out(Um by, std::size_t from, Beads& beads) {
   if (by == 0) return;
   for (std::size_t i = from; i < beads.size(); ++i)
     for (Junction& j : beads[i].path) j.width = std::max(1, j.width - by);
+}
+
+/// A line of a belt is a bead.
+void lay(const BeltLine& line, const SolidStyle& style, std::uint32_t part, Beads& beads) {
+  Bead bead;
+  bead.role = style.role, bead.part = part, bead.closed = line.closed;
+  for (const Point at : line.path)
+    if (bead.path.empty() || bead.path.back().at != at) bead.path.push_back({at, style.band, 1.F});
+  if (bead.path.size() > (line.closed ? 2U : 1U)) beads.push_back(std::move(bead));
 }
 
 /// Across the bridge that most of an area lies on: its strands then carry each line at many places.
@@ -76,11 +106,79 @@ std::optional<double> angle_across_bridges(const Region& region, std::span<const
   return std::nullopt;
 }
 
+/// How far the outline is from what walls leave inside.
+double depth_of_walls(const FillInput& input) {
+  if (input.wall_count == 0) return 0;
+  const Um inner =
+               input.wall_line_width > 0 ? input.wall_line_width : flow::automatic_width(input.nozzle, input.height),
+           outer = input.outer_wall_line_width > 0 ? input.outer_wall_line_width
+                                                   : flow::automatic_outer_width(input.nozzle);
+  const auto spacing = [&](Um width) { return flow::spacing(width, input.height, input.overlap_factor); };
+  return (outer + spacing(outer)) / 2.0 + (input.wall_count - 1.0) * spacing(inner);
+}
+
+/// Sparse lines, as dense at each place as it is asked for there.
+void fill_as_dense(const Region& region, SparseStyle style, Beads& beads) {
+  const Density* density = style.prepared != nullptr && style.prepared->density ? &*style.prepared->density : nullptr;
+  if (density == nullptr) return fill_sparse(region, style, beads);
+  constexpr double least = 0.005, most = 0.95;  // what is less is nothing
+  for (const Density::Part& part : density->parts(region, style.z)) {
+    if (part.level < least) continue;
+    const std::size_t from = beads.size();
+    style.density = std::min(part.level, most);
+    fill_sparse(part.region, style, beads);
+    density->follow(style.density, style.z, from, beads);
+  }
+}
+
+/// Solid layers that are laid as a pattern of sparse infill, dense.
+struct WindingRow {
+  SkinPattern skin;
+  InfillPattern pattern;
+};
+constexpr std::array winding_rows{WindingRow{SkinPattern::concentric, InfillPattern::concentric},
+                                  WindingRow{SkinPattern::hilbert, InfillPattern::hilbert},
+                                  WindingRow{SkinPattern::archimedean, InfillPattern::archimedean},
+                                  WindingRow{SkinPattern::octagram, InfillPattern::octagram},
+                                  WindingRow{SkinPattern::fermat, InfillPattern::fermat}};
+
+/// The pattern where there is room for it to wind, and lines in what is narrower.
+void fill_winding(const Region& region, InfillPattern pattern, const SolidStyle& style, const FillInput& input,
+                  Beads& beads) {
+  constexpr double room = 1.5;  // bands on each side of a line
+  const Regions wide = geometry::opening({region}, rounded(room * style.band), geometry::Corner::miter);
+  const std::size_t from = beads.size();
+  for (const Region& each : wide)
+    fill_sparse(each,
+                {.pattern = pattern,
+                 .density = 1,
+                 .band = style.band,
+                 .angle_rad = style.angle_rad,
+                 .overlap_um = style.overlap_um,
+                 .connect = style.connect,
+                 .z = input.z,
+                 .origin = style.origin,
+                 .part = style.part,
+                 .index = input.index,
+                 .turned = false,
+                 .reach = static_cast<double>(input.reach)},
+                beads);
+  for (std::size_t i = from; i < beads.size(); ++i) beads[i].role = style.role;
+  for (const Region& rest : geometry::subtract({region}, wide)) fill_solid(rest, style, beads);
+}
+
 /// How the areas of a layer are filled, but for what differs from area to area.
 struct Styles {
   SolidStyle solid, top, bridge;
+  std::optional<InfillPattern> solid_winds, top_winds;
   SparseStyle sparse;
 };
+
+std::optional<InfillPattern> winding(SkinPattern pattern) {
+  const auto row = std::find_if(winding_rows.begin(), winding_rows.end(),
+                                [&](const WindingRow& each) { return each.skin == pattern; });
+  return row == winding_rows.end() ? std::nullopt : std::optional(row->pattern);
+}
 
 Styles styles_of(const InfillSettings& infill, const ShellSettings& shells, const FillInput& input) {
   const Um automatic = flow::automatic_width(input.nozzle, input.height);
@@ -95,16 +193,27 @@ Styles styles_of(const InfillSettings& infill, const ShellSettings& shells, cons
                .fixed_strand = false,
                .flow = 1,
                .origin = input.origin,
+               .gaps = shells.gap_fill_enabled,
                .part = 0,
                .sequence = 0};
   out.top = out.bridge = out.solid;
   out.top.role = Role::top_skin, out.top.band = band(shells.top_skin_line_width.value_or(input.nozzle));
   apply(shells.bottom_pattern, out.solid);
   apply(shells.top_pattern, out.top);
-  out.bridge.role = Role::bridge, out.bridge.band = input.nozzle, out.bridge.fixed_strand = true;
+  out.bridge.role = Role::bridge, out.bridge.band = input.nozzle, out.bridge.fixed_strand = out.bridge.gaps = true;
   out.bridge.flow = flow::bridge_flow(input.nozzle, input.height) * shells.bridge_flow / 100;
-  out.sparse = sparse_style(infill, {input.index, input.z, input.height, input.nozzle, input.origin});
-  out.sparse.overlap_um = overlap;
+  out.solid_winds = winding(shells.bottom_pattern), out.top_winds = winding(shells.top_pattern);
+  out.sparse = sparse_style(
+      infill, {input.index, input.z, input.height, input.nozzle, input.origin, static_cast<double>(input.reach)});
+  out.sparse.prepared = input.prepared;
+  // the round end of a line stays within the outermost wall
+  const auto kept_within = [&, depth = depth_of_walls(input)](Um widest) {
+    return std::min(overlap, depth - widest / 2.0);
+  };
+  for (SolidStyle* style : {&out.solid, &out.top})
+    style->overlap_um = kept_within(flow::line_width(style->band, input.height));
+  out.bridge.overlap_um = kept_within(input.nozzle);
+  out.sparse.overlap_um = kept_within(width_of_sparse(infill, input.nozzle, input.height));
   return out;
 }
 
@@ -115,18 +224,24 @@ FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const 
   const double turn = input.index % 2 == 1 ? radians(90) : 0;
   FillLayer layer;
   std::uint32_t sequence = 0;
-  const auto fill_all = [&](const Regions& regions, SolidStyle style, std::uint32_t part, const auto& angle_of) {
+  const auto fill_all = [&](const Regions& regions, SolidStyle style, std::optional<InfillPattern> winds,
+                            std::uint32_t part, const auto& angle_of) {
     style.part = part;
     for (const Region& region : regions) {
       stop_if_asked();
       style.sequence = style.ordered ? ++sequence : 0;
       style.angle_rad = angle_of(style, region);
       const std::size_t from = layer.beads.size();
-      fill_solid(region, style, layer.beads);
+      if (winds)
+        fill_winding(region, *winds, style, input, layer.beads);
+      else
+        fill_solid(region, style, layer.beads);
       if (style.role != Role::bridge) spread_out(flow::spread(input.height, input.overlap_factor), from, layer.beads);
     }
   };
   const auto own_angle = [&](const SolidStyle& style, const Region& region) {
+    if (style.turned && !shells.skin_angle)
+      if (const auto along = angle_along_strip(region, style.band)) return *along;
     return (style.turned ? turn : 0) + (shells.skin_angle ? radians(*shells.skin_angle) : angle_along_walls(region));
   };
   const auto solid_angle = [&](const SolidStyle& style, const Region& region) {
@@ -136,24 +251,27 @@ FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const 
   };
   for (const PartAreas& areas : input.areas) {
     for (const BridgeArea& area : areas.bridges)
-      fill_all(area.regions, styles.bridge, areas.part, [&](const auto&...) { return area.angle_rad; });
+      fill_all(area.regions, styles.bridge, std::nullopt, areas.part, [&](const auto&...) { return area.angle_rad; });
     if (infill.infill_sparse_density > 0) {
       SparseStyle style = styles.sparse;
       style.part = areas.part;
       for (const Region& region : areas.sparse) {
         stop_if_asked();
-        fill_sparse(region, style, layer.beads);
+        fill_as_dense(region, style, layer.beads);
       }
       style.layers = areas.combined_layers;
       style.band =
           flow::band(width_of_sparse(infill, input.nozzle, input.height), input.height * areas.combined_layers);
       for (const Region& region : areas.combined) {
         stop_if_asked();
-        fill_sparse(region, style, layer.beads);
+        fill_as_dense(region, style, layer.beads);
       }
     }
-    fill_all(areas.solid, styles.solid, areas.part, solid_angle);
-    fill_all(areas.top, styles.top, areas.part, own_angle);
+    const std::size_t from = layer.beads.size();
+    for (const BeltLine& line : areas.belts) lay(line, styles.solid, areas.part, layer.beads);
+    spread_out(flow::spread(input.height, input.overlap_factor), from, layer.beads);
+    fill_all(areas.solid, styles.solid, styles.solid_winds, areas.part, solid_angle);
+    fill_all(areas.top, styles.top, styles.top_winds, areas.part, own_angle);
   }
   return layer;
 }

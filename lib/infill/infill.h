@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "core/notice.h"
+#include "infill/prepared.h"
 #include "infill/shells.h"
 #include "model/layer.h"
 #include "settings/groups/infill.h"
@@ -19,8 +20,12 @@ struct FillInput {
   Um height = 0;
   Um nozzle = 0;                                ///< diameter
   double overlap_factor = 1;                    ///< how far lines side by side overlap (model/flow.h)
-  Um wall_line_width = 0;                       ///< of the innermost wall; what a share of overlap is of. 0: automatic
+  Um wall_line_width = 0;                       ///< of inner walls; what a share of overlap is of. 0: automatic
+  Um outer_wall_line_width = 0;                 ///< 0: automatic
+  int wall_count = 3;                           ///< around what is filled; ends of lines stay within the outermost
   Point origin{};                               ///< where patterns are anchored: one point for all layers of an object
+  Um reach = 0;                                 ///< how far the object goes from there, along either axis
+  const Prepared* prepared = nullptr;           ///< of the object (infill/prepared.h)
   std::span<const BridgeArea> bridges_below{};  ///< of the layer below: solid lines cross their strands
 };
 

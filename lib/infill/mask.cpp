@@ -69,10 +69,12 @@ Grid Grid::over(const Box& box, Um finest, Um margin, double most_cells) {
   if (box.empty()) return grid;
   const Box all = box.grown(margin);
   const double width = all.size().x, height = all.size().y;
-  grid.origin = all.min;
   grid.cell = std::max(finest, static_cast<Um>(std::ceil(std::sqrt(width * height / most_cells))));
   grid.columns = static_cast<int>(all.size().x / grid.cell) + 1;
   grid.rows = static_cast<int>(all.size().y / grid.cell) + 1;
+  // as far beyond on either side: what is symmetric is symmetric on the grid
+  grid.origin = {all.min.x - (grid.columns * grid.cell - all.size().x) / 2,
+                 all.min.y - (grid.rows * grid.cell - all.size().y) / 2};
   return grid;
 }
 

@@ -5,6 +5,7 @@
 #include "geometry/boolean.h"
 #include "geometry/simplify.h"
 #include "geometry/spatial_index.h"
+#include "infill/belts.h"
 #include "infill/bridges.h"
 #include "infill/mask.h"
 #include "model/flow.h"
@@ -85,6 +86,7 @@ struct Kinds {
   std::vector<Mask> bridges;
   std::vector<double> bridge_angles;
   std::optional<Mask> sparse;  ///< present when any
+  std::optional<Belts> belts;
 };
 
 int cells(double um, const Grid& grid) {
@@ -101,6 +103,37 @@ Mask solid_cells(const Window& window, std::span<const ShellLayer> layers, std::
   Mask core = inside;
   core &= others;
   return inside - core;
+}
+
+/// Strips of an area that are narrower than a line and a half.
+struct Strips {
+  Mask wide;  ///< the rest
+  Mask all;
+  Mask ends;  ///< of them: those shorter than four lines that lie beside the rest
+  Mask dabs;  ///< and those that do not
+};
+Strips strips_of(const Mask& area, double line) {
+  constexpr double short_strip = 4;  // lines, of one line's width
+  const Grid& grid = area.grid();
+  Strips out{area.opened(cells(0.75 * line, grid)) & area, Mask(grid), Mask(grid), Mask(grid)};
+  out.all = area - out.wide;
+  if (!out.all.any()) return out;
+  Regions ends, dabs;
+  for (Region& strip : geometry::regions_from_rings(out.all.outlines())) {
+    if (area_mm2(strip) >= short_strip * line * line * 1e-6) continue;
+    const Mask own(grid.window(weft::box_of(strip.outer), 2 * grid.cell), {&strip, 1});
+    (own.grown(1).meets(out.wide) ? ends : dabs).push_back(std::move(strip));
+  }
+  if (!ends.empty()) out.ends = Mask(grid, ends);
+  if (!dabs.empty()) out.dabs = Mask(grid, dabs);
+  return out;
+}
+
+/// What of sparse infill is solid because it is narrow. Tips of a wider area stay what they are: a dab of solid there
+/// closes nothing, and takes two travels.
+Mask closed_strips(const Mask& sparse, double line) {
+  Strips strips = strips_of(sparse, line);
+  return strips.all -= strips.ends;
 }
 
 /// What of a layer is solid, and what is sparse, before it is looked at which way strands run.
@@ -127,7 +160,7 @@ Split split_of(const ShellSettings& settings, const InfillSettings& infill, cons
   if (out.seen_above.any() || out.air_below.any())
     out.solid |= (out.seen_above | out.air_below).grown(cells(out.line, grid)) & inside;
   Mask sparse = inside - out.solid;
-  if (out.solid.any()) sparse = sparse.opened(cells(0.75 * out.line, grid)) & sparse;
+  if (out.solid.any()) sparse -= closed_strips(sparse, out.line);
   out.solid = inside - sparse;
   if (sparse.any()) out.sparse = std::move(sparse);
   return out;
@@ -181,11 +214,29 @@ void find_internal_bridges(const ShellSettings& settings, const SparseStyle& bel
   }
 }
 
+/// Narrow solid beside sparse infill is as wide as its lines; what is too short for one is sparse.
+void lay_belts(const Regions& inside, double line, Um band, Kinds& kinds) {
+  const Grid& grid = kinds.inside.grid();
+  Belts belts = find_belts(inside, kinds.solid, *kinds.sparse, band);
+  if (!belts.found.empty()) {
+    kinds.solid -= belts.area;
+    const Mask left = (kinds.solid - kinds.solid.opened(cells(0.4 * line, grid))) & belts.area.grown(cells(line, grid));
+    kinds.solid -= left;
+    *kinds.sparse |= left, *kinds.sparse -= belts.area;
+  }
+  const Mask dabs = strips_of(kinds.solid, line).dabs;
+  if (dabs.any()) {
+    const Mask open = dabs & kinds.sparse->grown(cells(1.5 * line, grid));  // reaches over all of what lies beside it
+    kinds.solid -= open, *kinds.sparse |= open;
+  }
+  if (!belts.found.empty()) kinds.belts = std::move(belts);
+}
+
 Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, const ShellObject& object,
                const Window& window, std::size_t index, Split split, const std::optional<Mask>& sparse_below) {
   const Grid& grid = window.grid();
   const double line = split.line;
-  Kinds kinds{window.inside(index), Mask(grid), std::move(split.solid), {}, {}, std::move(split.sparse)};
+  Kinds kinds{window.inside(index), Mask(grid), std::move(split.solid), {}, {}, std::move(split.sparse), {}};
   if (split.seen_above.any())
     kinds.top = split.seen_above.opened(cells(0.4 * line, grid)).grown(cells(0.5 * line, grid)) & kinds.solid;
   kinds.solid -= kinds.top;
@@ -216,6 +267,12 @@ Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, cons
                           sparse_style(infill, {index - 1, below.z, below.height, object.nozzle, object.box.centre()}),
                           kinds, sparse_below, line, object.nozzle);
   }
+  const Um height = object.layers[index].height;
+  if (kinds.sparse)
+    lay_belts(*object.layers[index].inside, line,
+              flow::spacing(settings.skin_line_width.value_or(flow::automatic_width(object.nozzle, height)), height,
+                            object.overlap_factor),
+              kinds);
   if (kinds.sparse && !kinds.sparse->any()) kinds.sparse.reset();
   return kinds;
 }
@@ -223,7 +280,8 @@ Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, cons
 /// One kind of fill while exact areas are cut out.
 struct Kind {
   const Mask* cells;
-  Regions* areas;  ///< of the part in work
+  Regions* areas;                  ///< of the part in work
+  const Regions* exact = nullptr;  ///< its outlines, where they are known
 };
 
 /// Outlines of an area that may run over the wall beside it, to be cut with what is inside of the walls.
@@ -240,7 +298,7 @@ void cut_apart(const Regions& mixed, std::span<const Kind> kinds, const Mask& in
   const Box box = weft::box_of(mixed);
   std::vector<const Kind*> present;
   for (const Kind& kind : kinds)
-    if (kind.cells->meets(inside, box)) present.push_back(&kind);
+    if (kind.exact != nullptr || kind.cells->meets(inside, box)) present.push_back(&kind);
   Regions rest = mixed;
   for (std::size_t k = 0; k < present.size(); ++k) {
     Regions& areas = *present[k]->areas;
@@ -248,16 +306,33 @@ void cut_apart(const Regions& mixed, std::span<const Kind> kinds, const Mask& in
       areas.insert(areas.end(), rest.begin(), rest.end());
       break;
     }
-    auto cut = geometry::cut(rest, rough_outline(*present[k]->cells, inside));
+    auto cut = geometry::cut(
+        rest, present[k]->exact != nullptr ? *present[k]->exact : rough_outline(*present[k]->cells, inside));
     rest = std::move(cut.outside);
     std::move(cut.inside.begin(), cut.inside.end(), std::back_inserter(areas));
   }
 }
 
-/// Patches of sparse infill that are too small to be worth it become solid.
-void drop_small_sparse(PartAreas& areas, double least_mm2) {
-  const auto small = std::stable_partition(areas.sparse.begin(), areas.sparse.end(),
-                                           [&](const Region& r) { return area_mm2(r) >= least_mm2; });
+/// Sparse infill of a layer, of patches of at least that area.
+Mask large_patches(const Mask& sparse, double least_mm2) {
+  Regions patches = geometry::regions_from_rings(sparse.outlines());
+  std::erase_if(patches, [&](const Region& patch) { return area_mm2(patch) < least_mm2; });
+  return {sparse.grid(), patches};
+}
+
+/// Patches of sparse infill that are too small to be worth it become solid; not what bridges and belts cut off of
+/// infill that goes on below: its lines would hang from line to line of that, an island in sparse infill.
+void drop_small_sparse(PartAreas& areas, double least_mm2, const std::optional<Mask>& below) {
+  std::optional<Mask> large;
+  const auto goes_on = [&](const Region& patch) {
+    if (!below) return false;
+    if (!large) large = large_patches(*below, least_mm2);
+    const Grid& grid = below->grid();
+    return Mask(grid.window(weft::box_of(patch.outer), grid.cell), {&patch, 1}).shrunk(beyond_cells).meets(*large);
+  };
+  const auto small = std::stable_partition(areas.sparse.begin(), areas.sparse.end(), [&](const Region& patch) {
+    return area_mm2(patch) >= least_mm2 || goes_on(patch);
+  });
   if (small == areas.sparse.end()) return;
   Regions patches(small, areas.sparse.end());
   areas.sparse.erase(small, areas.sparse.end());
@@ -277,18 +352,25 @@ std::vector<std::uint32_t> parts_of(const Regions& inside, const Regions& outlin
 }
 
 LayerAreas exact_areas(const ShellSettings& settings, const InfillSettings& infill, const ShellLayer& layer,
-                       const Kinds& kinds) {
+                       const Kinds& kinds, const std::optional<Mask>& sparse_below) {
   const std::vector<std::uint32_t> parts = parts_of(*layer.inside, *layer.outline);
   std::vector<std::size_t> order(parts.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return parts[a] < parts[b]; });
 
+  Regions belted;
+  Mask fuzzy = kinds.inside;  // where outlines are those of cells
+  if (kinds.belts) {
+    for (const Belts::Of& of : kinds.belts->found) belted.insert(belted.end(), of.area.begin(), of.area.end());
+    fuzzy -= kinds.belts->area;
+  }
   LayerAreas result;
   for (std::size_t i = 0; i < order.size();) {
     PartAreas& areas = result.emplace_back();
     areas.part = parts[order[i]];
     for (const double angle : kinds.bridge_angles) areas.bridges.push_back({{}, angle});
     std::vector<Kind> all;
+    if (kinds.belts) all.push_back({&kinds.belts->area, &areas.belted, &belted});
     for (std::size_t b = 0; b < kinds.bridges.size(); ++b)
       all.push_back({&kinds.bridges[b], &areas.bridges[b].regions});
     all.push_back({&kinds.top, &areas.top});
@@ -298,6 +380,9 @@ LayerAreas exact_areas(const ShellSettings& settings, const InfillSettings& infi
     for (; i < order.size() && parts[order[i]] == areas.part; ++i) {
       stop_if_asked();
       const Region& region = (*layer.inside)[order[i]];
+      if (kinds.belts)
+        for (const Belts::Of& of : kinds.belts->found)
+          if (of.region == order[i]) areas.belts.insert(areas.belts.end(), of.lines.begin(), of.lines.end());
       std::vector<const Kind*> present;
       if (order.size() == 1) {
         for (const Kind& kind : all)
@@ -313,9 +398,9 @@ LayerAreas exact_areas(const ShellSettings& settings, const InfillSettings& infi
       else
         (present.empty() ? areas.solid : *present.front()->areas).push_back(region);
     }
-    if (!mixed.empty()) cut_apart(mixed, all, kinds.inside);
+    if (!mixed.empty()) cut_apart(mixed, all, fuzzy);
     std::erase_if(areas.bridges, [](const BridgeArea& b) { return b.regions.empty(); });
-    if (infill.infill_sparse_density > 0) drop_small_sparse(areas, settings.infill_solid_below_area);
+    if (infill.infill_sparse_density > 0) drop_small_sparse(areas, settings.infill_solid_below_area, sparse_below);
   }
   return result;
 }
@@ -353,7 +438,7 @@ std::vector<LayerAreas> find_areas(const ShellSettings& settings, const InfillSe
     std::optional<Mask> sparse = split.sparse;
     if (i >= run.from) {
       const Kinds kinds = kinds_of(settings, infill, object, window, i, std::move(split), sparse_below);
-      result.push_back(exact_areas(settings, infill, object.layers[i], kinds));
+      result.push_back(exact_areas(settings, infill, object.layers[i], kinds, sparse_below));
     }
     sparse_below = std::move(sparse);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "core/polygon.h"
+#include "infill/belts.h"
 #include "settings/groups/infill.h"
 #include "settings/groups/shells.h"
 
@@ -24,7 +25,8 @@ struct ShellLayer {
 struct ShellObject {
   std::span<const ShellLayer> layers;
   Box box;
-  Um nozzle = 0;  ///< diameter
+  Um nozzle = 0;              ///< diameter
+  double overlap_factor = 1;  ///< how far lines side by side overlap (model/flow.h)
 };
 Box box_of(std::span<const ShellLayer> layers);
 
@@ -43,6 +45,8 @@ struct PartAreas {
   Regions sparse;
   Regions combined;  ///< sparse, printed here for `combined_layers` layers at once
   int combined_layers = 1;
+  std::vector<BeltLine> belts;  ///< lines of narrow solid along walls,
+  Regions belted;               ///< and what they cover
   std::vector<BridgeArea> bridges;
 };
 using LayerAreas = std::vector<PartAreas>;  ///< parts ascending, each once
@@ -52,7 +56,8 @@ using LayerAreas = std::vector<PartAreas>;  ///< parts ascending, each once
 /// A place is solid when, within the skin's layers above or below it, there is air or a wall: so slopes are closed
 /// under and over their walls as well ("vertical shell thickness"). Layers are compared on a grid of bits (mask.h) of
 /// 0.1 mm (more for objects over 150 mm); strips narrower than two thirds of a line are left out unless they are seen
-/// from outside, which are widened to a line instead. Boundaries between two kinds of fill follow the grid within one
+/// from outside, which are widened to a line instead; belts between walls and sparse infill are as wide as their lines
+/// (belts.h). Boundaries between two kinds of fill follow the grid within one
 /// cell; those along walls are exact.
 /// Pre:  the layers are in order; `first + count` is within them. The result of a layer does not depend on `first` and
 ///       `count`: call it for runs of 8 to 32 layers (a run reads the skin's layers around it).

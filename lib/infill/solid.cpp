@@ -19,8 +19,9 @@ using namespace weft::literals;
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 constexpr double short_lines = 1.5;       // bands; shorter lines cannot turn
 constexpr double widest_strip = 2.4;      // bands across; wider strips are filled line by line
-constexpr double widest_strand = 1.6;     // bands, of a bead along a strip
+constexpr double widest_strand = 1.35;    // bands, of a bead along a strip: one and a half nozzles, of lines of 1.125
 constexpr double narrowest_strand = 0.6;  // bands, of one of two
+constexpr double widest_side = 1.6;       // bands, of a line that an edge runs along
 constexpr double narrowest_side = 0.25;   // bands, of a line that an edge runs along
 constexpr double longest_turn = 2.7;      // bands; shallower edges are run along (fit_sides.h), not turned along
 constexpr double least_left = 0.3;        // bands of a line between its turns; else the turn is as wide as the place
@@ -193,7 +194,7 @@ class Filler {
   std::pair<std::size_t, int> strip_at(std::span<const std::uint32_t> chain, std::size_t i) const {
     const double lines = across(chain, i) / lines_.spacing;
     if (lines > widest_strip) return {0, 0};
-    const int strands = lines < 1.5 ? 1 : 2;
+    const int strands = lines < widest_strand ? 1 : 2;
     bool turns = false;  // one of the lines is long enough to turn at
     std::size_t end = i;
     for (; end < chain.size(); ++end) {
@@ -246,7 +247,7 @@ class Filler {
       const Sides& a = after == corners.begin() ? b : after[-1];
       const double t = b.x > a.x ? std::clamp((x - a.x) / (b.x - a.x), 0.0, 1.0) : 0;
       const double below = std::lerp(a.below, b.below, t), above = std::lerp(a.above, b.above, t);
-      const double width = std::clamp(below + above, narrowest_side * lines_.spacing, widest_strand * lines_.spacing);
+      const double width = std::clamp(below + above, narrowest_side * lines_.spacing, widest_side * lines_.spacing);
       return Vertex{{x, y(i) + (above - below) / 2}, rounded(width)};
     };
     const auto inside = [&](const Sides& each) { return each.x > std::min(from, to) && each.x < std::max(from, to); };
@@ -295,6 +296,7 @@ class Filler {
 
   /// Beads along a strip, side by side, together as wide as the strip is across.
   void emit_strip(std::span<const std::uint32_t> strip, int strands) {
+    if (strands == 1 && !style_.gaps) return;
     const Role role = strands == 1 ? Role::gap_fill : style_.role;
     for (int k = 0; k < strands; ++k) {
       const double share = (k + 0.5) / strands;
@@ -318,6 +320,9 @@ class Filler {
   }
 
   void add(const std::vector<Vertex>& path, Role role) {
+    // a sliver that cutting areas apart left between them
+    const auto is_sliver = [&](const Vertex& v) { return v.width < narrowest_side * style_.band; };
+    if (!style_.fixed_strand && std::all_of(path.begin(), path.end(), is_sliver)) return;
     double total = 0;
     for (std::size_t i = 1; i < path.size(); ++i)
       total += std::hypot(path[i].at.x - path[i - 1].at.x, path[i].at.y - path[i - 1].at.y);

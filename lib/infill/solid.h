@@ -16,14 +16,16 @@ struct SolidStyle {
   double flow = 1;
   Point origin{};
   bool turned = true;   ///< by 90° on every second layer
+  bool gaps = true;     ///< strips narrower than a line and a half are filled
   bool ordered = true;  ///< lines are printed one after the other, also where another order is shorter
   std::uint32_t part = 0, sequence = 0;
 };
 
 /// Fills a region with parallel lines, in an order in which every line is printed after its neighbour on one and the
 /// same side. Neighbouring lines are joined by a turn along the edge; both are shortened by half of it, so that the
-/// turn adds no plastic. Strips narrower than a line and a half get one bead along their middle as wide as they are
-/// (Role::gap_fill). Post: Σ volume = area × height × flow, but for what overlaps.
+/// turn adds no plastic. Strips narrower than a line and a third get one bead along their middle as wide as they are
+/// (Role::gap_fill), or none without `gaps`. Post: Σ volume = area × height × flow, but for what overlaps and for what
+/// stays open.
 void fill_solid(const Region& region, const SolidStyle& style, Beads& beads);
 
 }  // namespace weft::infill

@@ -8,6 +8,8 @@
 
 namespace weft::infill {
 
+struct Prepared;
+
 /// How an area is filled sparsely.
 struct SparseStyle {
   InfillPattern pattern = InfillPattern::grid;
@@ -16,11 +18,17 @@ struct SparseStyle {
   double angle_rad = 0;
   double overlap_um = 0;  ///< how far lines reach over the edge
   bool connect = true;
-  bool turned_layer = false;  ///< every second layer: the pattern `lines` is turned by 90°
   Um z = 0;
   Point origin{};  ///< patterns are anchored here, so that layers stand on each other
   int layers = 1;  ///< printed at once: as much higher are the beads
   std::uint32_t part = 0;
+  std::size_t index = 0;               ///< of the layer, for patterns that are turned from layer to layer
+  bool turned = true;                  ///< they are; else `angle_rad` holds as it is
+  double reach = 0;                    ///< no layer of the object is farther from the origin along an axis; 0: unknown
+  double anchor_max = -1;              ///< longest joint, µm; negative: by the distance of the lines
+  double anchor_um = 0;                ///< how far ends without a joint are bent along the edge
+  int loops = 0;                       ///< lines around the area
+  const Prepared* prepared = nullptr;  ///< of the object, for patterns that look at all of it
 };
 
 /// Of a layer: where it is, and the nozzle's diameter.
@@ -28,6 +36,7 @@ struct SparseLayer {
   std::size_t index = 0;
   Um z = 0, height = 0, nozzle = 0;
   Point origin{};
+  double reach = 0;
 };
 /// Of a line of sparse infill.
 Um width_of_sparse(const InfillSettings& infill, Um nozzle, Um height);

@@ -191,11 +191,7 @@ class Run {
 
   /// Whether what is known of an unchanged job makes running it needless.
   bool stands(const Record& record) const {
-    if (record.exit_status == 0) {
-      const auto output = options_.folder / record.output;
-      const bool same = !options_.check_full && record.output_stamp && stamp_of(output) == record.output_stamp;
-      return same || has_hash(output, record.gcode_sha256);
-    }
+    if (record.exit_status == 0) return has_gcode(options_.folder, record, options_.check_full);
     return options_.resume && record.exit_status >= 3 && record.exit_status <= 5;
   }
 

@@ -54,7 +54,11 @@ Prepared prepare_one(JobLine line, const Common& common, ProfileShelf& shelf) {
   check_consistency(profile);
   gcode::check_custom_code(profile.settings);
   Prepared out;
-  out.job = {.models = line.models, .settings = profile.settings, .placement = line.placement, .marks = line.marks, .audit = line.audit};
+  out.job = {.models = line.models,
+             .settings = profile.settings,
+             .placement = line.placement,
+             .marks = line.marks,
+             .audit = line.audit};
   out.notices = profile.notices;
   out.read.assign(line.models.begin(), line.models.end());
   out.read.insert(out.read.end(), files.begin(), files.end());

@@ -161,7 +161,7 @@ std::optional<Record> read_record(const fs::path& folder, const JobLine& job) {
       if (const auto stamp = stamp_from(file.at("stamp")))
         out.files.push_back({file.at("path"), file.at("sha256"), *stamp});
     out.output_stamp = stamp_from(json.value("output", Json()));
-    if (out.id != job.id) return std::nullopt;
+    if (out.id != job.id || out.output != job.output) return std::nullopt;
     return out;
   } catch (const Json::exception&) {
     return std::nullopt;
@@ -219,9 +219,11 @@ std::string inputs_hash(const Job& job, FileHashes& files) {
   return sha256(key + exact::bytes_of(job.settings));
 }
 
-bool has_hash(const fs::path& file, const std::string& hash) {
+bool has_gcode(const fs::path& folder, const Record& record, bool check_full) {
+  const auto file = folder / record.output;
+  if (!check_full && record.output_stamp && stamp_of(file) == record.output_stamp) return true;
   try {
-    return hash_of(file) == hash;
+    return hash_of(file) == record.gcode_sha256;
   } catch (const Error&) {
     return false;
   }

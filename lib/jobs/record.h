@@ -65,7 +65,7 @@ std::filesystem::path record_path(const std::filesystem::path& folder, const Job
 /// @throws Error{file}
 void write_record(const std::filesystem::path& folder, const JobLine& job, const Outcome& outcome);
 
-/// nullopt when there is none, or none that can be read: the job is then run again.
+/// nullopt when there is none, none that can be read, or one of another output: the job is then run again.
 std::optional<Record> read_record(const std::filesystem::path& folder, const JobLine& job);
 
 /// Notes in the record what its hook did. @throws Error{file}
@@ -95,7 +95,8 @@ class FileHashes {
 /// placement. Two jobs of the same hash give the same bytes. @throws Error{file}
 std::string inputs_hash(const Job& job, FileHashes& files);
 
-/// Whether the file is there and has that hash.
-bool has_hash(const std::filesystem::path& file, const std::string& sha256);
+/// Whether the G-code that a job made is there still: by its stamp where that is as it was noted, else by its hash.
+/// @param check_full by its hash in any case
+bool has_gcode(const std::filesystem::path& folder, const Record& record, bool check_full);
 
 }  // namespace weft::jobs

@@ -51,8 +51,7 @@ Collected collect(const std::vector<Prepared>& jobs, const std::filesystem::path
   FileHashes files;
   for (const auto& job : jobs) {
     Collected::Entry entry{job.line, read_record(folder, job.line)};
-    std::error_code ignored;
-    const bool gone = entry.ok() && !std::filesystem::exists(folder / entry.line.output, ignored);
+    const bool gone = entry.ok() && !has_gcode(folder, *entry.record, check_full);
     if (entry.record && !check_full)
       for (const auto& file : entry.record->files) files.trust(file);
     if (gone || (entry.record && !is_of(*entry.record, job.job, files))) entry.record.reset();

@@ -11,7 +11,7 @@ namespace weft::jobs {
 
 /// What is known of each job of a list, from the records in the folder: those of this run, of earlier ones, and of
 /// shares that ran elsewhere and were copied here. A record of other inputs than the job has now, or of which the
-/// G-code is gone, counts as missing.
+/// G-code is gone or not what was made, counts as missing.
 struct Collected {
   struct Entry {
     JobLine line;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/face_delaunay.h"
 
+#include "core/stop.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <map>
@@ -8,8 +10,11 @@
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Spatial_sort_traits_adapter_2.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <CGAL/property_map.h>
+#include <CGAL/spatial_sort.h>
 
 namespace weft::mesh {
 namespace {
@@ -23,6 +28,9 @@ using Delaunay =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<Vertices, Faces>,
                                                CGAL::No_constraint_intersection_requiring_constructions_tag>;
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
+using Points = std::vector<std::pair<Kernel::Point_2, std::uint32_t>>;
+
+constexpr unsigned now_and_then = 64;  // corners, of a microsecond or two
 
 Edge edge_of(std::uint32_t a, std::uint32_t b) {
   return {std::min(a, b), std::max(a, b)};
@@ -34,7 +42,9 @@ Edge edge_of(std::uint32_t a, std::uint32_t b) {
 bool tell_sides(Delaunay& delaunay, const std::map<Edge, unsigned>& uses) {
   std::vector<Delaunay::Face_handle> open{delaunay.infinite_face()};
   open.front()->info() = Side::outside;
+  StopNowAndThen stop(now_and_then);
   while (!open.empty()) {
+    stop.step();
     const auto face = open.back();
     open.pop_back();
     for (int i = 0; i < 3; ++i) {
@@ -54,22 +64,38 @@ bool tell_sides(Delaunay& delaunay, const std::map<Edge, unsigned>& uses) {
   return true;
 }
 
+/// Along a curve that fills the plane: no step is far from the one before.
+void insert(Delaunay& delaunay, Points points) {
+  using First = CGAL::First_of_pair_property_map<Points::value_type>;
+  CGAL::spatial_sort(points.begin(), points.end(), CGAL::Spatial_sort_traits_adapter_2<Kernel, First>());
+  StopNowAndThen stop(now_and_then);
+  Delaunay::Face_handle near;
+  for (const auto& [point, index] : points) {
+    stop.step();
+    const auto vertex = delaunay.insert(point, near);
+    vertex->info() = index;
+    near = vertex->face();
+  }
+}
+
 }  // namespace
 
 std::optional<std::vector<Triangle>> triangulated_by_delaunay(const std::vector<Point>& ring) {
-  std::vector<std::pair<Kernel::Point_2, std::uint32_t>> points;
+  Points points;
   points.reserve(ring.size());
   for (std::uint32_t i = 0; i < ring.size(); ++i) points.emplace_back(Kernel::Point_2(ring[i].x, ring[i].y), i);
   Delaunay delaunay;
-  delaunay.insert(points.begin(), points.end());  // sorted along a curve on the way: no step is far from the one before
+  insert(delaunay, points);
   std::map<Kernel::Point_2, Delaunay::Vertex_handle> seen;
   for (const auto vertex : delaunay.finite_vertex_handles()) seen.emplace(vertex->point(), vertex);
   std::vector<Delaunay::Vertex_handle> corners;
   corners.reserve(ring.size());
   for (const auto& [point, index] : points) corners.push_back(seen.at(point));
   std::map<Edge, unsigned> uses;
+  StopNowAndThen stop(now_and_then);
   try {
     for (std::size_t i = 0; i < ring.size(); ++i) {
+      stop.step();
       const auto a = corners[i], b = corners[(i + 1) % ring.size()];
       if (a == b) return std::nullopt;
       delaunay.insert_constraint(a, b);

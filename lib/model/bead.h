@@ -28,8 +28,9 @@ struct Bead {
   std::uint32_t part = 0;   ///< index of the region of the layer it belongs to: beads of a part are printed together
   std::uint32_t sequence =
       0;  ///< fills: beads of equal non-zero value are printed in their order in the list (monotonic skin)
-  ToolId tool = any_tool;  ///< what it is printed with
-  ScopeId scope = 0;       ///< what settings it is printed with
+  ToolId tool = any_tool;   ///< what it is printed with
+  ScopeId scope = 0;        ///< what settings it is printed with
+  bool on_support = false;  ///< skin that rests on support
   friend bool operator==(const Bead&, const Bead&) = default;
 };
 using Beads = std::vector<Bead>;

@@ -11,7 +11,7 @@ template <>
 inline constexpr auto fields<Junction> = listed(&Junction::at, &Junction::width, &Junction::flow);
 template <>
 inline constexpr auto fields<Bead> = listed(&Bead::path, &Bead::role, &Bead::closed, &Bead::inset, &Bead::part,
-                                            &Bead::sequence, &Bead::tool, &Bead::scope);
+                                            &Bead::sequence, &Bead::tool, &Bead::scope, &Bead::on_support);
 template <>
 inline constexpr auto fields<SlicedLayer> = listed(&SlicedLayer::z, &SlicedLayer::height, &SlicedLayer::regions);
 template <>
@@ -26,12 +26,13 @@ template <>
 inline constexpr auto fields<Extrude> = listed(&Extrude::path, &Extrude::role, &Extrude::tool, &Extrude::scope,
                                                &Extrude::height, &Extrude::speed_mm_s, &Extrude::segment_speed_mm_s,
                                                &Extrude::acceleration_mm_s2, &Extrude::below, &Extrude::air_quarters,
-                                               &Extrude::loop_length);
+                                               &Extrude::loop_length, &Extrude::on_support);
 template <>
 inline constexpr auto fields<Travel> = listed(&Travel::path, &Travel::speed_mm_s, &Travel::crosses_wall,
                                               &Travel::z_speed_mm_s, &Travel::acceleration_mm_s2);
 template <>
-inline constexpr auto fields<Retract> = listed(&Retract::wipe, &Retract::wipe_speed_mm_s, &Retract::before_wipe);
+inline constexpr auto fields<Retract> = listed(&Retract::wipe, &Retract::wipe_speed_mm_s, &Retract::before_wipe,
+                                               &Retract::to_change);
 template <>
 inline constexpr auto fields<Prime> = listed<Prime>();
 template <>
@@ -46,7 +47,7 @@ template <>
 inline constexpr auto fields<SetTemperature> = listed(&SetTemperature::heater, &SetTemperature::tool,
                                                       &SetTemperature::celsius, &SetTemperature::wait);
 template <>
-inline constexpr auto fields<Pause> = listed(&Pause::text);
+inline constexpr auto fields<Pause> = listed(&Pause::text, &Pause::swaps_filament);
 template <>
 inline constexpr auto fields<Moment> = listed(&Moment::index, &Moment::pass, &Moment::number, &Moment::comes_down);
 template <>

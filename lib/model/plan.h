@@ -30,6 +30,7 @@ struct Extrude {
   std::uint8_t air_quarters = 0;
   /// Of a piece that was cut out of a closed bead: the length of all of it; 0: the path is the whole bead.
   Um loop_length = 0;
+  bool on_support = false;  ///< skin that rests on support
 };
 
 /// Where junction i of a bead lies, on a layer at z.
@@ -51,6 +52,7 @@ struct Retract {
   Polyline wipe;
   double wipe_speed_mm_s = 0;  ///< set by motion
   double before_wipe = 1;  ///< set by motion: share drawn back before the wipe begins, so that the extruder keeps up
+  bool to_change = false;  ///< another tool follows: drawn back by switch_extruder_retraction_amount
   friend bool operator==(const Retract&, const Retract&) = default;
 };
 /// Pushes it forward again.
@@ -89,7 +91,8 @@ struct SetTemperature {
 
 /// The printer waits for somebody to let it go on. Firmware may park the nozzle meanwhile.
 struct Pause {
-  std::string text;  ///< what to do, for the display; one line
+  std::string text;             ///< what to do, for the display; one line
+  bool swaps_filament = false;  ///< other filament goes on
   friend bool operator==(const Pause&, const Pause&) = default;
 };
 

@@ -34,6 +34,8 @@ void Statistics::append(const Statistics& later) {
     sum.filament_mm += later.tools[i].filament_mm;
     sum.filament_mm3 += later.tools[i].filament_mm3;
     sum.filament_g += later.tools[i].filament_g;
+    sum.s += later.tools[i].s;
+    sum.tower_mm3 += later.tools[i].tower_mm3;
     sum.changes += later.tools[i].changes;
   }
   filament_mm += later.filament_mm;

@@ -36,6 +36,8 @@ struct Statistics {
   /// Of one tool.
   struct Tool {
     double filament_mm = 0, filament_mm3 = 0, filament_g = 0;
+    double s = 0;              ///< while it is loaded
+    double tower_mm3 = 0;      ///< of that volume, what went into the tower
     std::int64_t changes = 0;  ///< to it
   };
   std::vector<Tool> tools;  ///< by ToolId; empty where the plan names none

@@ -16,18 +16,20 @@ Slowdown slowdown_for(const Rules& rules, const std::vector<Move>& moves, double
   if (seconds_now >= wanted_s || std::none_of(moves.begin(), moves.end(), [](const Move& m) { return m.prints; }))
     return {};
   std::vector<double> seconds;
-  const auto time_at = [&](double factor) {
-    seconds_of(rules.machine, moves, {factor, rules.cooling.cool_min_speed}, seconds);
+  const auto time_at = [&](double most_mm_s) {
+    seconds_of(rules.machine, moves, {most_mm_s}, seconds);
     return std::accumulate(seconds.begin(), seconds.end(), 0.0);
   };
-  double slow = 0, fast = 1;  // time_at(slow) >= wanted > time_at(fast)
-  if (time_at(slow) <= wanted_s) return {slow, rules.cooling.cool_min_speed};
+  double slow = rules.cooling.cool_min_speed, fast = slow;  // time_at(slow) >= wanted > time_at(fast)
+  for (const Move& m : moves)
+    if (m.prints) fast = std::max(fast, m.speed_mm_s);
+  if (time_at(slow) <= wanted_s) return {slow};
   for (int i = 0; i < 40; ++i) {
     const double middle = 0.5 * (slow + fast), s = time_at(middle);
     (s >= wanted_s ? slow : fast) = middle;
     if (s >= wanted_s && s < wanted_s + close_enough_s) break;
   }
-  return {slow, rules.cooling.cool_min_speed};
+  return {slow};
 }
 
 void slow_down(LayerPlan& layer, const Slowdown& slowdown) {
@@ -73,6 +75,13 @@ std::optional<double> over_air_percent(const CoolingSettings& cooling, const Ext
   return own || bead.air_quarters <= 2 ? own : cooling.bridge_fan_speed;
 }
 
+/// The fan that support has, or what lies on it; nothing: the layer's.
+std::optional<double> of_support_percent(const CoolingSettings& cooling, const Extrude& bead) {
+  if (bead.on_support && cooling.support_fan_enable) return cooling.support_supported_skin_fan_speed;
+  if (bead.role == Role::support_interface) return cooling.support_interface_fan_speed;
+  return std::nullopt;
+}
+
 /// The fan for each bead of a layer in their order; where it would turn slower for less time than a fan takes to, it
 /// does not.
 template <class F>
@@ -107,6 +116,7 @@ void set_fan(const CoolingSettings& cooling, LayerPlan& layer, double seconds) {
   const double share = fan_share(cooling, number, seconds);
   const bool over_air_too = cooling.cool_fan_enabled && number >= static_cast<std::size_t>(cooling.cool_fan_off_layers);
   const auto fan_of = [&](const Extrude& bead) {
+    if (const auto own = over_air_too ? of_support_percent(cooling, bead) : std::nullopt) return *own / 100.0;
     return over_air_too ? std::max(share, over_air_percent(cooling, bead).value_or(0) / 100.0) : share;
   };
   const std::vector<double> wanted = without_short_lulls(layer.steps, fan_of);

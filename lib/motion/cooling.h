@@ -15,7 +15,7 @@ void slow_down(LayerPlan& layer, const Slowdown& slowdown);
 /// @param number of the layer on its way up from the bed (Moment)
 double fan_share(const CoolingSettings& cooling, std::size_t number, double seconds);
 
-/// Puts SetFan steps in: for the layer, and around bridges and overhangs.
+/// Puts SetFan steps in: for the layer, and around bridges, overhangs, and interfaces of support and what lies on them.
 void set_fan(const CoolingSettings& cooling, LayerPlan& layer, double seconds);
 
 }  // namespace weft::motion

@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <utility>
 
 namespace weft::motion {
 namespace {
@@ -120,10 +122,53 @@ struct Collector {
 }  // namespace
 
 double Slowdown::of(double speed_mm_s) const {
-  return std::max(speed_mm_s * factor, std::min(speed_mm_s, least_mm_s));
+  return std::min(speed_mm_s, most_mm_s);
 }
 
-std::vector<Move> moves_of(const Rules& rules, const LayerPlan& layer, std::optional<Point3> start) {
+namespace {
+
+/// What is drawn back of the tools' filaments, mm, in the course of a layer.
+class DrawnBack {
+ public:
+  DrawnBack(const AllRules& all, const Rules& layer) : all_(all), layer_(layer), tool_(all.loaded) {}
+
+  const Rules& rules() const { return of_tool(all_, tool_, layer_); }
+  /// @returns how far filament is drawn back now
+  double draw(bool to_change) {
+    const double wanted = to_mm(to_change ? rules().amount_to_change : rules().retraction.retraction_amount);
+    const double more = std::max(wanted - now(), 0.0);
+    now() += more;
+    return more;
+  }
+  /// @returns how far it is pushed forward
+  double push() {
+    const bool changed = std::exchange(loaded_, false);
+    const auto& r = rules();
+    const double mm = changed
+                          ? to_mm(r.amount_to_change) + to_mm(r.extra_prime_to_change)
+                          : to_mm(r.retraction.retraction_amount) + to_mm(r.retraction.retraction_extra_prime_amount);
+    now() = 0;
+    return mm;
+  }
+  /// @returns seconds that it takes
+  double change(ToolId tool) {
+    tool_ = tool, loaded_ = true;
+    return rules().tool_change_s;
+  }
+
+ private:
+  double& now() { return drawn_[tool_]; }
+  const AllRules& all_;
+  const Rules& layer_;
+  ToolId tool_;
+  bool loaded_ = false;
+  std::map<ToolId, double> drawn_;
+};
+
+}  // namespace
+
+std::vector<Move> moves_of(const AllRules& all, const LayerPlan& layer, std::optional<Point3> start) {
+  const Rules& rules = of_scope(all, layer.scope);
   std::size_t count = 0;
   const overloaded points_of{
       [](const Extrude& bead) { return bead.path.size(); }, [](const Travel& travel) { return travel.path.size(); },
@@ -135,9 +180,8 @@ std::vector<Move> moves_of(const Rules& rules, const LayerPlan& layer, std::opti
   std::vector<Move> moves;
   moves.reserve(count);
   Collector out{rules.machine, moves, start};
-  const auto& r = rules.retraction;
-  const double unset = rules.speeds.acceleration_print, amount_mm = to_mm(r.retraction_amount);
-  bool retracted = false;
+  const double unset = rules.speeds.acceleration_print;
+  DrawnBack drawn(all, rules);
   std::uint32_t i = 0;
   const overloaded add{
       [&](const Extrude& bead) {
@@ -156,22 +200,23 @@ std::vector<Move> moves_of(const Rules& rules, const LayerPlan& layer, std::opti
                  travel.acceleration_mm_s2 > 0 ? travel.acceleration_mm_s2 : unset, i, false);
       },
       [&](const Retract& retract) {
-        if (!retracted)
-          out.pause(extruder_s(amount_mm * retract.before_wipe, r.retraction_retract_speed, rules.machine), i);
+        const double mm = drawn.draw(retract.to_change);
+        if (mm > 0)
+          out.pause(
+              extruder_s(mm * retract.before_wipe, drawn.rules().retraction.retraction_retract_speed, rules.machine),
+              i);
         for (const Point p : retract.wipe)
           out.go({p.x, p.y, out.at ? out.at->z : layer.z}, retract.wipe_speed_mm_s, travel_acceleration_mm_s2(rules), i,
                  false);
-        retracted = true;
       },
       [&](const Prime&) {
-        out.pause(extruder_s(amount_mm + to_mm(r.retraction_extra_prime_amount),
-                             r.retraction_prime_speed.value_or(r.retraction_retract_speed), rules.machine),
-                  i);
-        retracted = false;
+        const auto& r = drawn.rules().retraction;
+        out.pause(
+            extruder_s(drawn.push(), r.retraction_prime_speed.value_or(r.retraction_retract_speed), rules.machine), i);
       },
-      [&](const ToolChange&) {
+      [&](const ToolChange& change) {
         out.stand_still(i);
-        retracted = false;
+        out.pause(drawn.change(change.tool), i);
       },
       [&](const SetTemperature& heat) {
         if (heat.wait) out.stand_still(i);

@@ -3,6 +3,7 @@
 #include "motion/motion.h"
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace weft::motion {
@@ -20,13 +21,14 @@ struct Move {
 
 /// The moves of a layer with speeds, within what the axes can do.
 /// Pre: set_speeds has been applied.
-std::vector<Move> moves_of(const Rules& rules, const LayerPlan& layer, std::optional<Point3> start);
+std::vector<Move> moves_of(const AllRules& all, const LayerPlan& layer, std::optional<Point3> start);
 
-/// Printing slowed down: speeds are multiplied by `factor`, but not below `least_mm_s` (slower ones stay).
+/// Printing slowed down: nothing is printed faster than this, slower speeds stay. So what is fastest gives first, and
+/// outer walls keep their speed, on which their gloss hangs, as long as anything else has time to give.
 struct Slowdown {
-  double factor = 1;
-  double least_mm_s = 0;
+  double most_mm_s = std::numeric_limits<double>::infinity();
   double of(double speed_mm_s) const;
+  bool slows() const { return most_mm_s != std::numeric_limits<double>::infinity(); }
 };
 
 /// Seconds that each move takes, from rest to rest, with look-ahead over all of them: trapezoids whose speed in a

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 namespace weft::motion {
 namespace {
@@ -53,8 +54,8 @@ void count_travel(const Travel& travel, std::optional<Point3> from, Statistics& 
   }
 }
 
-void count_times(const LayerPlan& layer, const std::vector<Move>& moves, const std::vector<double>& seconds,
-                 Statistics& s) {
+void count_times(const LayerPlan& layer, ToolId loaded, const std::vector<Move>& moves,
+                 const std::vector<double>& seconds, Statistics& s) {
   double total = 0, of_the_user = 0;
   const overloaded spent_on{
       [&](const Extrude& bead) { return &s.features[static_cast<std::size_t>(bead.role)].s; },
@@ -69,37 +70,55 @@ void count_times(const LayerPlan& layer, const std::vector<Move>& moves, const s
       [&](const SetTemperature&) { return &of_the_user; },
       [&](const Pause&) { return &of_the_user; },
   };
+  std::size_t step = 0;  // up to which changes of the tool are known
   for (std::size_t i = 0; i < moves.size(); ++i) {
     *std::visit(spent_on, layer.steps[moves[i].step]) += seconds[i];
     total += seconds[i];
+    for (; step <= moves[i].step && !s.tools.empty(); ++step)
+      if (const auto* change = std::get_if<ToolChange>(&layer.steps[step])) loaded = change->tool;
+    if (!s.tools.empty() && loaded != any_tool) s.tool(loaded).s += seconds[i];
   }
   s.layer_s.push_back(total);
   s.print_time_s = total;
 }
 
-/// What each tool takes: `primes` of it beside its beads.
-void count_tools(const Rules& rules, double area_mm2, const std::vector<std::int64_t>& primes, Statistics& s) {
+double area_of(const Rules& rules) {
+  const double diameter_mm = to_mm(rules.material.filament_diameter);
+  return std::numbers::pi / 4 * diameter_mm * diameter_mm;
+}
+
+/// What pushing the filament forward adds to a tool's beads.
+struct Primes {
+  std::int64_t usual = 0, after_change = 0;
+};
+
+/// What each tool takes: what is pushed forward beside its beads.
+void count_tools(const AllRules& all, const Rules& layer, const std::vector<Primes>& primes, Statistics& s) {
   for (std::size_t i = 0; i < s.tools.size(); ++i) {
     auto& tool = s.tools[i];
-    tool.filament_mm3 *= rules.material.material_flow / 100.0;
+    const Rules& rules = of_tool(all, static_cast<ToolId>(i), layer);
+    const double area_mm2 = area_of(rules), flow = rules.material.material_flow / 100.0;
+    tool.filament_mm3 *= flow, tool.tower_mm3 *= flow;
     if (i < primes.size())
       tool.filament_mm3 +=
-          static_cast<double>(primes[i]) * to_mm(rules.retraction.retraction_extra_prime_amount) * area_mm2;
+          area_mm2 * (static_cast<double>(primes[i].usual) * to_mm(rules.retraction.retraction_extra_prime_amount) +
+                      static_cast<double>(primes[i].after_change) * to_mm(rules.extra_prime_to_change));
     tool.filament_mm = tool.filament_mm3 / area_mm2;
     tool.filament_g = tool.filament_mm3 * rules.material.material_density / 1000.0;
   }
 }
 
-Statistics count(const Rules& rules, const LayerPlan& layer, std::optional<Point3> at) {
+Statistics count(const AllRules& all, const Rules& rules, const LayerPlan& layer, std::optional<Point3> at) {
   Statistics s;
   std::int64_t primes = 0;
-  std::vector<std::int64_t> tool_primes;
-  ToolId loaded = any_tool;
+  std::vector<Primes> tool_primes;
+  ToolId loaded = all.loaded;
+  bool changed = false;
   const auto prime = [&] {
     ++primes;
     if (loaded == any_tool) return;
     tool_primes.resize(std::max<std::size_t>(tool_primes.size(), loaded + std::size_t{1}));
-    ++tool_primes[loaded];
+    ++(std::exchange(changed, false) ? tool_primes[loaded].after_change : tool_primes[loaded].usual);
   };
   bool after_wall = false;
   const overloaded count_step{[&](const Extrude& bead) {
@@ -107,6 +126,8 @@ Statistics count(const Rules& rules, const LayerPlan& layer, std::optional<Point
                                 after_wall = is_wall(bead.role);
                                 if (bead.tool != any_tool) loaded = bead.tool;
                                 if (loaded != any_tool) s.tool(loaded).filament_mm3 += mm3;
+                                if (loaded != any_tool && bead.role == Role::wipe_tower)
+                                  s.tool(loaded).tower_mm3 += mm3;
                                 at = place_of(bead, bead.path.size() - 1, layer.z);
                               },
                               [&](const Travel& travel) {
@@ -120,20 +141,26 @@ Statistics count(const Rules& rules, const LayerPlan& layer, std::optional<Point
                                   at = Point3{retract.wipe.back().x, retract.wipe.back().y, at ? at->z : layer.z};
                               },
                               [&](const Prime&) { prime(); },
-                              [&](const ToolChange& change) { ++s.tool(loaded = change.tool).changes; },
+                              [&](const ToolChange& change) {
+                                ++s.tool(loaded = change.tool).changes;
+                                changed = true;
+                              },
                               LeavesAlone<SetFan, ObjectStart, ObjectEnd, SetTemperature, Pause>{}};
   StopNowAndThen stop(64);
   for (const auto& step : layer.steps) {
     stop.step();
     std::visit(count_step, step);
   }
-  const double diameter_mm = to_mm(rules.material.filament_diameter);
-  const double area_mm2 = std::numbers::pi / 4 * diameter_mm * diameter_mm;
+  const double area_mm2 = area_of(rules);
   for (const auto& f : s.features) s.filament_mm3 += f.mm3 * rules.material.material_flow / 100.0;
   s.filament_mm3 += static_cast<double>(primes) * to_mm(rules.retraction.retraction_extra_prime_amount) * area_mm2;
   s.filament_mm = s.filament_mm3 / area_mm2;
   s.filament_g = s.filament_mm3 * rules.material.material_density / 1000.0;
-  count_tools(rules, area_mm2, tool_primes, s);
+  count_tools(all, rules, tool_primes, s);
+  if (all.tools.empty()) return s;
+  s.filament_mm = s.filament_mm3 = s.filament_g = 0;  // each tool has a filament of its own
+  for (const auto& tool : s.tools)
+    s.filament_mm += tool.filament_mm, s.filament_mm3 += tool.filament_mm3, s.filament_g += tool.filament_g;
   return s;
 }
 
@@ -141,24 +168,34 @@ Statistics count(const Rules& rules, const LayerPlan& layer, std::optional<Point
 
 Rules rules_of(const Settings& s, const Settings* above) {
   const auto& usual = above ? *above : s;
-  return {s.machine, s.material, s.layers, usual.walls, s.retraction, s.speeds, s.cooling, usual.speeds.speed_travel};
+  return {s.machine,
+          s.material,
+          s.layers,
+          usual.walls,
+          s.retraction,
+          s.speeds,
+          s.cooling,
+          usual.speeds.speed_travel,
+          s.tools.tool_change_time,
+          s.tools.switch_extruder_retraction_amount,
+          s.tools.switch_extruder_extra_prime_amount};
 }
 
 PlannedLayer plan_layer(AllRules all, LayerPlan layer, std::optional<Point3> start) {
   set_speeds(all, layer, start);
   const Rules& rules = of_scope(all, layer.scope);
-  auto moves = moves_of(rules, layer, start);
+  auto moves = moves_of(all, layer, start);
   std::vector<double> seconds;
   seconds_of(rules.machine, moves, {}, seconds);
   const double seconds_now = std::accumulate(seconds.begin(), seconds.end(), 0.0);
   const auto slowdown = slowdown_for(rules, moves, seconds_now);
-  if (slowdown.factor < 1) {
+  if (slowdown.slows()) {
     slow_down(layer, slowdown);
     seconds_of(rules.machine, moves, slowdown, seconds);
   }
   PlannedLayer out;
-  out.statistics = count(rules, layer, start);
-  count_times(layer, moves, seconds, out.statistics);
+  out.statistics = count(all, rules, layer, start);
+  count_times(layer, all.loaded, moves, seconds, out.statistics);
   set_fan(rules.cooling, layer, out.statistics.print_time_s);
   out.plan = std::move(layer);
   return out;

@@ -4,6 +4,7 @@
 #include "model/statistics.h"
 #include "settings/settings.h"
 
+#include <concepts>
 #include <optional>
 #include <span>
 
@@ -20,6 +21,9 @@ struct Rules {
   CoolingSettings cooling;
   /// Of travels above the first layer, mm/s: beads that follow their width get no faster. Absent: as in speeds.
   std::optional<double> speed_travel_above{};
+  double tool_change_s = 0;      ///< to load this tool
+  Um amount_to_change = 0;       ///< drawn back before another one is
+  Um extra_prime_to_change = 0;  ///< pushed forward beyond that
 };
 
 /// @param above what holds above the first layer: a bead's nominal width is that of the others. Null: the same
@@ -32,7 +36,19 @@ struct PlannedLayer {
 };
 
 /// Rules by scope: of the layer (LayerPlan::scope) and of its beads. A scope that is not there has the first's.
-using AllRules = std::span<const Rules>;
+struct AllRules {
+  std::span<const Rules> scopes;
+  std::span<const Rules> tools{};  ///< by tool; empty where there is one
+  ToolId loaded = any_tool;        ///< when the layer begins
+
+  AllRules(std::span<const Rules> of_scopes, std::span<const Rules> of_tools = {}, ToolId tool = any_tool)
+      : scopes(of_scopes), tools(of_tools), loaded(tool) {}
+  template <class Several>
+  requires std::convertible_to<const Several&, std::span<const Rules>> AllRules(const Several& of_scopes)
+      : scopes(of_scopes) {}
+  std::size_t size() const { return scopes.size(); }
+  const Rules& operator[](std::size_t i) const { return scopes[i]; }
+};
 
 /// Gives every step of a layer its speed and acceleration, slows the layer down to cool_min_layer_time, sets the fan.
 /// Beads are cut where their width changes, so that each segment may be printed at one width; mm³/s stay below
@@ -44,7 +60,7 @@ using AllRules = std::span<const Rules>;
 ///       time lets each begin and end at rest, which costs a fraction of a second a layer.
 PlannedLayer plan_layer(AllRules rules, LayerPlan layer, std::optional<Point3> start);
 inline PlannedLayer plan_layer(const Rules& rules, LayerPlan layer, std::optional<Point3> start) {
-  return plan_layer(AllRules(&rules, 1), std::move(layer), start);
+  return plan_layer(AllRules(std::span(&rules, 1)), std::move(layer), start);
 }
 
 /// Where the nozzle is when a layer is done that began at `start`; nothing as long as no layer has moved.
@@ -60,7 +76,7 @@ struct Planned {
 };
 Planned plan(AllRules rules, PrintPlan print);
 inline Planned plan(const Rules& rules, PrintPlan print) {
-  return plan(AllRules(&rules, 1), std::move(print));
+  return plan(AllRules(std::span(&rules, 1)), std::move(print));
 }
 
 }  // namespace weft::motion

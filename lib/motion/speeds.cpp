@@ -193,6 +193,7 @@ void set_speeds(AllRules all, LayerPlan& layer, std::optional<Point3> start) {
   std::vector<Step> steps;
   steps.reserve(layer.steps.size() + 8);
   auto at = start;
+  ToolId tool = all.loaded;
   const overloaded set{
       // @returns whether the step stays
       [&](Extrude& bead) {
@@ -218,7 +219,7 @@ void set_speeds(AllRules all, LayerPlan& layer, std::optional<Point3> start) {
       },
       [&](Retract& retract) {
         if (retract.wipe.empty()) return true;
-        set_wipe(rules, travel_speed, at, retract);
+        set_wipe(of_tool(all, tool, rules), travel_speed, at, retract);
         at = Point3{retract.wipe.back().x, retract.wipe.back().y, at ? at->z : layer.z};
         return true;
       },
@@ -226,7 +227,10 @@ void set_speeds(AllRules all, LayerPlan& layer, std::optional<Point3> start) {
       [](SetFan&) { return true; },
       [](ObjectStart&) { return true; },
       [](ObjectEnd&) { return true; },
-      [](ToolChange&) { return true; },
+      [&](ToolChange& change) {
+        tool = change.tool;
+        return true;
+      },
       [](SetTemperature&) { return true; },
       [](Pause&) { return true; },
   };

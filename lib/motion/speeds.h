@@ -10,6 +10,11 @@ inline const Rules& of_scope(AllRules rules, ScopeId scope) {
   return rules[scope < rules.size() ? scope : 0];
 }
 
+/// Those of the tool in use, for its filament and how that is drawn back; of the layer where there is one tool.
+inline const Rules& of_tool(const AllRules& all, ToolId tool, const Rules& layer) {
+  return tool < all.tools.size() ? all.tools[tool] : layer;
+}
+
 /// Speed of a feature before its beads' widths are looked at, mm/s.
 double feature_speed_mm_s(const Rules& rules, Role role);
 

@@ -25,12 +25,11 @@ bool Air::at(Point p) {
 }
 
 double Air::share(Point p, Point side) {
-  const bool in_air = at(p);
-  return (share_of_half(p, p + side, in_air) + share_of_half(p, p - side, in_air)) / 2;
-}
-
-double Air::share_of_half(Point from, Point to, bool in_air) {
-  index_.crossings(from, to, crossings_);
+  const Point from = p - side;
+  index_.crossings(from, p + side, crossings_);
+  if (crossings_.empty()) return at(p) ? 1 : 0;
+  bool in_air = !crossings_.front().enters;
+  last_ = from, last_in_air_ = in_air;
   double sum = 0, begin = 0;
   for (const auto& crossing : crossings_) {
     if (in_air) sum += crossing.along - begin;

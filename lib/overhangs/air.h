@@ -29,8 +29,6 @@ class Air {
   double share(Point p, Point side);
 
  private:
-  double share_of_half(Point from, Point to, bool in_air);
-
   geometry::SegmentIndex index_;
   std::optional<Point> last_;  // that was asked about
   bool last_in_air_ = false;

@@ -177,6 +177,7 @@ Regions worth_keeping(Regions over_air) {
 }
 
 void mark(std::span<const Strand> strands, Regions over_air, LayerPlan& layer) {
+  if (std::none_of(strands.begin(), strands.end(), [](const Strand& strand) { return strand.marked; })) return;
   const Regions wide = worth_keeping(std::move(over_air));
   if (wide.empty()) return;
   Air air(wide);
@@ -185,14 +186,14 @@ void mark(std::span<const Strand> strands, Regions over_air, LayerPlan& layer) {
   for (Step& step : layer.steps) {
     stop_if_asked();
     const auto* bead = std::get_if<Extrude>(&step);
-    if (bead != nullptr && is_wall(bead->role) && bead->below.empty() && bead->path.size() > 1) {
+    const Strand& strand = strands[bead != nullptr && bead->scope < strands.size() ? bead->scope : 0];
+    if (bead != nullptr && strand.marked && is_wall(bead->role) && bead->below.empty() && bead->path.size() > 1) {
       Box box;
       Um widest = 0;
       for (const Junction& j : bead->path) box.add(j.at), widest = std::max(widest, j.width);
       if (air.near(box, widest / 2)) {
         auto runs = without_short(runs_of(bead->path, air));
         if (runs.size() > 1 || (runs.size() == 1 && runs[0].level > 0)) {
-          const Strand& strand = strands[bead->scope < strands.size() ? bead->scope : 0];
           find_strands(*bead, strand, runs);
           cut(*bead, runs, strand, steps);
           continue;

@@ -11,8 +11,9 @@ namespace weft::overhangs {
 
 /// What a strand over air is.
 struct Strand {
-  Um nozzle = 400;   ///< diameter
-  double share = 1;  ///< plastic in it, as a share of a round strand of that diameter
+  Um nozzle = 400;     ///< diameter
+  double share = 1;    ///< plastic in it, as a share of a round strand of that diameter
+  bool marked = true;  ///< walls over air are told apart at all
 };
 
 /// Of what lies over air, the parts that are large enough to matter: rough walls leave thousands of slivers.
@@ -26,7 +27,8 @@ Regions worth_keeping(Regions over_air);
 /// not change its speed, nor a fan its own, for less.
 /// @param strands by scope (Extrude::scope); a scope that is not there has the first's. Pre: not empty
 /// @param over_air where nothing of the layer below lies, on the plate. Pre: orientation as Region says.
-/// Post: no bead is touched that has less than a tenth of its width over air all along, nor any that is no wall or
+/// Post: no bead is touched whose scope does not ask for it (Strand::marked), none that has less than a tenth of its
+/// width over air all along, nor any that is no wall or
 ///       that climbs (Extrude::below). Pieces of a bead follow each other; their paths together are its path.
 /// Cost: nothing in layers where nothing hangs; else O(n) to index what hangs, and about 0.5 µs for each 0.4 mm of wall
 ///       that is near it.

@@ -58,7 +58,7 @@ std::vector<adhesion::RaftLayer> layers_of(const Settings& settings) {
 
 }  // namespace
 
-PrintedLayers make_raft(const Settings& settings, const Regions& standing) {
+PrintedLayers make_raft(const Settings& settings, const RaftScopes& scopes, const Regions& standing) {
   const Um half_bead = settings.machine.nozzle_diameter;  // the widest line of a raft is two nozzles wide
   Regions room = geometry::offset({{print_surface(settings.machine), {}}}, {.by = -half_bead});
   Regions no_go;
@@ -73,6 +73,10 @@ PrintedLayers make_raft(const Settings& settings, const Regions& standing) {
     made.outline = area;
     made.beads = raft_beads(layer, area, settings.machine.nozzle_diameter, out.size() % 2 == 0,
                             box.empty() ? Point{} : box.centre());
+    const ScopeId scope = layer.part == adhesion::RaftPart::base      ? scopes.base
+                          : layer.part == adhesion::RaftPart::between ? scopes.between
+                                                                      : scopes.surface;
+    for (Bead& bead : made.beads) bead.scope = scope;
   }
   return out;
 }

@@ -35,6 +35,21 @@ inline constexpr auto fields<pipeline::FilledLayer> = listed(&pipeline::FilledLa
                                                              &pipeline::FilledLayer::beads,
                                                              &pipeline::FilledLayer::notices);
 
+template <>
+inline constexpr auto fields<pipeline::PrintedLayer> =
+    listed(&pipeline::PrintedLayer::z, &pipeline::PrintedLayer::height, &pipeline::PrintedLayer::outline,
+           &pipeline::PrintedLayer::skin, &pipeline::PrintedLayer::top, &pipeline::PrintedLayer::sparse,
+           &pipeline::PrintedLayer::over_air, &pipeline::PrintedLayer::beads);
+template <>
+inline constexpr auto fields<support::Figures> = listed(&support::Figures::needed_mm2, &support::Figures::bridged_mm2,
+                                                        &support::Figures::left_mm2, &support::Figures::left_at,
+                                                        &support::Figures::contact_mm2, &support::Figures::on_part_mm2,
+                                                        &support::Figures::islands, &support::Figures::tips,
+                                                        &support::Figures::trunks, &support::Figures::slenderest);
+template <>
+inline constexpr auto fields<pipeline::Supports> = listed(&pipeline::Supports::layers, &pipeline::Supports::held,
+                                                          &pipeline::Supports::figures);
+
 }  // namespace weft
 
 namespace weft::pipeline {

@@ -6,6 +6,7 @@
 #include "model/plan.h"
 #include "pipeline/stages.h"
 #include "slice/slice.h"
+#include "support/support.h"
 
 #include <cstdint>
 #include <string>
@@ -24,6 +25,13 @@ struct FilledLayer {
   Regions top, skin, sparse;
   Beads beads;
   Notices notices;
+};
+
+/// What stands under an object.
+struct Supports {
+  PrintedLayers layers;
+  std::vector<Regions> held;  ///< of each layer of the object, what rests on it; empty: nothing does
+  support::Figures figures;
 };
 
 // Of the types that codec.cpp lists at its end, each made of the fields that it lists (core/fields.h).

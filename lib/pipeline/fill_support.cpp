@@ -45,8 +45,12 @@ class Filler {
 
   Beads beads() && {
     columns();
-    loops(layer_.branches, s_.support_wall_count.value_or(1), Role::support);
+    branches();
     for (const Regions* areas : {&layer_.bottom, &layer_.roof}) interface(*areas);
+    for (Bead& bead : beads_) {
+      const auto tool = bead.role == Role::support ? s_.support_infill_extruder_nr : s_.support_interface_extruder_nr;
+      if (tool) bead.tool = static_cast<ToolId>(*tool);
+    }
     return std::move(beads_);
   }
 
@@ -71,6 +75,17 @@ class Filler {
     const Regions narrow = geometry::opening(
         geometry::subtract(layer_.columns, geometry::offset(wide, {.by = rounded(0.6 * apart)})), band_ / 4);
     loops(narrow, 1, Role::support);
+  }
+
+  /// Hollow, or nearly: loops, two around thick ones, and what support_tree_infill_rate puts inside.
+  void branches() {
+    const double double_mm = to_mm(s_.support_tree_branch_diameter_double_wall);
+    const double thick_mm2 = double_mm > 0 ? std::numbers::pi / 4 * double_mm * double_mm : 1e9;
+    for (const Region& branch : layer_.branches) {
+      const int usual = area_mm2(branch) > thick_mm2 ? 2 : 1;
+      const Regions inside = loops({branch}, s_.support_wall_count.value_or(usual), Role::support);
+      sparse(inside, s_.support_tree_infill_rate / 100, s_.support_pattern, s_.support_infill_angle, Role::support);
+    }
   }
 
   void interface(const Regions& areas) {

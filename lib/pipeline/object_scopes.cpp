@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "geometry/boolean.h"
+#include "infill/density.h"
 #include "tasks/parallel.h"
 
 #include <algorithm>
@@ -36,14 +37,18 @@ slice::Gaps both(const slice::Gaps& a, const slice::Gaps& b) {
 
 }  // namespace
 
-ObjectScopes scopes_of(const Object& object, Scopes& scopes) {
+ObjectScopes scopes_of(const Object& object, ToolScopes& tools, Scopes& scopes) {
+  const auto lowest = [&](ScopeId id) {
+    const bool raft = scopes[id].adhesion.adhesion_type == AdhesionType::raft;
+    return raft ? scopes.on_raft(id) : scopes.on_first_layer(id);
+  };
   ObjectScopes out;
   for (const Um bottom : heights_of_change(object)) {
     ScopesFrom run{bottom, {}}, first{0, {}};
     for (const auto& volume : object.volumes) {
       const auto overlays = overlays_at(object, volume, bottom);
-      run.of_volume.push_back(scopes.with(0, overlays));
-      if (bottom == 0) first.of_volume.push_back(scopes.on_first_layer(run.of_volume.back()));
+      run.of_volume.push_back(tools.area(object, overlays, scopes));
+      if (bottom == 0) first.of_volume.push_back(tools.lowest(run.of_volume.back(), lowest));
     }
     if (bottom == 0) {  // whatever lies a micron higher is no first layer
       out.push_back(std::move(first));
@@ -107,6 +112,12 @@ std::vector<slice::Cut> united(const ObjectScopes& scopes, const std::vector<con
     areas.push_back(std::move(layer.areas));
   }
   return out;
+}
+
+std::string files_of_infill(const Scopes& scopes, Point at) {
+  std::string out;
+  for (ScopeId id = 0; id < scopes.size(); ++id) out += infill::Density::files_of(scopes[id].infill);
+  return out.empty() ? out : fmt::format("{} {} {}", out, at.x, at.y);
 }
 
 }  // namespace weft::pipeline

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "model/area.h"
+#include "pipeline/tool_scopes.h"
 #include "plate/plate.h"
 #include "settings/scopes.h"
 #include "slice/slice.h"
 
+#include <string>
 #include <vector>
 
 /// Which settings hold where in an object: overlays become scopes, and layers get their areas.
@@ -21,7 +23,7 @@ using ObjectScopes = std::vector<ScopesFrom>;
 
 /// Lays the object's overlays over the plate's settings. @throws Error{settings} where a layer would be higher than the
 /// nozzle is wide
-ObjectScopes scopes_of(const Object& object, Scopes& scopes);
+ObjectScopes scopes_of(const Object& object, ToolScopes& tools, Scopes& scopes);
 
 /// What holds for a layer that has its bottom there.
 const ScopesFrom& at(const ObjectScopes& scopes, Um bottom);
@@ -34,5 +36,9 @@ std::vector<slice::Cut> united(const ObjectScopes& scopes, const std::vector<con
 
 /// The areas of layers of one volume: one each.
 std::vector<Areas> areas_of_one(const ObjectScopes& scopes, const std::vector<slice::Cut>& cuts);
+
+/// What the files of densities that settings name hold, and where the object lies on them; empty without such files.
+/// @throws Error{settings} for one that is not there
+std::string files_of_infill(const Scopes& scopes, Point at);
 
 }  // namespace weft::pipeline

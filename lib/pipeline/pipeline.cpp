@@ -18,6 +18,7 @@
 #include "pipeline/toolpath_pictures.h"
 #include "preview/thumbnail.h"
 #include "settings/catalogue.h"
+#include "settings/tools.h"
 #include "tasks/parallel.h"
 #include "tasks/tasks.h"
 
@@ -74,8 +75,13 @@ void note_statistics(const Settings& settings, const Statistics& s, Report& repo
     report.features[i] = {s.features[i].mm, s.features[i].mm3, s.features[i].s};
   for (const auto& t : s.tools)
     report.tools.push_back({t.filament_mm, t.filament_mm3, t.filament_g, static_cast<std::size_t>(t.changes)});
-  report.walls = {static_cast<std::size_t>(s.walls.beads), s.walls.variable_width_mm, s.walls.flow_compensated_mm,
-                  s.walls.min_flow_ratio, s.walls.min_width == max_coord ? 0.0 : to_mm(s.walls.min_width)};
+  report.walls = {static_cast<std::size_t>(s.walls.beads),
+                  s.walls.variable_width_mm,
+                  s.walls.flow_compensated_mm,
+                  s.walls.min_flow_ratio,
+                  s.walls.min_width == max_coord ? 0.0 : to_mm(s.walls.min_width),
+                  s.walls.over_air_mm,
+                  s.walls.whole_over_air_mm};
   report.travel = {s.travel.mm, static_cast<std::size_t>(s.travel.moves),
                    static_cast<std::size_t>(s.travel.retractions), static_cast<std::size_t>(s.travel.wall_crossings)};
 }
@@ -116,6 +122,10 @@ void name_custom_code(const GcodeSettings& g, audit::Check& check) {
   check.custom_code("before_layer_gcode", g.before_layer_gcode);
   check.custom_code("layer_gcode", g.layer_gcode);
   check.custom_code("tool_change_gcode", g.tool_change_gcode);
+  check.custom_code("machine_extruder_start_code", g.machine_extruder_start_code);
+  check.custom_code("machine_extruder_end_code", g.machine_extruder_end_code);
+  check.custom_code("pause_gcode", g.pause_gcode);
+  check.custom_code("color_change_gcode", g.color_change_gcode);
   check.custom_code("between_objects_gcode", g.between_objects_gcode);
   check.custom_code("machine_end_gcode", g.machine_end_gcode);
 }
@@ -174,8 +184,9 @@ void keep(const Sample& sample, std::size_t at_least, PrintedLayers& layers) {
 Planned plan(const Job& job, Printing& what, const Running& running, PlanFor use) {
   auto& plate = what.plate;
   Scopes scopes(job.settings);
+  ToolScopes tools(job.settings);
   std::vector<ObjectScopes> of_object;
-  for (const auto& object : plate.objects) of_object.push_back(scopes_of(object, scopes));
+  for (const auto& object : plate.objects) of_object.push_back(scopes_of(object, tools, scopes));
   Planned out;
   // Pictures are drawn while the model is sliced.
   const bool of_models = use == PlanFor::writing && job.settings.gcode.thumbnail_content == ThumbnailContent::model;
@@ -187,7 +198,7 @@ Planned plan(const Job& job, Printing& what, const Running& running, PlanFor use
   auto supports = rooms_of(scopes, plate);
   for (std::size_t o = 0; o < plate.objects.size(); ++o) {
     for (const auto& volume : plate.objects[o].volumes) box.add(box_of(volume.mesh));
-    layers.push_back(print_object(running, scopes, of_object[o], plate.objects[o], supports[o]));
+    layers.push_back(print_object(running, scopes, tools, of_object[o], plate.objects[o], supports[o]));
     keep(running.sample, adhesion::layers_needed(job.settings.adhesion), layers.back());
   }
   beside.wait();
@@ -197,7 +208,7 @@ Planned plan(const Job& job, Printing& what, const Running& running, PlanFor use
   give_back_memory();
   begin<Stage::travel>(running.watch);
   auto& report = running.report;
-  out.plate = plan_plate(scopes, plate, what.sequence, std::move(layers), std::move(supports), report, use);
+  out.plate = plan_plate(scopes, tools, plate, what.sequence, std::move(layers), std::move(supports), report, use);
   const auto& plan = out.plate.plan;
   report.layers = plan.layers.size();
   for (const auto& layer : plan.layers)
@@ -220,8 +231,9 @@ std::optional<audit::Passed> print(const Job& job, Printing what, const Watch& w
                   statistics,
                   std::filesystem::path(what.name).stem().string(),
                   {},
-                  provenance_lines(report.models, job.placement) + overlay_lines(what.plate),
-                  std::move(digests)};
+                  provenance_lines(report.models, report.marks, job.placement) + overlay_lines(what.plate),
+                  std::move(digests),
+                  tool_count(job.settings) > 1 ? settings_of_tools(job.settings) : std::vector<Settings>{}};
   const bool of_models = job.settings.gcode.thumbnail_content == ThumbnailContent::model;
   text.thumbnails = of_models ? std::move(planned.thumbnails) : pictures_of_toolpaths(text, plan, packed);
   write_gcode(text, plan, std::move(packed), check, report);

@@ -32,7 +32,7 @@ struct Placement {
 struct ModelMark {
   std::size_t model = 0;  ///< index into Job::models, in whose coordinates it is
   mesh::MarkKind kind = mesh::MarkKind::support_enforcer;
-  std::string source;     ///< as typed
+  std::string source;  ///< as typed
 };
 
 /// Everything a slice depends on: two equal jobs give equal bytes.

@@ -6,8 +6,10 @@
 #include "motion/motion.h"
 #include "overhangs/overhangs.h"
 #include "pipeline/add_raft.h"
+#include "pipeline/at_heights.h"
 #include "pipeline/check.h"
 #include "pipeline/codec.h"
+#include "pipeline/passes.h"
 #include "pipeline/sample.h"
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
@@ -53,6 +55,7 @@ struct Copy {
   Point by;
   bool last = false;   ///< of that list
   ObjectId label = 0;  ///< of the copy that it is, or stands under
+  bool support = false;
 };
 std::vector<Copy> copies_of(const Plate& plate) {
   std::vector<Copy> out;
@@ -76,7 +79,7 @@ Sequence with_supports(Sequence sequence, std::vector<SupportOf> supports, std::
     for (ObjectId c = 0; c < own; ++c) {
       if (copies[c].of != o) continue;
       below[c] = static_cast<ObjectId>(copies.size());
-      copies.push_back({layers.size() - 1, copies[c].by, false, c});
+      copies.push_back({layers.size() - 1, copies[c].by, false, c, true});
     }
     copies.back().last = true;
   }
@@ -86,9 +89,23 @@ Sequence with_supports(Sequence sequence, std::vector<SupportOf> supports, std::
   return sequence;
 }
 
+/// The scopes of a raft's layers: speeds of their own are laid over the plate's.
+RaftScopes raft_scopes(Scopes& scopes) {
+  const auto with = [&](ScopeId below, const char* key, std::optional<double> speed, const char* because) {
+    Overlay own{.what = "raft", .scope = Scope::layer};
+    if (speed) own.follow(key, *speed, because);
+    const Overlay* overlays[] = {&own};
+    return scopes.with(below, overlays);
+  };
+  const RaftSettings& r = scopes[0].raft;
+  return {with(scopes.on_first_layer(0), "speed_support_infill", r.raft_base_speed, "raft_base_speed"),
+          with(0, "speed_support_infill", r.raft_interface_speed, "raft_interface_speed"),
+          with(0, "speed_support_interface", r.raft_surface_speed, "raft_surface_speed")};
+}
+
 /// A raft lies under everything, which it lifts; it belongs to no object.
-void put_on_raft(const Settings& settings, Sequence& sequence, std::vector<Copy>& copies,
-                 std::vector<PrintedLayers>& layers) {
+void put_on_raft(Scopes& scopes, Sequence& sequence, std::vector<Copy>& copies, std::vector<PrintedLayers>& layers) {
+  const Settings& settings = scopes[0];
   const Um lift = raft_lift(settings);
   if (lift == 0 || sequence.empty()) return;
   Regions standing;
@@ -97,7 +114,7 @@ void put_on_raft(const Settings& settings, Sequence& sequence, std::vector<Copy>
       for (auto& region : weft::moved(layers[copy.of].front().outline, copy.by)) standing.push_back(std::move(region));
   for (auto& list : layers)
     for (auto& layer : list) layer.z += lift;
-  layers.push_back(make_raft(settings, standing));
+  layers.push_back(make_raft(settings, raft_scopes(scopes), standing));
   sequence.front().objects.push_back(static_cast<ObjectId>(copies.size()));
   copies.push_back({layers.size() - 1, {}, true, any_object});
 }
@@ -145,9 +162,29 @@ travel::LayerInput plate_layer(const TimelineLayer& moment, const std::vector<Co
                              .skin = read.skin ? weft::moved(std::move(layer.skin), copy.by) : Regions{},
                              .top = read.top ? weft::moved(std::move(layer.top), copy.by) : Regions{},
                              .sparse = read.sparse ? weft::moved(std::move(layer.sparse), copy.by) : Regions{},
-                             .over_air = weft::moved(std::move(layer.over_air), copy.by)});
+                             .over_air = weft::moved(std::move(layer.over_air), copy.by),
+                             .support = copy.support});
   }
   return input;
+}
+
+/// What of support was printed up to there, or nearly, and is not printed at this moment: where the nozzle would run
+/// into what has curled.
+Regions standing_support(const TimelineLayer& moment, const std::vector<Copy>& copies,
+                         const std::vector<PrintedLayers>& layers) {
+  Regions out;
+  for (ObjectId id = 0; id < copies.size(); ++id) {
+    const Copy& copy = copies[id];
+    if (!copy.support ||
+        std::any_of(moment.parts.begin(), moment.parts.end(), [&](const auto& part) { return part.object == id; }))
+      continue;
+    const auto& own = layers[copy.of];
+    const auto above =
+        std::upper_bound(own.begin(), own.end(), moment.z, [](Um z, const PrintedLayer& layer) { return z < layer.z; });
+    if (above == own.begin() || moment.z - std::prev(above)->z >= std::prev(above)->height) continue;
+    for (auto& region : weft::moved(std::prev(above)->outline, copy.by)) out.push_back(std::move(region));
+  }
+  return out;
 }
 
 /// Where the nozzle may go on a layer at z.
@@ -158,7 +195,8 @@ travel::Room room_at(const MachineSettings& machine, Um z) {
 }
 
 /// Skirt and brim around everything that rises together, put before the other beads of their layers.
-void add_adhesion(const Settings& settings, std::span<travel::LayerInput> rise, Notices& notices) {
+void add_adhesion(const Settings& settings, std::span<travel::LayerInput> rise, const Regions& tower,
+                  Notices& notices) {
   const auto wanted = adhesion_of(settings.adhesion);
   const std::size_t needed = adhesion::layers_needed(wanted);
   if (needed == 0) return;
@@ -168,6 +206,7 @@ void add_adhesion(const Settings& settings, std::span<travel::LayerInput> rise, 
     if (layer.time.number >= needed) break;
     if (layer.time.number == plate.size()) plate.push_back({{}, layer.height}), bottoms.push_back(&layer);
     auto& outlines = plate.back().outlines;
+    if (outlines.empty()) outlines = tower;
     for (const auto& object : layer.objects)
       outlines.insert(outlines.end(), object.outline.begin(), object.outline.end());
   }
@@ -180,11 +219,12 @@ void add_adhesion(const Settings& settings, std::span<travel::LayerInput> rise, 
   }
   std::move(built.notices.begin(), built.notices.end(), std::back_inserter(notices));
 }
-void add_adhesion_to_rises(const Settings& settings, std::span<travel::LayerInput> layers, Notices& notices) {
+void add_adhesion_to_rises(const Settings& settings, std::span<travel::LayerInput> layers, const Regions& tower,
+                           Notices& notices) {
   for (std::size_t begin = 0; begin < layers.size();) {
     std::size_t end = begin + 1;
     while (end < layers.size() && !layers[end].time.comes_down) ++end;
-    add_adhesion(settings, layers.subspan(begin, end - begin), notices);
+    add_adhesion(settings, layers.subspan(begin, end - begin), tower, notices);
     begin = end;
   }
 }
@@ -211,44 +251,88 @@ Regions over_air_of(travel::LayerInput& input) {
   return out;
 }
 
+/// What the moves of all layers hang on, beside the beads.
+struct MovesOf {
+  const Scopes& scopes;
+  const ToolScopes& tools;
+  const Passes& passes;
+  const std::vector<std::vector<Pause>>& pauses;  ///< of each layer
+};
+
+/// Where each pass begins, as far as it is known: after another tool was loaded the nozzle may be anywhere.
+std::vector<std::optional<Point>> starts_of(const MovesOf& of, const std::vector<travel::Ordered>& ordered) {
+  std::vector<std::optional<Point>> from(ordered.size());
+  if (!from.empty()) from[0] = start_of(of.scopes[0]);
+  for (std::size_t p = 1; p < ordered.size(); ++p) {
+    from[p] = ordered[p - 1].end ? ordered[p - 1].end : from[p - 1];
+    if (of.passes.passes[p].changes) from[p].reset();
+  }
+  return from;
+}
+
+/// The passes of a layer one after the other, with the changes of the tool between them.
+LayerPlan joined(const MovesOf& of, std::size_t layer, std::vector<LayerPlan> passes) {
+  LayerPlan out = std::move(passes.front());
+  for (std::size_t k = 0; k < passes.size(); ++k) {
+    LayerPlan& own = k == 0 ? out : passes[k];
+    const auto& pass = of.passes.passes[of.passes.begin[layer] + k];
+    if (auto steps = change_before(pass, of.tools, out.time.first()); !steps.empty()) put_before(own, std::move(steps));
+    if (k > 0)
+      out.steps.insert(out.steps.end(), std::make_move_iterator(own.steps.begin()),
+                       std::make_move_iterator(own.steps.end()));
+  }
+  pause_before(out, of.pauses[layer]);
+  return out;
+}
+
 /// Ways, speeds and times. What a layer was made of is let go of as it goes.
-std::vector<PackedLayer> plan_moves(const Scopes& scopes, std::vector<travel::Prepared> prepared,
+std::vector<PackedLayer> plan_moves(const MovesOf& of, std::vector<travel::Prepared> prepared,
                                     std::vector<travel::Ordered> ordered, Notices& notices, PlanFor use) {
-  const std::size_t count = prepared.size();
+  const auto& scopes = of.scopes;
   const Settings& settings = scopes[0];
-  std::vector<std::optional<Point>> from(count);
-  if (count > 0) from[0] = start_of(settings);
-  for (std::size_t i = 1; i < count; ++i) from[i] = ordered[i - 1].end ? ordered[i - 1].end : from[i - 1];
+  const auto from = starts_of(of, ordered);
   std::vector<motion::Rules> rules;
   std::vector<overhangs::Strand> strands;
   for (std::size_t i = 0; i < scopes.size(); ++i) {
     const auto id = static_cast<ScopeId>(i);
     rules.push_back(motion::rules_of(scopes[id], &scopes[scopes.above_first_layer(id)]));
-    strands.push_back({scopes[id].machine.nozzle_diameter, scopes[id].shells.bridge_flow / 100});
+    const auto& shells = scopes[id].shells;
+    strands.push_back({scopes[id].machine.nozzle_diameter, shells.bridge_flow / 100, shells.overhang_walls});
   }
-  std::vector<travel::Routed> departures(count);  // without their plans, which go on
+  std::vector<motion::Rules> of_tools;
+  if (of.tools.several())
+    for (const auto& tool : of.tools.tools()) of_tools.push_back(motion::rules_of(tool));
+  std::vector<travel::Routed> departures(prepared.size());  // without their plans, which go on
   struct Begun {
     LayerPlan plan;
     std::optional<Point3> start;
+    ToolId loaded = any_tool;
   };
   std::optional<Point3> at;
   auto packed = tasks::parallel_linked(
-      count,
+      of.passes.begin.size() - 1,
       [&](std::size_t i) {
-        auto layer = std::move(prepared[i]);
-        travel::prepare_ways(settings.travel, layer);
-        auto routed = travel::route(settings.travel, settings.retraction, layer, ordered[i], from[i]);
-        overhangs::mark(strands, over_air_of(layer.input), routed.plan);
-        return routed;
+        std::vector<LayerPlan> plans;
+        for (std::size_t p = of.passes.begin[i]; p < of.passes.begin[i + 1]; ++p) {
+          auto layer = std::move(prepared[p]);
+          travel::prepare_ways(settings.travel, layer);
+          const auto& retraction = scopes[of.tools.several() ? layer.input.scope : 0].retraction;
+          auto routed = travel::route(settings.travel, retraction, layer, ordered[p], from[p]);
+          overhangs::mark(strands, over_air_of(layer.input), routed.plan);
+          departures[p].departures = routed.departures;
+          plans.push_back(std::move(routed.plan));
+        }
+        return joined(of, i, std::move(plans));
       },
-      [&](std::size_t i, travel::Routed routed) {
-        departures[i].departures = routed.departures;
-        Begun layer{std::move(routed.plan), at};
+      [&](std::size_t i, LayerPlan plan) {
+        const auto& passes = of.passes;
+        const ToolId loaded = i > 0 ? passes.passes[passes.begin[i] - 1].tool : any_tool;
+        Begun layer{std::move(plan), at, loaded};
         at = motion::start_after(layer.plan, at);
         return layer;
       },
       [&](std::size_t, Begun layer) {
-        const auto planned = motion::plan_layer(rules, std::move(layer.plan), layer.start);
+        const auto planned = motion::plan_layer({rules, of_tools, layer.loaded}, std::move(layer.plan), layer.start);
         const auto& plan = planned.plan;
         if (use == PlanFor::figures) return PackedLayer{{plan.z, plan.height, plan.time}, {}, {}, planned.statistics};
         return PackedLayer{
@@ -273,30 +357,53 @@ bool has_bottom(const TimelineLayer& layer, std::size_t models) {
                      [&](const auto& part) { return part.object < models && part.layer < Sample::own_kind; });
 }
 
+/// What each pass is ordered by, and what all of them have agreed on.
+std::pair<std::vector<travel::Prepared>, std::vector<travel::Linked>> prepared_and_linked(
+    const TravelSettings& settings, std::vector<travel::LayerInput> inputs) {
+  std::vector<travel::Prepared> prepared;
+  prepared.reserve(inputs.size());  // they stay where they are
+  travel::Linker linker(settings);
+  tasks::parallel_in_order(
+      inputs.size(), [&](std::size_t i) { return travel::prepare_order(settings, std::move(inputs[i])); },
+      [&](std::size_t i, travel::Prepared layer) {
+        prepared.push_back(std::move(layer));
+        linker.add(prepared[i]);
+      });
+  auto linked = linker.linked();
+  return {std::move(prepared), std::move(linked)};
+}
+
 }  // namespace
 
-PlannedPlate plan_plate(Scopes& scopes, const Plate& plate, const Sequence& sequence, std::vector<PrintedLayers> layers,
-                        std::vector<SupportOf> supports, Report& report, PlanFor use) {
+PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, const Sequence& sequence,
+                        std::vector<PrintedLayers> layers, std::vector<SupportOf> supports, Report& report,
+                        PlanFor use) {
   const Stopwatch stopwatch(report.timings_ms[Stage::travel]);
   const ScopeId on_first_layer = scopes.on_first_layer(0);
   const Settings& settings = scopes[0];
   auto copies = copies_of(plate);
   auto with_all = with_supports(sequence, std::move(supports), copies, layers);
-  put_on_raft(settings, with_all, copies, layers);
+  put_on_raft(scopes, with_all, copies, layers);
   const auto timeline = timeline_of(with_all, stacks_of(copies, layers));
   const std::size_t count = timeline.size();
   const auto read = travel::areas_read(settings.travel);
+  const bool around_support = settings.travel.travel_avoid_supports && copies.size() > copies_on(plate);
+  auto standing = tasks::parallel_map(
+      count, [&](std::size_t i) { return around_support ? standing_support(timeline[i], copies, layers) : Regions{}; });
   auto inputs = tasks::parallel_map(count, [&](std::size_t i) {
     auto input = plate_layer(timeline[i], copies, sequence.size() == 1, layers, read);
     input.scope = input.time.first() ? on_first_layer : 0;
-    for (auto& bead : input.adhesion) bead.scope = input.scope;
+    input.support = std::move(standing[i]);
     return input;
   });
 
   PlannedPlate out;
   auto& plan = out.plan;
   plan.objects = labels_of(plate);
-  add_adhesion_to_rises(settings, inputs, plan.notices);
+  const auto passes = passes_of(settings, tools, scopes, inputs, plan.notices);
+  const auto tower =
+      passes.has_tower() ? Regions{{tools::tower_outline(settings.tools, passes.size, passes.corner), {}}} : Regions{};
+  add_adhesion_to_rises(settings, inputs, tower, plan.notices);
   const double filament_mm = to_mm(settings.material.filament_diameter);
   for (auto& input : inputs) {
     input.z += settings.machine.z_offset;
@@ -305,21 +412,17 @@ PlannedPlate plan_plate(Scopes& scopes, const Plate& plate, const Sequence& sequ
     input.nozzle = settings.machine.nozzle_diameter;
   }
   for (auto& notice : check(settings)) plan.notices.push_back(std::move(notice));
+  inputs = split(passes, settings, tools, scopes, std::move(inputs));
 
-  std::vector<travel::Prepared> prepared;
-  prepared.reserve(count);
-  travel::Linker linker(settings.travel);
-  tasks::parallel_in_order(
-      count, [&](std::size_t i) { return travel::prepare_order(settings.travel, std::move(inputs[i])); },
-      [&](std::size_t i, travel::Prepared layer) {
-        prepared.push_back(std::move(layer));
-        linker.add(prepared[i]);
-      });
-  const auto linked = linker.linked();
-  auto ordered =
-      tasks::parallel_map(count, [&](std::size_t i) { return travel::order(settings.travel, prepared[i], linked[i]); });
+  auto [prepared_passes, linked_passes] = prepared_and_linked(settings.travel, std::move(inputs));
+  auto& prepared = prepared_passes;  // clang 14 takes no structured binding into a lambda
+  const auto& linked = linked_passes;
+  auto ordered = tasks::parallel_map(
+      prepared.size(), [&](std::size_t i) { return travel::order(settings.travel, prepared[i], linked[i]); });
   if (report.tours) *report.tours = tours_of(prepared, ordered);
-  auto planned = plan_moves(scopes, std::move(prepared), std::move(ordered), plan.notices, use);
+  const auto pauses = pauses_of(settings.tools, timeline, plan.notices);
+  auto planned =
+      plan_moves({scopes, tools, passes, pauses}, std::move(prepared), std::move(ordered), plan.notices, use);
   for (std::size_t i = 0; i < planned.size(); ++i) {
     auto& layer = planned[i];
     out.statistics.append(layer.statistics);

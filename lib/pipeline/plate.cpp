@@ -3,9 +3,12 @@
 
 #include "core/error.h"
 #include "core/file_bytes.h"
+#include "core/hash.h"
 #include "mesh/placement.h"
 #include "mesh/read.h"
 #include "pipeline/cached.h"
+#include "pipeline/model_parts.h"
+#include "pipeline/provenance.h"
 #include "pipeline/stopwatch.h"
 #include "preview/thumbnail.h"
 #include "settings/value.h"
@@ -55,6 +58,42 @@ mesh::Loaded read_model(const std::string& path, double scale, StageCache* cache
       .take();
 }
 
+/// A model as it is typed: one file, or the parts of one object.
+struct Typed {
+  mesh::Loaded model;
+  std::vector<std::optional<int>> tools;  ///< of each object of the file, or part; where one is named
+  bool one_object = false;
+};
+Typed read_typed(const std::string& typed, double scale, StageCache* cache) {
+  const auto parts = parts_of(typed);
+  Typed out;
+  for (const auto& part : parts) {
+    auto model = read_model(part.file, scale, cache);
+    out.tools.insert(out.tools.end(), model.objects.size(), part.tool);
+    if (out.tools.size() == model.objects.size()) {
+      out.model = std::move(model);
+      continue;
+    }
+    out.one_object = true;
+    auto& all = out.model;
+    all.sha256 = sha256(all.sha256 + model.sha256);
+    all.triangles_in_file += model.triangles_in_file;
+    std::move(model.objects.begin(), model.objects.end(), std::back_inserter(all.objects));
+    std::move(model.notices.begin(), model.notices.end(), std::back_inserter(all.notices));
+  }
+  out.one_object = out.one_object || parts.size() > 1;
+  out.model.path = typed;
+  return out;
+}
+
+/// The tool that is named behind a model's file holds for that object, or part of one.
+void give_tool(std::optional<int> tool, Overlay& overlay, const std::string& what, Scope scope,
+               const std::string& typed) {
+  if (!tool) return;
+  overlay.what = what, overlay.scope = scope;
+  overlay.add("extruder_nr", std::to_string(*tool), typed);
+}
+
 /// The eight corners and twelve triangles of a box. @throws Error{usage}
 Mesh box_mesh(const std::string& source, double scale) {
   std::vector<double> at;
@@ -86,14 +125,18 @@ Mesh box_mesh(const std::string& source, double scale) {
 }
 
 /// What the command line or a job lays beside a model.
-void add_marks(const Job& job, std::vector<mesh::Loaded>& loaded) {
+void add_marks(const Job& job, std::vector<mesh::Loaded>& loaded, Report& report) {
   for (const auto& mark : job.marks) {
     std::vector<Mesh> meshes;
-    if (mark.source.starts_with("box:"))
+    Report::Mark told{mark.model, std::string(mark_key(mark.kind)), mark.source, {}};
+    if (mark.source.starts_with("box:")) {
       meshes.push_back(box_mesh(mark.source, job.placement.scale));
-    else
-      for (auto& object : mesh::read_file(mark.source, {.scale = job.placement.scale}).objects)
-        meshes.push_back(std::move(object.mesh));
+    } else {
+      auto file = mesh::read_file(mark.source, {.scale = job.placement.scale});
+      told.sha256 = file.sha256;
+      for (auto& object : file.objects) meshes.push_back(std::move(object.mesh));
+    }
+    report.marks.push_back(std::move(told));
     for (auto& object : loaded[mark.model].objects)
       for (const Mesh& mesh : meshes) object.marks.push_back({mark.kind, false, mesh});
   }
@@ -103,13 +146,25 @@ void add_marks(const Job& job, std::vector<mesh::Loaded>& loaded) {
 
 Plate place_models(const Job& job, Report& report, StageCache* cache) {
   const Stopwatch stopwatch(report.timings_ms[Stage::read]);
-  auto loaded = tasks::parallel_map(
-      job.models.size(), [&](std::size_t i) { return read_model(job.models[i], job.placement.scale, cache); });
-  add_marks(job, loaded);
+  auto typed = tasks::parallel_map(
+      job.models.size(), [&](std::size_t i) { return read_typed(job.models[i], job.placement.scale, cache); });
+  std::vector<mesh::Loaded> loaded;
+  for (auto& each : typed) loaded.push_back(std::move(each.model));
+  add_marks(job, loaded, report);
   Plate out;
-  for (const auto& model : loaded) {
+  for (std::size_t m = 0; m < loaded.size(); ++m) {
+    const auto& model = loaded[m];
+    const auto& [moved, tools, one_object] = typed[m];
     note_model(model, report);
-    for (std::size_t i = 0; i < model.objects.size(); ++i) out.objects.push_back({name_of(model, i), {Volume{}}});
+    if (one_object) out.objects.push_back({name_of(model, 0), std::vector<Volume>(model.objects.size())});
+    for (std::size_t i = 0; i < model.objects.size(); ++i) {
+      const auto name = name_of(model, i);
+      if (!one_object) out.objects.push_back({name, {Volume{}}});
+      auto& object = out.objects.back();
+      const auto what = fmt::format("{} '{}'", one_object ? "part" : "object", name);
+      give_tool(tools[i], one_object ? object.volumes[i].overlay : object.overlay, what,
+                one_object ? Scope::region : Scope::object, model.path);
+    }
   }
 
   const auto& machine = job.settings.machine;
@@ -128,13 +183,25 @@ Plate place_models(const Job& job, Report& report, StageCache* cache) {
   if (job.audit == audit::Mode::reject) mesh::check_fits(placed, bed, job.settings.audit.audit_tolerance);
 
   auto object = out.objects.begin();
-  for (auto& model : placed)
+  for (std::size_t m = 0; m < placed.size(); ++m) {
+    auto& model = placed[m];
+    if (typed[m].one_object) {
+      for (std::size_t i = 0; i < model.objects.size(); ++i) {
+        object->volumes[i].mesh = std::move(model.objects[i]);
+        std::move(model.marks[i].begin(), model.marks[i].end(), std::back_inserter(object->marks));
+      }
+      object->hull = std::move(model.hull);
+      object->copies = model.instances;
+      ++object;
+      continue;
+    }
     for (std::size_t i = 0; i < model.objects.size(); ++i, ++object) {
       object->volumes.front().mesh = std::move(model.objects[i]);
       object->hull = std::move(model.footprints[i]);
       object->marks = std::move(model.marks[i]);
       object->copies = model.instances;
     }
+  }
   return out;
 }
 

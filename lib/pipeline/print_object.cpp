@@ -6,7 +6,9 @@
 #include "model/flow.h"
 #include "overhangs/overhangs.h"
 #include "pipeline/cached.h"
+#include "pipeline/key_bytes.h"
 #include "pipeline/object_scopes.h"
+#include "pipeline/prepared_infill.h"
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
 #include "pipeline/support_object.h"
@@ -69,32 +71,17 @@ StageKey key_of(const ObjectScopes& scopes, const HandedTo<stage>& handed) {
 
 StageKey slice_key(const Mesh& mesh, const std::vector<mesh::Mark>& marks, const ObjectScopes& scopes,
                    const SliceHands& handed) {
-  const auto bytes = [](const auto& items) {
-    return std::string_view(reinterpret_cast<const char*>(items.data()), items.size() * sizeof(items[0]));
-  };
   auto key = key_of<Stage::slice>(scopes, handed);
-  key.with(sha256(bytes(mesh.vertices))).with(sha256(bytes(mesh.triangles)));
+  key.with(sha256(bytes_of(mesh)));
   for (const auto& mark : marks)
-    if (mark.kind == mesh::MarkKind::negative)
-      key.with(sha256(bytes(mark.mesh.vertices))).with(sha256(bytes(mark.mesh.triangles)));
+    if (mark.kind == mesh::MarkKind::negative) key.with(sha256(bytes_of(mark.mesh)));
   return key;
 }
 
 /// What rests on support is printed otherwise than what hangs.
 StageKey with_held(StageKey key, const std::vector<Regions>& held) {
   std::string bytes;
-  const auto add = [&](const Ring& ring) {
-    const auto size = static_cast<std::uint32_t>(ring.size());
-    bytes.append(reinterpret_cast<const char*>(&size), sizeof(size));
-    bytes.append(reinterpret_cast<const char*>(ring.data()), ring.size() * sizeof(Point));
-  };
-  for (const auto& regions : held) {
-    for (const auto& region : regions) {
-      add(region.outer);
-      for (const auto& hole : region.holes) add(hole);
-    }
-    add({});
-  }
+  for (const auto& regions : held) bytes += bytes_of(regions);
   if (!held.empty()) key.with(sha256(bytes));
   return key;
 }
@@ -238,7 +225,7 @@ std::vector<infill::LayerAreas> find_areas(const Shelled& object, std::size_t fi
   std::vector<infill::LayerAreas> out(count);
   for (const ScopeId id : asked) {
     const auto& [shells, infill, nozzle, width, overlap] = object.handed[id];
-    auto found = infill::find_areas(shells, infill, {object.layers, object.box, nozzle}, first, count);
+    auto found = infill::find_areas(shells, infill, {object.layers, object.box, nozzle, overlap}, first, count);
     if (asked.size() == 1) return found;
     for (std::size_t i = 0; i < count; ++i) put_back(taken(object, id, first + i, found[i]), out[i]);
   }
@@ -304,15 +291,6 @@ FillLayer fill_of_areas(const std::vector<Told>& told, const infill::LayerAreas&
   return out;
 }
 
-double outline_mm(const Regions& regions) {
-  double out = 0;
-  for (const auto& region : regions) {
-    out += perimeter_of(region.outer);
-    for (const auto& hole : region.holes) out += perimeter_of(hole);
-  }
-  return out / 1000;
-}
-
 /// What the beads of a layer grow with. @param inside of its walls, as `inside_of` has it, whether it has beads or not
 LayerMeasure measure_of(const SlicedLayer& layer, const Regions& inside, const infill::LayerAreas& areas) {
   LayerMeasure out;
@@ -325,6 +303,7 @@ LayerMeasure measure_of(const SlicedLayer& layer, const Regions& inside, const i
   out[Growth::layers] = {1, 1};
   for (const auto& part : areas) {
     add(Growth::solid, part.solid);
+    add(Growth::solid, part.belted);
     add(Growth::top, part.top);
     add(Growth::sparse, part.sparse);
     add(Growth::sparse, part.combined, part.combined_layers);
@@ -345,11 +324,12 @@ void measure(const Running& job, const WallHands& handed, const Cuts& cuts, cons
 }
 
 /// Shells and infill.
+/// @param at where the object's first copy stands
 /// @param looked_at is told what fills the layers, before it is laid
 template <class LookedAt>
-Fills fill_object(const FillHands& handed, const Scopes& scopes, const Cuts& cuts, const std::vector<Areas>& areas,
-                  const Walls& walls, const std::vector<Regions>& held, const Sample& sample,
-                  const LookedAt& looked_at) {
+Fills fill_object(const FillHands& handed, const WallHands& walled, const Scopes& scopes, const ToolScopes& tools,
+                  const Cuts& cuts, const std::vector<Areas>& areas, const Walls& walls,
+                  const std::vector<Regions>& held, const Sample& sample, Point at, const LookedAt& looked_at) {
   Shelled object{handed, scopes, areas, std::vector<infill::ShellLayer>(cuts.size()), {}};
   for (std::size_t i = 0; i < cuts.size(); ++i)
     object.layers[i] = {cuts[i].layer.z, cuts[i].layer.height, &cuts[i].layer.regions, &walls[i].inside,
@@ -359,6 +339,9 @@ Fills fill_object(const FillHands& handed, const Scopes& scopes, const Cuts& cut
   looked_at(parts);
   Box box;  // patterns hang on its centre, so they move with the object
   for (const auto& cut : cuts) box.add(box_of(cut.layer.regions));
+  const Point origin = box.empty() ? Point{} : box.centre();
+  const PreparedInfill prepared(handed, scopes_asked(object, 0, cuts.size()), object.layers, object.box, parts, origin,
+                                at);
   // Layers are let go of as they are filled: what the next one must know of their bridges is set aside.
   std::vector<std::vector<infill::BridgeArea>> bridges(cuts.size());
   for (std::size_t i = 0; i < cuts.size(); ++i)
@@ -367,7 +350,8 @@ Fills fill_object(const FillHands& handed, const Scopes& scopes, const Cuts& cut
     if (!sample.has(i)) return FilledLayer{};
     const auto& layer = cuts[i].layer;
     const auto fill = [&](ScopeId scope, const infill::LayerAreas& own) {
-      const auto& [shells, infill, nozzle, wall_line_width, overlap_factor] = handed[scope];
+      const auto& [shells, infill, nozzle, wall_line_width, overlap_factor] = handed[tools.infill_of(scope, scopes)];
+      const auto& [own_walls, same_nozzle] = walled[scope];
       return infill::fill(infill, shells,
                           {.areas = own,
                            .index = i,
@@ -376,7 +360,11 @@ Fills fill_object(const FillHands& handed, const Scopes& scopes, const Cuts& cut
                            .nozzle = nozzle,
                            .overlap_factor = overlap_factor,
                            .wall_line_width = wall_line_width.value_or(0),
-                           .origin = box.empty() ? Point{} : box.centre(),
+                           .outer_wall_line_width = own_walls.wall_line_width_0.value_or(0),
+                           .wall_count = own_walls.wall_line_count,
+                           .origin = origin,
+                           .reach = box.empty() ? 0 : std::max(box.size().x, box.size().y) / 2,
+                           .prepared = prepared.of(object.scope_of(scope)),
                            .bridges_below = i > 0 ? std::span<const infill::BridgeArea>(bridges[i - 1])
                                                   : std::span<const infill::BridgeArea>{}});
     };
@@ -386,6 +374,7 @@ Fills fill_object(const FillHands& handed, const Scopes& scopes, const Cuts& cut
     for (auto& part : std::exchange(parts[i], {})) {
       out.skin.insert(out.skin.end(), part.top.begin(), part.top.end());
       std::move(part.solid.begin(), part.solid.end(), std::back_inserter(out.skin));
+      std::move(part.belted.begin(), part.belted.end(), std::back_inserter(out.skin));
       std::move(part.top.begin(), part.top.end(), std::back_inserter(out.top));
       std::move(part.sparse.begin(), part.sparse.end(), std::back_inserter(out.sparse));
       std::move(part.combined.begin(), part.combined.end(), std::back_inserter(out.sparse));
@@ -407,8 +396,9 @@ void tell_scopes(const Areas& areas, Beads& beads) {
 }
 
 /// @param at where the object's first copy stands: places are told as they are on the bed
-PrintedLayers put_together(Cuts cuts, const std::vector<Areas>& areas, Walls walls, Fills fills, Point at,
-                           Notices& notices) {
+/// @param held of each layer, what rests on support; empty: nothing does
+PrintedLayers put_together(Cuts cuts, const std::vector<Areas>& areas, Walls walls, Fills fills,
+                           const std::vector<Regions>& held, Point at, Notices& notices) {
   PrintedLayers out(cuts.size());
   for (auto& layer : walls) append(notices, std::move(layer.notices), at);
   for (std::size_t i = 0; i < out.size(); ++i) {
@@ -424,6 +414,7 @@ PrintedLayers put_together(Cuts cuts, const std::vector<Areas>& areas, Walls wal
               std::move(walls[i].beads)};
     std::move(fill.beads.begin(), fill.beads.end(), std::back_inserter(out[i].beads));
     tell_scopes(areas[i], out[i].beads);
+    if (i < held.size()) mark_supported(held[i], out[i].beads);
     std::move(fill.notices.begin(), fill.notices.end(), std::back_inserter(notices));
   }
   return out;
@@ -449,8 +440,8 @@ Result<Cuts> slice_object(const Running& job, const Object& object, const Object
 
 }  // namespace
 
-PrintedLayers print_object(const Running& job, const Scopes& all_scopes, const ObjectScopes& scopes,
-                           const Object& object, SupportOf& support) {
+PrintedLayers print_object(const Running& job, const Scopes& all_scopes, const ToolScopes& tools,
+                           const ObjectScopes& scopes, const Object& object, SupportOf& support) {
   auto& notices = job.report.warnings;
   const Point at = object.copies.front();
   const auto slice_hands = hand<Stage::slice>(all_scopes);
@@ -458,13 +449,18 @@ PrintedLayers print_object(const Running& job, const Scopes& all_scopes, const O
   auto sliced = slice_object(job, object, scopes, slice_hands, areas);
   append(notices, slice::notices_of(*sliced, object.name), at);
 
-  support_object(all_scopes, scopes, object, *sliced, support, job.report);
+  const auto sliced_by = [&] {
+    std::vector<std::string> out;
+    for (const auto& volume : object.volumes)
+      out.push_back(slice_key(volume.mesh, object.marks, scopes, slice_hands).hash());
+    return out;
+  };
+  support_object(job, all_scopes, scopes, object, *sliced, sliced_by, support);
 
   const auto wall_hands = hand<Stage::walls>(all_scopes);
   const auto walled_by = [&] {
     auto key = key_of<Stage::walls>(scopes, wall_hands);
-    for (const auto& volume : object.volumes)
-      key.with(slice_key(volume.mesh, object.marks, scopes, slice_hands).hash());
+    for (const auto& hash : sliced_by()) key.with(hash);
     return with_held(std::move(key), support.held);
   };
   Running kept = job;
@@ -472,16 +468,26 @@ PrintedLayers print_object(const Running& job, const Scopes& all_scopes, const O
   auto walled = run_stage<Stage::walls>(
       kept, walled_by, [&] { return build_walls(wall_hands, all_scopes, *sliced, areas, support.held, job.sample); });
 
+  tell_missing_support(job, all_scopes, scopes, object, *sliced, *walled);
   const auto fill_hands = hand<Stage::infill>(all_scopes);
   const auto looked_at = [&](const std::vector<infill::LayerAreas>& parts) {
     if (!job.sample.all()) measure(job, wall_hands, *sliced, areas, parts, object.copies.size());
   };
-  auto filled = run_stage<Stage::infill>(
-      kept, [&] { return key_of<Stage::infill>(scopes, fill_hands).with(walled_by().hash()); },
-      [&] {
-        return fill_object(fill_hands, all_scopes, *sliced, areas, *walled, support.held, job.sample, looked_at);
-      });
-  return put_together(std::move(sliced).take(), areas, std::move(walled).take(), std::move(filled).take(), at, notices);
+  const auto filled_by = [&] {
+    auto key = key_of<Stage::infill>(scopes, fill_hands).with(walled_by().hash()).with(files_of_infill(all_scopes, at));
+    if (tools.several())
+      for (const auto& from : scopes)
+        for (const ScopeId id : from.of_volume) key.with(fill_hands.bytes_of(tools.infill_of(id, all_scopes)));
+    return key;
+  };
+  auto filled = run_stage<Stage::infill>(kept, filled_by, [&] {
+    return fill_object(fill_hands, wall_hands, all_scopes, tools, *sliced, areas, *walled, support.held, job.sample, at,
+                       looked_at);
+  });
+  auto out = put_together(std::move(sliced).take(), areas, std::move(walled).take(), std::move(filled).take(),
+                          support.held, at, notices);
+  for (auto& layer : out) tools.tell(layer.beads, all_scopes);
+  return out;
 }
 
 }  // namespace weft::pipeline

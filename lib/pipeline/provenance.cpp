@@ -6,8 +6,11 @@
 #include "profile/profile.h"
 #include "settings/value.h"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <filesystem>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -85,13 +88,49 @@ Placement placement_from(std::string_view text, const std::string& path) {
   return p;
 }
 
+struct MarkRow {
+  mesh::MarkKind kind;
+  std::string_view key;
+};
+constexpr std::array mark_rows{MarkRow{mesh::MarkKind::support_enforcer, "support_enforcer"},
+                               MarkRow{mesh::MarkKind::support_blocker, "support_blocker"},
+                               MarkRow{mesh::MarkKind::support, "support_mesh"}};
+
+/// The mark that a line tells of: `; weft_support_enforcer = 0 SHA256 NAME`.
+std::optional<Provenance::Mark> mark_from(std::string_view line, const std::string& path) {
+  for (const auto& row : mark_rows) {
+    const auto begins = fmt::format("; weft_{} = ", row.key);
+    if (!line.starts_with(begins)) continue;
+    line.remove_prefix(begins.size());
+    Provenance::Mark out;
+    out.kind = row.kind;
+    out.model = number<std::size_t>(next_word(line, ' '), path);
+    if (!line.starts_with("box:")) out.sha256 = next_word(line, ' ');
+    out.name = line;
+    return out;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
-std::string provenance_lines(const std::vector<Report::Model>& models, const Placement& placement) {
+std::string_view mark_key(mesh::MarkKind kind) {
+  const auto row = std::find_if(mark_rows.begin(), mark_rows.end(), [&](const auto& r) { return r.kind == kind; });
+  return row == mark_rows.end() ? std::string_view{} : row->key;
+}
+
+std::string provenance_lines(const std::vector<Report::Model>& models, const std::vector<Report::Mark>& marks,
+                             const Placement& placement) {
   std::string out;
   for (const auto& model : models)
     out += fmt::format("{}{} {}\n", model_key, model.sha256,
                        escape::gcode_name(std::filesystem::path(model.file).filename().string()));
+  for (const auto& mark : marks)
+    out += fmt::format(
+        "; weft_{} = {} {}\n", mark.kind, mark.model,
+        mark.sha256.empty()
+            ? mark.source
+            : mark.sha256 + " " + escape::gcode_name(std::filesystem::path(mark.source).filename().string()));
   if (const auto text = text_of(placement); !text.empty()) out += fmt::format("{}{}\n", placement_key, text);
   return out;
 }
@@ -120,6 +159,8 @@ Provenance provenance_of(std::string_view gcode, const std::string& path) {
       line.remove_prefix(model_key.size());
       const auto sha256 = next_word(line, ' ');
       out.models.push_back({std::string(sha256), std::string(line)});
+    } else if (auto mark = mark_from(line, path)) {
+      out.marks.push_back(std::move(*mark));
     } else if (line.starts_with(placement_key)) {
       out.placement = placement_from(line.substr(placement_key.size()), path);
     }
@@ -127,6 +168,11 @@ Provenance provenance_of(std::string_view gcode, const std::string& path) {
   if (!has_settings || out.models.empty())
     throw Error{Error::Kind::file, "does not say how it was made", path,
                 "it lacks weft_settings or weft_model: was it cut short or edited?"};
+  for (const auto& mark : out.marks)
+    if (mark.model >= out.models.size())
+      throw Error{Error::Kind::file,
+                  fmt::format("marks support of model {}, and names {}", mark.model, out.models.size()), path,
+                  "was it edited?"};
   Profile profile;
   for (const auto& entry : parse_ini(settings, path)) apply_value(profile, entry.key, entry.value, path);
   out.settings = std::move(profile.settings);

@@ -13,8 +13,15 @@ struct Provenance {
   struct Model {
     std::string sha256, name;  ///< of the file, without its folder: G-code does not tell of the machine it was made on
   };
+  /// What marks something of a model for support.
+  struct Mark {
+    std::size_t model = 0;  ///< index into `models`
+    mesh::MarkKind kind = mesh::MarkKind::support_enforcer;
+    std::string sha256, name;  ///< of the file; of a box only its text, as name
+  };
   std::string version;
   std::vector<Model> models;
+  std::vector<Mark> marks;
   Placement placement;
   Settings settings;
   audit::Mode audit = audit::Mode::reject;
@@ -22,7 +29,12 @@ struct Provenance {
 
 /// The lines that say it, each a comment: `; weft_model = SHA256 NAME`, and `; weft_placement = …` where it is not the
 /// default. Settings stand in a block of their own.
-std::string provenance_lines(const std::vector<Report::Model>& models, const Placement& placement);
+/// Marks are `; weft_support_enforcer = NUMBER SHA256 NAME`, or `NUMBER box:…`; the number is that of the model.
+std::string provenance_lines(const std::vector<Report::Model>& models, const std::vector<Report::Mark>& marks,
+                             const Placement& placement);
+
+/// How a mark is called in options, jobs and files: support_enforcer, support_blocker, support_mesh.
+std::string_view mark_key(mesh::MarkKind kind);
 
 /// Reads them back. @param path for messages
 /// @throws Error{file} when the text is not weft's, or lacks what is needed; Error{settings} for settings that this

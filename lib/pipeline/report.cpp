@@ -47,6 +47,40 @@ Json features_of(const Report& r) {
   return out;
 }
 
+Json walls_of(const Report::Walls& w) {
+  Json over_air = Json::object();
+  for (std::size_t quarter = 0; quarter < w.over_air_mm.size(); ++quarter)
+    over_air["to_" + std::to_string(25 * (quarter + 1)) + "_percent"] = rounded3(w.over_air_mm[quarter]);
+  over_air["whole"] = rounded3(w.whole_over_air_mm);
+  return {{"beads", w.beads},
+          {"variable_width_mm", rounded3(w.variable_width_mm)},
+          {"flow_compensated_mm", rounded3(w.flow_compensated_mm)},
+          {"min_flow_ratio", rounded3(w.min_flow_ratio)},
+          {"min_width_mm", rounded3(w.min_width_mm)},
+          {"over_air_mm", std::move(over_air)}};
+}
+
+Json support_of(const Report& r) {
+  const auto& s = r.support;
+  double mm3 = 0, seconds = 0;  // with a raft, where there is one
+  for (const Role role : {Role::support, Role::support_interface}) {
+    const auto& f = r.features[static_cast<std::size_t>(role)];
+    mm3 += f.mm3, seconds += f.s;
+  }
+  return {{"needed_mm2", rounded3(s.needed_mm2)},
+          {"bridged_mm2", rounded3(s.bridged_mm2)},
+          {"covered_mm2", rounded3(s.needed_mm2 - s.left_mm2)},
+          {"left_mm2", rounded3(s.left_mm2)},
+          {"contact_mm2", rounded3(s.contact_mm2)},
+          {"on_part_mm2", rounded3(s.on_part_mm2)},
+          {"islands", s.islands},
+          {"tips", s.tips},
+          {"trunks", s.trunks},
+          {"slenderest", rounded3(s.slenderest)},
+          {"mm3", rounded3(mm3)},
+          {"s", rounded3(seconds)}};
+}
+
 Json tools_of(const Report& r) {
   Json out = Json::array();
   for (const auto& t : r.tools)
@@ -112,17 +146,8 @@ std::string to_json(const Report& r) {
                    {"total", rounded3(r.cost->total())},
                    {"currency", r.currency}};
   out["features"] = features_of(r);
-  out["walls"] = {{"beads", r.walls.beads},
-                  {"variable_width_mm", rounded3(r.walls.variable_width_mm)},
-                  {"flow_compensated_mm", rounded3(r.walls.flow_compensated_mm)},
-                  {"min_flow_ratio", rounded3(r.walls.min_flow_ratio)},
-                  {"min_width_mm", rounded3(r.walls.min_width_mm)}};
-  if (r.support.needed_mm2 > 0 || r.support.bridged_mm2 > 0)
-    out["support"] = {{"needed_mm2", rounded3(r.support.needed_mm2)},
-                      {"bridged_mm2", rounded3(r.support.bridged_mm2)},
-                      {"left_mm2", rounded3(r.support.left_mm2)},
-                      {"tips", r.support.tips},
-                      {"trunks", r.support.trunks}};
+  out["walls"] = walls_of(r.walls);
+  if (r.support.needed_mm2 > 0 || r.support.bridged_mm2 > 0) out["support"] = support_of(r);
   out["travel"] = {{"mm", rounded3(r.travel.mm)},
                    {"moves", r.travel.moves},
                    {"retractions", r.travel.retractions},

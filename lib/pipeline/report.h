@@ -24,12 +24,21 @@ struct Report {
     double volume_mm3 = 0;
     std::vector<std::string> repairs;
   };
+  /// What was laid beside a model for support.
+  struct Mark {
+    std::size_t model = 0;       ///< its place in the list of models
+    std::string kind;            ///< support_enforcer, support_blocker, support_mesh
+    std::string source, sha256;  ///< a file and what it held, or `box:…` and nothing
+  };
   struct Feature {
     double mm = 0, mm3 = 0, s = 0;
   };
   struct Walls {
     std::size_t beads = 0;
     double variable_width_mm = 0, flow_compensated_mm = 0, min_flow_ratio = 1, min_width_mm = 0;
+    /// Length by how much of the width lies over air: more than a tenth, a quarter, a half, three quarters of it.
+    std::array<double, 4> over_air_mm{};
+    double whole_over_air_mm = 0;  ///< of the last of them: with all of it
   };
   struct Tool {
     double filament_mm = 0, filament_mm3 = 0, filament_g = 0;
@@ -41,7 +50,10 @@ struct Report {
   };
   struct Support {
     double needed_mm2 = 0, bridged_mm2 = 0, left_mm2 = 0;  ///< of overhang: all, crossed by strands, out of reach
+    double contact_mm2 = 0, on_part_mm2 = 0;               ///< right below the part; what stands on it
+    std::size_t islands = 0;                               ///< places that begin in the air
     std::size_t tips = 0, trunks = 0;                      ///< of branches: where they begin, and on what they stand
+    double slenderest = 0;                                 ///< of trunks: height by width
   };
   struct Violation {
     std::string move, feature, side, object, line_text, setting;  ///< setting: the custom G-code it came from, or ""
@@ -66,6 +78,7 @@ struct Report {
   Status status = Status::failed;
   std::string error;  ///< why it failed or was rejected, as on standard error
   std::vector<Model> models;
+  std::vector<Mark> marks;
   std::string settings_sha256, gcode_sha256;  ///< of the G-code: "" when not asked for (Job), or there is none
   std::size_t layers = 0;
   double height_mm = 0, print_time_s = 0;

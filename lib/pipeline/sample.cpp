@@ -70,6 +70,9 @@ void add_walls(Statistics& out, const Statistics& above, double factor) {
   out.walls.beads += static_cast<std::int64_t>(factor * static_cast<double>(above.walls.beads));
   out.walls.variable_width_mm += factor * above.walls.variable_width_mm;
   out.walls.flow_compensated_mm += factor * above.walls.flow_compensated_mm;
+  for (std::size_t i = 0; i < out.walls.over_air_mm.size(); ++i)
+    out.walls.over_air_mm[i] += factor * above.walls.over_air_mm[i];
+  out.walls.whole_over_air_mm += factor * above.walls.whole_over_air_mm;
 }
 
 void add_filament(Statistics& out, const Statistics& above, double factor) {
@@ -141,6 +144,15 @@ Statistics extrapolated(const Statistics& bottom, const Statistics& above, const
   out.print_time_s += (parts_s > 0 ? more_s / parts_s : 0) * above.print_time_s;
   out.layer_s.clear();  // not known one by one
   return out;
+}
+
+double outline_mm(const Regions& regions) {
+  double out = 0;
+  for (const auto& region : regions) {
+    out += perimeter_of(region.outer);
+    for (const auto& hole : region.holes) out += perimeter_of(hole);
+  }
+  return out / 1000;
 }
 
 }  // namespace weft::pipeline

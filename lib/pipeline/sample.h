@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include "core/polygon.h"
 #include "model/statistics.h"
 
 #include <array>
@@ -38,6 +39,9 @@ struct LayerMeasure {
 struct SampleMeasure {
   LayerMeasure planned, left_out;
 };
+
+/// Length of all rings of the regions.
+double outline_mm(const Regions& regions);
 
 /// Has it beads of models?
 bool has_beads(const Statistics& layer);

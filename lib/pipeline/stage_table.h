@@ -25,6 +25,7 @@ struct Cut;
 namespace pipeline {
 
 struct FilledLayer;
+struct Supports;
 
 enum class Stage : std::uint8_t { read, slice, support, walls, infill, travel, gcode, audit };
 
@@ -53,7 +54,10 @@ inline constexpr std::tuple stage_table{
     stage<mesh::Loaded>(Stage::read, "read", "", 0, 1),
     stage<std::vector<slice::Cut>>(Stage::slice, "slice", "slicing", 0.05, 2,
                                    WholeGroup{&Settings::layers, layer_schema}),
-    stage<NotKept>(Stage::support, "support", "", 0, 1),
+    stage<Supports>(Stage::support, "support", "", 0.1, 1, WholeGroup{&Settings::support, support_schema},
+                    WholeGroup{&Settings::layers, layer_schema},
+                    OneValue{&Settings::machine, &MachineSettings::nozzle_diameter},
+                    OneValue{&Settings::walls, &WallSettings::wall_line_width_0}),
     stage<std::vector<WallLayer>>(Stage::walls, "walls", "walls", 0.15, 2, WholeGroup{&Settings::walls, wall_schema},
                                   OneValue{&Settings::machine, &MachineSettings::nozzle_diameter}),
     stage<std::vector<FilledLayer>>(

@@ -27,15 +27,15 @@ struct PrintedLayer {
   Regions top;      ///< seen from above
   Regions sparse;
   Regions over_air;  ///< nothing lies below
-  Beads beads;  ///< walls of each part in the order they are printed, then fills
+  Beads beads;       ///< walls of each part in the order they are printed, then fills
 };
 using PrintedLayers = std::vector<PrintedLayer>;
 
 /// Slice, walls, shells and infill of one object.
 /// @param scopes those of the object (object_scopes.h), all of which are among `all`
 /// @param support what stands under it (support_object.h): its room is given, the rest is made
-PrintedLayers print_object(const Running& job, const Scopes& all, const ObjectScopes& scopes, const Object& object,
-                           SupportOf& support);
+PrintedLayers print_object(const Running& job, const Scopes& all, const ToolScopes& tools, const ObjectScopes& scopes,
+                           const Object& object, SupportOf& support);
 
 /// A plan of which each layer's steps wait as bytes (codec.h), which take a third of the memory.
 struct PlannedPlate {
@@ -57,8 +57,10 @@ enum class PlanFor { writing, figures };
 /// times.
 /// @param sequence of the copies, numbered object by object
 /// @param supports of each object
+/// @param tools which print it
 /// @param scopes 0 is the plate's own; its first layer's is added
-PlannedPlate plan_plate(Scopes& scopes, const Plate& plate, const Sequence& sequence, std::vector<PrintedLayers> layers,
-                        std::vector<SupportOf> supports, Report& report, PlanFor use = PlanFor::writing);
+PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, const Sequence& sequence,
+                        std::vector<PrintedLayers> layers, std::vector<SupportOf> supports, Report& report,
+                        PlanFor use = PlanFor::writing);
 
 }  // namespace weft::pipeline

@@ -3,8 +3,11 @@
 
 #include "geometry/boolean.h"
 #include "geometry/offset.h"
+#include "geometry/spatial_index.h"
 #include "model/flow.h"
+#include "pipeline/cached.h"
 #include "pipeline/fill_support.h"
+#include "pipeline/key_bytes.h"
 #include "pipeline/stopwatch.h"
 #include "slice/shadow.h"
 #include "support/support.h"
@@ -58,7 +61,9 @@ void tell(const Settings& settings, const Object& object, const support::Figures
   auto& total = report.support;
   total.needed_mm2 += figures.needed_mm2, total.bridged_mm2 += figures.bridged_mm2;
   total.left_mm2 += figures.left_mm2;
-  total.tips += figures.tips, total.trunks += figures.trunks;
+  total.contact_mm2 += figures.contact_mm2, total.on_part_mm2 += figures.on_part_mm2;
+  total.islands += figures.islands, total.tips += figures.tips, total.trunks += figures.trunks;
+  total.slenderest = std::max(total.slenderest, figures.slenderest);
   if (figures.left_mm2 < 0.5) return;
   const Point at = Point{figures.left_at.x, figures.left_at.y} + object.copies.front();
   report.warnings.push_back(
@@ -67,19 +72,6 @@ void tell(const Settings& settings, const Object& object, const support::Figures
                                    settings.support.support_type == SupportType::buildplate
                                        ? " from the plate; support_type = everywhere may reach more"
                                        : "")});
-}
-
-void tell_missing(const Object& object, const support::Object& outlines, Report& report) {
-  const auto islands = support::islands(outlines);
-  if (islands.empty()) return;
-  const Point at = islands.front().at + object.copies.front();
-  const auto* layer = outlines.layers[islands.front().layer];
-  report.warnings.push_back(
-      {"support_missing",
-       fmt::format("{}: {} place{} begin{} in the air, the first at ({:.3f}, {:.3f}, {:.3f}); turn the model, or set "
-                   "support_enable = true",
-                   object.name, islands.size(), islands.size() == 1 ? "" : "s", islands.size() == 1 ? "s" : "",
-                   to_mm(at.x), to_mm(at.y), to_mm(layer->z - layer->height))});
 }
 
 bool says_support(const mesh::Mark& mark) {
@@ -116,6 +108,55 @@ void read_marks(const Settings& settings, const Object& object, const std::vecto
       if (regions.size() > 1) regions = geometry::unite(regions);
 }
 
+/// The outlines that support knows, and those of layers.
+struct Outlines {
+  std::vector<const SlicedLayer*> layers;
+  support::Object object;
+  Box box;
+};
+
+Outlines outlines_of(const Settings& settings, const std::vector<slice::Cut>& cuts) {
+  Outlines out;
+  for (const auto& cut : cuts) out.layers.push_back(&cut.layer), out.box.add(box_of(cut.layer.regions));
+  const Um nozzle = settings.machine.nozzle_diameter;
+  out.object = {.layers = out.layers,
+                .nozzle = nozzle,
+                .outer_line = settings.walls.wall_line_width_0.value_or(flow::automatic_outer_width(nozzle))};
+  return out;
+}
+
+/// What a stage of support reads besides settings.
+StageKey support_key(const std::string& settings, const std::vector<std::string>& sliced, const Object& object,
+                     const SupportOf& of) {
+  StageKey key(row_of<Stage::support>());
+  key.with(settings).with(std::uint64_t{sliced.size()});
+  for (const auto& hash : sliced) key.with(hash);
+  for (const auto& mark : object.marks)
+    if (says_support(mark))
+      key.with(std::uint64_t{static_cast<std::uint8_t>(mark.kind)})
+          .with(mark.painted)
+          .with(sha256(bytes_of(mark.mesh)));
+  key.with(of.bounded).with(of.on_raft).with(of.floor).with(sha256(bytes_of(of.room)));
+  return key;
+}
+
+Supports make_supports(const Settings& settings, const Object& object, const std::vector<slice::Cut>& cuts,
+                       SupportOf& of) {
+  read_marks(settings, object, cuts, of);
+  auto outlines = outlines_of(settings, cuts);
+  auto& o = outlines.object;
+  o.floor = of.floor, o.on_raft = of.on_raft, o.room = of.bounded ? &of.room : nullptr;
+  o.enforced = of.enforced, o.blocked = of.blocked, o.given = of.given;
+  auto plan = support::plan(settings.support, o, support::demand(settings.support, o));
+  const Point origin = outlines.box.empty() ? Point{} : outlines.box.centre();
+  Supports out;
+  out.layers = tasks::parallel_map(plan.layers.size(),
+                                   [&](std::size_t k) { return fill_support(settings, plan.layers[k], origin); });
+  if (!plan.layers.empty()) out.held = std::move(plan.held);
+  out.figures = plan.figures;
+  return out;
+}
+
 }  // namespace
 
 bool supports(const Settings& settings) {
@@ -143,45 +184,66 @@ std::vector<SupportOf> rooms_of(const Scopes& scopes, const Plate& plate) {
   return out;
 }
 
-void support_object(const Scopes& all, const ObjectScopes& scopes, const Object& object,
-                    const std::vector<slice::Cut>& cuts, SupportOf& out, Report& report) {
+void support_object(const Running& job, const Scopes& all, const ObjectScopes& scopes, const Object& object,
+                    const std::vector<slice::Cut>& cuts, const std::function<std::vector<std::string>()>& sliced_by,
+                    SupportOf& out) {
   const ScopeId on_first_layer = scopes.front().of_volume.front();
   const ScopeId above = all.above_first_layer(on_first_layer);
   const Settings& settings = all[above];
-  const Stopwatch stopwatch(report.timings_ms[Stage::support]);
-  if (supports(settings)) read_marks(settings, object, cuts, out);
-  std::vector<const SlicedLayer*> layers;
-  Box box;
-  for (const auto& cut : cuts) layers.push_back(&cut.layer), box.add(box_of(cut.layer.regions));
-  const Um nozzle = settings.machine.nozzle_diameter;
-  const support::Object outlines{
-      .layers = layers,
-      .nozzle = nozzle,
-      .outer_line = settings.walls.wall_line_width_0.value_or(flow::automatic_outer_width(nozzle)),
-      .floor = out.floor,
-      .on_raft = out.on_raft,
-      .room = out.bounded ? &out.room : nullptr,
-      .enforced = out.enforced,
-      .blocked = out.blocked,
-      .given = out.given};
   if (!supports(settings)) {
     if (has_marks(object))
-      report.warnings.push_back(
+      job.report.warnings.push_back(
           {"support_marks_unused", fmt::format("{}: support that is painted or marked with volumes "
                                                "has no effect: support_enable is off",
                                                object.name)});
-    return tell_missing(object, outlines, report);
+    return;
   }
-  const auto demand = support::demand(settings.support, outlines);
-  auto plan = support::plan(settings.support, outlines, demand);
-  const Point origin = box.empty() ? Point{} : box.centre();
-  out.layers = tasks::parallel_map(plan.layers.size(), [&](std::size_t k) {
-    auto layer = fill_support(settings, plan.layers[k], origin);
-    for (auto& bead : layer.beads) bead.scope = plan.layers[k].first ? on_first_layer : above;
-    return layer;
-  });
-  if (!plan.layers.empty()) out.held = std::move(plan.held);
-  tell(settings, object, plan.figures, report);
+  auto made = run_stage<Stage::support>(
+      job, [&] { return support_key(row_of<Stage::support>().reads.bytes_of(settings), sliced_by(), object, out); },
+      [&] { return make_supports(settings, object, cuts, out); });
+  tell(settings, object, (*made).figures, job.report);
+  Supports own = std::move(made).take();
+  out.layers = std::move(own.layers), out.held = std::move(own.held);
+  for (std::size_t k = 0; k < out.layers.size(); ++k)
+    for (auto& bead : out.layers[k].beads) bead.scope = k == 0 && !out.on_raft ? on_first_layer : above;
+}
+
+void tell_missing_support(const Running& job, const Scopes& all, const ObjectScopes& scopes, const Object& object,
+                          const std::vector<slice::Cut>& cuts, const std::vector<WallLayer>& walls) {
+  const Settings& settings = all[all.above_first_layer(scopes.front().of_volume.front())];
+  if (supports(settings)) return;
+  const Stopwatch stopwatch(job.report.timings_ms[Stage::support]);
+  const auto outlines = outlines_of(settings, cuts);
+  std::vector<const Regions*> over_air;
+  if (job.sample.all())
+    for (const auto& layer : walls) over_air.push_back(&layer.over_air);
+  const auto islands = support::islands(outlines.object, over_air);
+  if (islands.empty()) return;
+  const Point at = islands.front().at + object.copies.front();
+  const auto& layer = cuts[islands.front().layer].layer;
+  job.report.warnings.push_back(
+      {"support_missing",
+       fmt::format("{}: {} place{} begin{} in the air, the first at ({:.3f}, {:.3f}, {:.3f}); turn the model, or set "
+                   "support_enable = true",
+                   object.name, islands.size(), islands.size() == 1 ? "" : "s", islands.size() == 1 ? "s" : "",
+                   to_mm(at.x), to_mm(at.y), to_mm(layer.z - layer.height))});
+}
+
+/// Marks skin most of which lies on support.
+void mark_supported(const Regions& held, Beads& beads) {
+  if (held.empty()) return;
+  const geometry::SegmentIndex index(held);
+  for (Bead& bead : beads) {
+    if (bead.role != Role::solid_infill) continue;
+    double on = 0, all = 0;
+    for (std::size_t i = 1; i < bead.path.size(); ++i) {
+      const Point a = bead.path[i - 1].at, b = bead.path[i].at;
+      const double length = distance(a, b);
+      all += length;
+      if (index.region_at(lerp(a, b, 0.5))) on += length;
+    }
+    bead.on_support = on > all / 2;
+  }
 }
 
 }  // namespace weft::pipeline

@@ -3,6 +3,8 @@
 #include "pipeline/stages.h"
 #include "slice/slice.h"
 
+#include <functional>
+#include <string>
 #include <vector>
 
 namespace weft::pipeline {
@@ -25,7 +27,16 @@ bool supports(const Settings& settings);
 std::vector<SupportOf> rooms_of(const Scopes& scopes, const Plate& plate);
 
 /// Fills `out`, and tells in the report what was found.
-void support_object(const Scopes& all, const ObjectScopes& scopes, const Object& object,
-                    const std::vector<slice::Cut>& cuts, SupportOf& out, Report& report);
+/// @param sliced_by the keys of the object's slices, by volume
+void support_object(const Running& job, const Scopes& all, const ObjectScopes& scopes, const Object& object,
+                    const std::vector<slice::Cut>& cuts, const std::function<std::vector<std::string>()>& sliced_by,
+                    SupportOf& out);
+
+/// Warns of what begins in the air where no support is asked for. Cost: next to nothing, since walls know what hangs.
+void tell_missing_support(const Running& job, const Scopes& all, const ObjectScopes& scopes, const Object& object,
+                          const std::vector<slice::Cut>& cuts, const std::vector<WallLayer>& walls);
+
+/// Marks skin most of which lies on support. @param held what of the layer does
+void mark_supported(const Regions& held, Beads& beads);
 
 }  // namespace weft::pipeline

@@ -2,8 +2,7 @@
 #include "core/json_text.h"
 #include "core/version.h"
 #include "preview/compare.h"
-
-#include <cmath>
+#include "preview/rounded.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -13,9 +12,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double rounded(double v) {
-  constexpr double places = 1e4;
-  return std::round(v * places) / places;
+Json json_of(const FigureDifference& f) {
+  return {
+      {"name", f.name}, {"unit", f.unit}, {"a", rounded(f.a)}, {"b", rounded(f.b)}, {"percent", rounded(f.percent)}};
 }
 
 Json settings_json(const std::vector<SettingDifference>& settings) {
@@ -41,12 +40,7 @@ std::string verdict_of(const Comparison& comparison, double tolerance_percent) {
 
 std::string json_of(const Comparison& comparison, const CompareReport& about) {
   Json figures = Json::array(), layers = Json::array();
-  for (const auto& f : comparison.figures)
-    figures.push_back({{"name", f.name},
-                       {"unit", f.unit},
-                       {"a", rounded(f.a)},
-                       {"b", rounded(f.b)},
-                       {"percent", rounded(f.percent)}});
+  for (const auto& f : comparison.figures) figures.push_back(json_of(f));
   for (const auto& l : comparison.layers)
     layers.push_back({{"z_mm", l.z_mm},
                       {"only_a_mm2", rounded(l.only_a_mm2)},
@@ -69,13 +63,10 @@ std::string json_of(const Comparison& comparison, const CompareReport& about) {
 
 std::string page_json_of(const Comparison& comparison, const CompareReport& about) {
   Json figures = Json::array(), layers = Json::array();
-  for (const auto& f : comparison.figures)
-    figures.push_back({{"name", f.name},
-                       {"unit", f.unit},
-                       {"a", rounded(f.a)},
-                       {"b", rounded(f.b)},
-                       {"percent", rounded(f.percent)},
-                       {"beyond", f.percent > about.tolerance_percent}});
+  for (const auto& f : comparison.figures) {
+    auto& row = figures.emplace_back(json_of(f));
+    row["beyond"] = f.percent > about.tolerance_percent;
+  }
   for (const auto& l : comparison.layers) layers.push_back({l.z_mm, rounded(l.only_a_mm2), rounded(l.only_b_mm2)});
   return json_text(Json{{"verdict", verdict_of(comparison, about.tolerance_percent)},
                         {"figures", std::move(figures)},

@@ -6,10 +6,10 @@
 #include "core/json_text.h"
 #include "preview/colours.h"
 #include "preview/pack.h"
+#include "preview/rounded.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -32,11 +32,6 @@ constexpr std::array<Rgb, 8> tool_colours{{{230, 159, 0},
                                            {213, 94, 0},
                                            {204, 121, 167},
                                            {120, 120, 120}}};
-
-double rounded(double v) {
-  constexpr double places = 1e4;
-  return std::round(v * places) / places;
-}
 
 Json json_of(const Ring& ring) {
   Json out = Json::array();

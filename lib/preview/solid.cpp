@@ -9,8 +9,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <numeric>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 namespace weft::preview {
@@ -63,7 +66,6 @@ struct Camera {
 struct Bead {
   Vec from, to;  ///< of its middle, mm
   double half_width, half_height;
-  Rgb colour;
 };
 
 /// What of the picture a bead may cover, in mm along right and up.
@@ -74,37 +76,96 @@ struct Window {
   }
 };
 
+/// How far a bead's spheroid goes along an axis.
+double reach_of(const Bead& bead, Vec axis) {
+  return std::sqrt(bead.half_width * bead.half_width * (axis.x * axis.x + axis.y * axis.y) +
+                   bead.half_height * bead.half_height * axis.z * axis.z);
+}
+
+/// Towards the eye.
+double nearest_of(const Bead& bead, const Camera& camera) {
+  constexpr double rounded = 1e-9;  // mm: what the ray finds may be so much nearer
+  return std::max(dot(bead.from, camera.eye), dot(bead.to, camera.eye)) + reach_of(bead, camera.eye) + rounded;
+}
+
 Window window_of(const Bead& bead, const Camera& camera) {
-  const auto reach = [&](Vec axis) {  // of the spheroid along an axis
-    return std::sqrt(bead.half_width * bead.half_width * (axis.x * axis.x + axis.y * axis.y) +
-                     bead.half_height * bead.half_height * axis.z * axis.z);
-  };
-  const double ax = dot(bead.from, camera.right), bx = dot(bead.to, camera.right), ex = reach(camera.right);
-  const double ay = dot(bead.from, camera.up), by = dot(bead.to, camera.up), ey = reach(camera.up);
+  const double ax = dot(bead.from, camera.right), bx = dot(bead.to, camera.right), ex = reach_of(bead, camera.right);
+  const double ay = dot(bead.from, camera.up), by = dot(bead.to, camera.up), ey = reach_of(bead, camera.up);
   return {std::min(ax, bx) - ex, std::max(ax, bx) + ex, std::min(ay, by) - ey, std::max(ay, by) + ey};
 }
 
-std::vector<Bead> beads_of(const Toolpaths& paths, const View& view) {
-  const std::size_t last_layer = paths.layers.empty() ? 0 : paths.layers.size() - 1;
-  const auto [first, last] = view.layers.value_or(std::pair<std::size_t, std::size_t>{0, last_layer});
-  const Range range = range_of(paths, first, last, view.colour);
-  std::vector<Bead> out;
-  for (std::size_t i = first; i <= last && i < paths.layers.size(); ++i) {
-    const auto& strokes = paths.layers[i].strokes;
-    for (std::size_t k = 0; k < strokes.size(); ++k) {
-      const Stroke& s = strokes[k];
-      if (!s.extrudes() || is_custom(paths, s)) continue;
-      const Um z_from = k > 0 && strokes[k - 1].to == s.from ? strokes[k - 1].z : s.z;
-      const double half = to_mm(s.height) / 2;
-      out.push_back({{to_mm(s.from.x), to_mm(s.from.y), to_mm(z_from) - half},
-                     {to_mm(s.to.x), to_mm(s.to.y), to_mm(s.z) - half},
-                     to_mm(s.width) / 2,
-                     std::max(half, 1e-3),
-                     view.colour == Colour::feature ? colour_of(paths.features[s.feature])
-                                                    : ramp(range.share(measure(s, view.colour)))});
-    }
+/// The bead of a stroke, if it is one.
+class Beads {
+ public:
+  Beads(const Toolpaths& paths, const View& view) : paths_(paths), view_(view) {
+    const std::size_t last_layer = paths.layers.empty() ? 0 : paths.layers.size() - 1;
+    std::tie(first_, last_) = view.layers.value_or(std::pair<std::size_t, std::size_t>{0, last_layer});
+    last_ = std::min(last_, last_layer);
+    range_ = range_of(paths, first_, last_, view.colour);
   }
+  /// Layers that are shown: [first, end).
+  std::size_t first() const { return first_; }
+  std::size_t end() const { return paths_.layers.empty() ? first_ : std::max(first_, last_ + 1); }
+  std::size_t strokes(std::size_t layer) const { return paths_.layers[layer].strokes.size(); }
+
+  std::optional<Bead> at(std::size_t layer, std::size_t k) const {
+    const auto& strokes = paths_.layers[layer].strokes;
+    const Stroke& s = strokes[k];
+    if (!s.extrudes() || is_custom(paths_, s)) return std::nullopt;
+    const Um z_from = k > 0 && strokes[k - 1].to == s.from ? strokes[k - 1].z : s.z;
+    const double half = to_mm(s.height) / 2;
+    return Bead{{to_mm(s.from.x), to_mm(s.from.y), to_mm(z_from) - half},
+                {to_mm(s.to.x), to_mm(s.to.y), to_mm(s.z) - half},
+                to_mm(s.width) / 2,
+                std::max(half, 1e-3)};
+  }
+  Rgb colour(std::size_t layer, std::size_t k) const {
+    const Stroke& s = paths_.layers[layer].strokes[k];
+    return view_.colour == Colour::feature ? colour_of(paths_.features[s.feature])
+                                           : ramp(range_.share(measure(s, view_.colour)));
+  }
+
+ private:
+  const Toolpaths& paths_;
+  const View& view_;
+  std::size_t first_ = 0, last_ = 0;
+  Range range_;
+};
+
+/// Some strokes of a layer that follow each other, and what of the picture their beads may cover.
+struct Chunk {
+  std::uint32_t layer = 0, begin = 0, end = 0;
+  Window window{};
+  double nearest = -1e300;  ///< towards the eye, mm
+};
+constexpr std::size_t chunk_strokes = 32;  // a part of a contour, seldom one that goes across the picture
+
+/// In the order of the file, without those that have no bead.
+std::vector<Chunk> chunks_of(const Beads& beads, const Camera& camera) {
+  std::vector<std::vector<Chunk>> of_layers(beads.end() - beads.first());
+  tasks::for_each_index(of_layers.size(), [&](std::size_t i) {
+    stop_if_asked();
+    const std::size_t layer = beads.first() + i, strokes = beads.strokes(layer);
+    for (std::size_t begin = 0; begin < strokes; begin += chunk_strokes) {
+      const std::size_t end = std::min(begin + chunk_strokes, strokes);
+      Chunk chunk{static_cast<std::uint32_t>(layer), static_cast<std::uint32_t>(begin),
+                  static_cast<std::uint32_t>(end)};
+      for (std::size_t k = begin; k < end; ++k)
+        if (const auto bead = beads.at(layer, k))
+          chunk.window.add(window_of(*bead, camera)),
+              chunk.nearest = std::max(chunk.nearest, nearest_of(*bead, camera));
+      if (chunk.nearest > -1e300) of_layers[i].push_back(chunk);
+    }
+  });
+  std::vector<Chunk> out;
+  for (const auto& some : of_layers) out.insert(out.end(), some.begin(), some.end());
   return out;
+}
+
+Window window_of(const std::vector<Chunk>& chunks) {
+  Window all;
+  for (const auto& chunk : chunks) all.add(chunk.window);
+  return all;
 }
 
 /// A bead scaled along z until it is a capsule, and how a point of the picture lies in it: each number is linear in it.
@@ -175,36 +236,32 @@ struct Fit {
   double y(int sample) const { return y1 - (sample + 0.5) / scale; }
 };
 
-/// Rows of the picture that one task draws, in samples.
+/// Rows of the picture that one task draws, in samples. What lies behind all that is drawn already in the tiles it
+/// covers is not looked at.
 class Band {
  public:
   Band(int width, int first_row, int rows)
       : width_(width),
         first_(first_row),
         rows_(rows),
-        depth_(static_cast<std::size_t>(width) * static_cast<std::size_t>(rows), std::numeric_limits<double>::lowest()),
-        colour_(depth_.size()) {}
+        tiles_across_((width + tile - 1) / tile),
+        depth_(static_cast<std::size_t>(width) * static_cast<std::size_t>(rows), nothing),
+        order_(depth_.size()),
+        colour_(depth_.size()),
+        tile_depth_(static_cast<std::size_t>(tiles_across_) * static_cast<std::size_t>((rows + tile - 1) / tile),
+                    nothing),
+        tile_changed_(tile_depth_.size()) {}
 
-  void draw(const Bead& bead, const Window& window, const Camera& camera, const Fit& fit) {
-    const auto sample = [](double v, double most) { return static_cast<int>(std::clamp(v, 0.0, most)); };
-    const int x0 = sample((window.x0 - fit.x0) * fit.scale - 0.5, width_),
-              x1 = sample((window.x1 - fit.x0) * fit.scale + 1.5, width_);
-    const int y0 = sample((fit.y1 - window.y1) * fit.scale - 0.5 - first_, rows_),
-              y1 = sample((fit.y1 - window.y0) * fit.scale + 1.5 - first_, rows_);
-    if (x0 >= x1 || y0 >= y1) return;
-    const Capsule capsule(bead, camera);
-    for (int y = y0; y < y1; ++y)
-      for (int x = x0; x < x1; ++x) {
-        const auto hit = capsule.at(fit.x(x), fit.y(y + first_));
-        const std::size_t i =
-            static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
-        if (!hit || hit->depth <= depth_[i]) continue;  // of equals the first in the file
-        depth_[i] = hit->depth;
-        const auto tone = [&](std::uint8_t v) {
-          return static_cast<std::uint8_t>(std::min(255.0, v * hit->light + 0.5));
-        };
-        colour_[i] = {tone(bead.colour.r), tone(bead.colour.g), tone(bead.colour.b)};
-      }
+  /// @param number of the first stroke of the chunk, in the file
+  void draw(const Chunk& chunk, std::uint64_t number, const Beads& beads, const Camera& camera, const Fit& fit) {
+    if (const auto all = covered(chunk.window, fit); all.empty() || hidden(all, chunk.nearest, true)) return;
+    for (std::size_t k = chunk.begin; k < chunk.end; ++k) {
+      const auto bead = beads.at(chunk.layer, k);
+      if (!bead) continue;
+      const auto part = covered(window_of(*bead, camera), fit);
+      if (part.empty() || hidden(part, nearest_of(*bead, camera), false)) continue;
+      draw(Capsule(*bead, camera), part, number + (k - chunk.begin), beads.colour(chunk.layer, k), fit);
+    }
   }
 
   void resolve(Image& image) const {
@@ -227,17 +284,75 @@ class Band {
   }
 
  private:
-  int width_, first_, rows_;
-  std::vector<double> depth_;
+  static constexpr int tile = 8;
+  static constexpr double nothing = std::numeric_limits<double>::lowest();
+
+  /// Samples [x0, x1) × [y0, y1).
+  struct Samples {
+    int x0, x1, y0, y1;
+    bool empty() const { return x0 >= x1 || y0 >= y1; }
+  };
+  Samples covered(const Window& window, const Fit& fit) const {
+    const auto sample = [](double v, double most) { return static_cast<int>(std::clamp(v, 0.0, most)); };
+    return {sample((window.x0 - fit.x0) * fit.scale - 0.5, width_),
+            sample((window.x1 - fit.x0) * fit.scale + 1.5, width_),
+            sample((fit.y1 - window.y1) * fit.scale - 0.5 - first_, rows_),
+            sample((fit.y1 - window.y0) * fit.scale + 1.5 - first_, rows_)};
+  }
+
+  /// @param exact what was drawn since a tile was looked at last is looked at first
+  bool hidden(const Samples& part, double nearest, bool exact) {
+    for (int y = part.y0 / tile; y <= (part.y1 - 1) / tile; ++y)
+      for (int x = part.x0 / tile; x <= (part.x1 - 1) / tile; ++x) {
+        const std::size_t i = at(x, y, tiles_across_);
+        if (nearest < tile_depth_[i]) continue;
+        if (!exact || !tile_changed_[i]) return false;
+        tile_changed_[i] = 0;
+        tile_depth_[i] = farthest_in(x * tile, y * tile);
+        if (nearest >= tile_depth_[i]) return false;
+      }
+    return true;
+  }
+  double farthest_in(int x0, int y0) const {
+    double out = std::numeric_limits<double>::max();
+    for (int y = y0; y < std::min(y0 + tile, rows_); ++y)
+      for (int x = x0; x < std::min(x0 + tile, width_); ++x) out = std::min(out, depth_[at(x, y, width_)]);
+    return out;
+  }
+
+  void draw(const Capsule& capsule, const Samples& part, std::uint64_t number, Rgb colour, const Fit& fit) {
+    for (int y = part.y0; y < part.y1; ++y)
+      for (int x = part.x0; x < part.x1; ++x) {
+        const auto hit = capsule.at(fit.x(x), fit.y(y + first_));
+        const std::size_t i = at(x, y, width_);
+        if (!hit || hit->depth < depth_[i]) continue;
+        if (hit->depth == depth_[i] && number >= order_[i]) continue;  // of equals the first in the file
+        depth_[i] = hit->depth;
+        order_[i] = number;
+        const auto tone = [&](std::uint8_t v) {
+          return static_cast<std::uint8_t>(std::min(255.0, v * hit->light + 0.5));
+        };
+        colour_[i] = {tone(colour.r), tone(colour.g), tone(colour.b)};
+        tile_changed_[at(x / tile, y / tile, tiles_across_)] = 1;
+      }
+  }
+
+  static std::size_t at(int x, int y, int width) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+  }
+
+  int width_, first_, rows_, tiles_across_;
+  std::vector<double> depth_;  ///< of each sample
+  std::vector<std::uint64_t> order_;
   std::vector<Rgb> colour_;
+  std::vector<double> tile_depth_;  ///< of what lies deepest in it, or deeper
+  std::vector<std::uint8_t> tile_changed_;
 };
 
 }  // namespace
 
 PixelSize fitting_size(const Toolpaths& paths, const View& view, int longer) {
-  const Camera camera(*view.eye);
-  Window all;
-  for (const auto& bead : beads_of(paths, view)) all.add(window_of(bead, camera));
+  const Window all = window_of(chunks_of(Beads(paths, view), Camera(*view.eye)));
   const double across = std::max(all.x1 - all.x0, 1e-3), along = std::max(all.y1 - all.y0, 1e-3);
   const double scale = longer / std::max(across, along);
   const auto side = [&](double mm) { return std::clamp(static_cast<int>(std::ceil(mm * scale)), 1, longer); };
@@ -246,23 +361,26 @@ PixelSize fitting_size(const Toolpaths& paths, const View& view, int longer) {
 
 Image solid(const Toolpaths& paths, const View& view, PixelSize size) {
   const Camera camera(*view.eye);
-  const auto beads = beads_of(paths, view);
-  std::vector<Window> windows;
-  windows.reserve(beads.size());
-  Window all;
-  for (const auto& bead : beads) all.add(windows.emplace_back(window_of(bead, camera)));
+  const Beads beads(paths, view);
+  const auto chunks = chunks_of(beads, camera);
   Image image(size);
-  if (beads.empty()) return image;
-  const Fit fit(all, size);
+  if (chunks.empty()) return image;
+  std::vector<std::uint32_t> order(chunks.size());  // what lies before the others first: it hides most of them
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return chunks[a].nearest > chunks[b].nearest; });
+  const Fit fit(window_of(chunks), size);
   const auto bands = static_cast<std::size_t>((size.height + band_rows - 1) / band_rows);
   tasks::for_each_index(bands, [&](std::size_t i) {
     const int first = static_cast<int>(i) * band_rows, rows = std::min(band_rows, size.height - first);
     Band band(size.width * samples, first * samples, rows * samples);
     const double high = fit.y(first * samples - 1), low = fit.y((first + rows) * samples);
-    StopNowAndThen stop(256);
-    for (std::size_t k = 0; k < beads.size(); ++k) {
+    StopNowAndThen stop(64);
+    for (const std::uint32_t k : order) {
+      const Chunk& chunk = chunks[k];
       stop.step();
-      if (windows[k].y1 >= low && windows[k].y0 <= high) band.draw(beads[k], windows[k], camera, fit);
+      if (chunk.window.y1 >= low && chunk.window.y0 <= high)
+        band.draw(chunk, std::uint64_t{k} * chunk_strokes, beads, camera, fit);
     }
     band.resolve(image);
   });

@@ -3,12 +3,14 @@
 
 #include "core/error.h"
 #include "core/file_bytes.h"
+#include "profile/tool_values.h"
 #include "prusaslicer/embedded.h"
 #include "prusaslicer/import.h"
 #include "prusaslicer/keys.h"
 #include "settings/catalogue.h"
 #include "settings/gcode_variables.h"
 #include "settings/ini.h"
+#include "settings/tools.h"
 #include "settings/value.h"
 
 #include <algorithm>
@@ -29,9 +31,10 @@ struct Foreign {
 };
 
 void refuse_twice(const std::vector<IniEntry>& entries, const std::string& path) {
-  std::map<std::string_view, int> seen;
+  std::map<std::pair<int, std::string_view>, int> seen;
   for (const auto& e : entries) {
-    const auto [first, is_new] = seen.emplace(e.key, e.line);
+    const auto [first, is_new] =
+        seen.emplace(std::pair<int, std::string_view>(tool_of_section(e.section).value_or(-1), e.key), e.line);
     if (!is_new)
       throw Error{Error::Kind::settings, fmt::format("'{}' was already given on line {}", e.key, first->second),
                   fmt::format("{}:{}", path, e.line), "keep one of the two"};
@@ -196,7 +199,7 @@ void apply_text(Profile& profile, std::string_view text, const std::filesystem::
   }
   chain.push_back(canonical(path, name));
   for (const auto& e : entries) {
-    if (e.key != "inherits") continue;
+    if (e.key != "inherits" || tool_of_section(e.section)) continue;
     const auto where = fmt::format("{}:{}", name, e.line);
     const auto found = find_profile(e.value, path.parent_path(), options.folders);
     const auto parent = found.value_or(path.parent_path() / e.value);
@@ -213,7 +216,18 @@ void apply_text(Profile& profile, std::string_view text, const std::filesystem::
     apply_text(profile, read_profile(parent, options), parent, options, chain);
   }
   for (const auto& e : entries)
-    if (e.key != "inherits") apply_value(profile, e.key, without_comment(e), fmt::format("{}:{}", name, e.line));
+    if (e.key != "inherits" && !tool_of_section(e.section))
+      apply_value(profile, e.key, without_comment(e), fmt::format("{}:{}", name, e.line));
+  for (const auto& e : entries)
+    if (const auto tool = tool_of_section(e.section)) {
+      if (e.key == "inherits")
+        apply_tool_file(
+            profile, *tool,
+            find_profile(e.value, path.parent_path(), options.folders).value_or(path.parent_path() / e.value), options);
+      else
+        apply_value(profile, fmt::format("tool.{}.{}", *tool, e.key), without_comment(e),
+                    fmt::format("{}:{}", name, e.line));
+    }
   chain.pop_back();
 }
 
@@ -307,11 +321,18 @@ bool looks_like_a_key(std::string_view text) {
 }  // namespace
 
 void apply_value(Profile& profile, const std::string& key, const std::string& text, const std::string& where) {
+  if (const auto of_tool = tool_key(key))
+    return apply_tool_value(profile, of_tool->first, of_tool->second, text, where);
   const auto* entry = find_setting(key);
   if (!entry) {
     const auto near = nearest_key(key);
     throw Error{Error::Kind::settings, looks_like_a_key(key) ? fmt::format("unknown setting '{}'", key) : "no setting",
                 where, near.empty() ? "`weft settings` lists them all" : fmt::format("did you mean '{}'?", near)};
+  }
+  if (listed_by_tool(*entry)) {
+    // One value holds for all tools.
+    std::erase_if(profile.settings.tools.tool_settings, [&](const ToolValue& v) { return v.key == entry->key; });
+    if (text.find(',') != std::string::npos) return apply_list(profile, *entry, text, where);
   }
   entry->lay(profile.settings, read_value(*entry, text, where));
   profile.origins[std::string(entry->key)].push_back({where, text, {}});
@@ -349,6 +370,19 @@ void check_areas(const MachineSettings& machine, const Refuse& refuse) {
     refuse("macro_position", "is not one point", "give it as 0x0, or auto when it is not known");
 }
 
+template <class Refuse>
+void check_branches(const SupportSettings& s, const Refuse& refuse) {
+  if (s.support_tree_tip_diameter.value_or(0) > s.support_tree_branch_diameter.value_or(max_coord))
+    refuse("support_tree_tip_diameter",
+           fmt::format("{} mm is more than support_tree_branch_diameter {} mm", to_mm(*s.support_tree_tip_diameter),
+                       to_mm(*s.support_tree_branch_diameter)),
+           "branches get no thinner downwards");
+  if (s.support_tree_angle_slow.value_or(0) > s.support_tree_angle)
+    refuse("support_tree_angle_slow",
+           fmt::format("{}° is more than support_tree_angle {}°", *s.support_tree_angle_slow, s.support_tree_angle),
+           "it is how far branches lean where nothing is in their way");
+}
+
 }  // namespace
 
 void check_consistency(const Profile& profile) {
@@ -371,6 +405,8 @@ void check_consistency(const Profile& profile) {
            "a bed of shape polygon needs at least three corners in bed_polygon",
            "give them as 0x0, 220x0, 220x220, 0x220");
   check_areas(s.machine, refuse);
+  check_tools(profile);
+  check_branches(s.support, refuse);
   try {
     (void)parse_gcode_variables(s.gcode.gcode_variables);
   } catch (const std::invalid_argument& problem) {

@@ -203,9 +203,11 @@ class Exporter {
         "speed_small_perimeter");
     say("first_layer_speed", print("speed_layer_0"), "speed_layer_0");
     say("infill_only_where_needed", s_.infill.infill_support_enabled ? "1" : "0", "infill_support_enabled");
-    say("overhangs", "1");
+    say("overhangs", s_.shells.overhang_walls ? "1" : "0", "overhang_walls");
     overhangs();
     say("travel_speed_z", print("speed_z_hop"), "speed_z_hop");
+    say("first_layer_infill_speed", v.speed_topbottom_layer_0 ? number(*v.speed_topbottom_layer_0) : "0",
+        "speed_topbottom_layer_0");
     const double skirt = v.skirt_brim_speed.value_or(std::min(v.speed_wall_0, v.speed_layer_0.of(v.speed_wall_0)));
     const bool support = s_.support.support_enable || s_.adhesion.adhesion_type == AdhesionType::raft;
     say("support_material_speed", number(support ? v.speed_support_infill : skirt), "skirt_brim_speed");
@@ -278,6 +280,11 @@ class Exporter {
     const auto& r = s_.raft;
     const bool raft = s_.adhesion.adhesion_type == AdhesionType::raft;
     say("raft_layers", number(raft ? 1 + r.raft_surface_layers + r.raft_interface_layers : 0), "adhesion_type");
+    const auto over_raft = print("speed_layer_0_over_raft");
+    say("first_layer_speed_over_raft", over_raft == "auto" ? print("speed_layer_0") : over_raft,
+        "speed_layer_0_over_raft");
+    say("support_tree_angle_slow", number(p.support_tree_angle_slow.value_or(p.support_tree_angle)),
+        "support_tree_angle_slow");
     said_.insert("raft_surface_layers"), said_.insert("raft_interface_layers");
   }
 

@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "prusaslicer/bed.h"
 #include "prusaslicer/custom.h"
+#include "prusaslicer/import_single.h"
 #include "prusaslicer/import_support.h"
 #include "prusaslicer/keys.h"
 #include "prusaslicer/lines.h"
@@ -33,6 +34,7 @@ class Translator {
 
   Translation run() {
     machine();
+    automatic_widths(lines_);
     widths();
     speeds();
     accelerations();
@@ -40,9 +42,8 @@ class Translator {
     import_support(lines_, {nozzle_, height_},
                    [&](std::string_view key, std::string text, const IniEntry& e) { set(key, std::move(text), e); });
     seams();
+    singles();
     extrusion();
-    ramping_lift();
-    cooling();
     texts();
     for (const auto& row : ported_keys()) copy(row);
     custom();
@@ -245,6 +246,7 @@ class Translator {
       const auto f = lines_.figure(*e);
       set("speed_layer_0", f.v == 0 ? "100%" : number(f.v) + (f.percent ? "%" : ""), *e);
     }
+    infill_mm_s_ = speed_of("infill_speed", fastest), solid_mm_s_ = speed_of("solid_infill_speed", fastest);
     for (auto& told : overhangs_of(lines_, speed_of("bridge_speed", fastest)))
       set(told.ours, std::move(told.text), *told.line);
     if (const auto* e = lines_.find("travel_speed_z")) {
@@ -399,32 +401,6 @@ class Translator {
     }
   }
 
-  /// A lift on the way instead of before it.
-  void ramping_lift() {
-    const auto *ramp = lines_.find("travel_ramping_lift"), *lift = lines_.find("travel_max_lift"),
-               *slope = lines_.find("travel_slope");
-    if (!ramp || !lines_.flag(*ramp)) return;
-    const double degrees = slope ? lines_.figure(*slope).v : 0;
-    set("retraction_hop_type", degrees > 0 ? "slope" : "vertical", *ramp);
-    if (degrees > 0) set("travel_slope", number(std::clamp(degrees, 1.0, 89.0)), *slope);
-    if (!lift) return;
-    set("retraction_hop", number(lines_.figure(*lift).v, 3), *lift);
-    lines_.find("retract_lift");
-    done_.insert("retract_lift");
-  }
-
-  /// Without `cooling` the fan does not depend on the time of a layer, and nothing is slowed down.
-  void cooling() {
-    const auto* e = lines_.find("cooling");
-    if (!e || lines_.flag(*e)) return;
-    for (const auto& [theirs, ours] : {std::pair{"slowdown_below_layer_time", "cool_min_layer_time"},
-                                       {"fan_below_layer_time", "cool_min_layer_time_fan_speed_max"}}) {
-      set(ours, "0", *e);
-      lines_.find(theirs);
-      done_.insert(theirs);
-    }
-  }
-
   /// Filament G-code goes between the printer's own and the print, as PrusaSlicer puts it.
   void texts() {
     const auto joined = [&](std::string_view ours, const char* first, const char* second) {
@@ -458,6 +434,18 @@ class Translator {
       }
   }
 
+  void singles() {
+    import_single_keys(
+        lines_, infill_mm_s_, solid_mm_s_,
+        {.set = [&](std::string_view key, std::string text, const IniEntry& e) { set(key, std::move(text), e); },
+         .approximate = [&](const IniEntry& e, std::string why) { approximate(e, std::move(why)); },
+         .instead_of =
+             [&](std::string_view key) {
+               lines_.find(key);
+               done_.insert(key);
+             }});
+  }
+
   void sort_out_the_rest() {
     for (const auto* e : lines_.unread()) {
       if (e->line == 0) continue;
@@ -480,7 +468,7 @@ class Translator {
 
   Lines lines_;
   std::set<std::string_view> done_;  ///< keys whose setting was reckoned otherwise
-  double nozzle_ = 0.4, height_ = 0.2, solid_width_ = 0.45;
+  double nozzle_ = 0.4, height_ = 0.2, solid_width_ = 0.45, infill_mm_s_ = 80, solid_mm_s_ = 20;
   Translation out_;
 };
 

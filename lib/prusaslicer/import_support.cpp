@@ -60,6 +60,10 @@ void raft(Lines& lines, const Set& set) {
   const auto* e = lines.find("raft_layers");
   if (!e) return;
   const int layers = static_cast<int>(lines.figure(*e).v);
+  if (const auto* speed = lines.find("first_layer_speed_over_raft")) {
+    const auto f = lines.figure(*speed);
+    set("speed_layer_0_over_raft", f.v <= 0 ? "auto" : number(f.v, 3) + (f.percent ? "%" : ""), *speed);
+  }
   set("adhesion_type", layers > 0 ? "raft" : "as_set", *e);
   if (layers <= 0) return;
   const int surface = std::min(layers - 1, (layers + 1) / 2);  // the base is one layer
@@ -72,7 +76,7 @@ void raft(Lines& lines, const Set& set) {
 void import_support(Lines& lines, const SupportBasis& basis, const Set& set_any) {
   // A profile says these whether it prints support or not, and weft has finer words for them: they are its own until
   // the profile needs them.
-  constexpr std::array<std::string_view, 7> only_with_support{
+  constexpr std::array<std::string_view, 8> only_with_support{
       "support_structure",       "support_normal_shape", "support_max_bridge_length", "speed_support_infill",
       "speed_support_interface", "support_roof_height",  "support_bottom_height"};
   const auto above_0 = [&](std::string_view key) {

@@ -133,6 +133,10 @@ const IniEntry* Lines::look(std::string_view key) const {
   return at == by_key_.end() ? nullptr : &at->second;
 }
 
+void Lines::replace(std::string_view key, std::string value) {
+  if (const auto at = by_key_.find(key); at != by_key_.end()) at->second.value = std::move(value);
+}
+
 void Lines::refuse(const IniEntry& e, std::string_view what) const {
   throw Error{Error::Kind::settings, fmt::format("{}: '{}' is not {}", e.key, e.value.substr(0, 60), what),
               fmt::format("{}:{}", path_, e.line), "PrusaSlicer would read it as another number or drop it"};

@@ -34,6 +34,9 @@ class Lines {
   /// The same without counting as read.
   const IniEntry* look(std::string_view key) const;
 
+  /// From now on the line of that key, where there is one, says something else.
+  void replace(std::string_view key, std::string value);
+
   std::optional<Figure> figure(std::string_view key);
   double number(std::string_view key, double otherwise);
   bool flag(std::string_view key, bool otherwise);

@@ -25,7 +25,7 @@ void add_speeds(Lines& lines, double bridge_mm_s, std::vector<Told>& out) {
   const auto *walls = lines.find("overhangs"), *dynamic = lines.find("enable_dynamic_overhang_speeds");
   const bool by_share = dynamic && lines.flag(*dynamic);
   const auto* line = walls ? walls : dynamic;
-  if (!line) return;
+  if (walls) out.push_back({"overhang_walls", lines.flag(*walls) ? "true" : "false", walls});
   const auto speed_of = [&](std::string_view key) -> std::string {
     const auto* e = lines.find(key);
     if (!e) return "100%";
@@ -34,11 +34,9 @@ void add_speeds(Lines& lines, double bridge_mm_s, std::vector<Told>& out) {
   };
   for (const auto& band : bands) {
     const auto text = speed_of(band.speed);
-    out.push_back({band.speed_ours, by_share ? text : "100%", by_share ? dynamic : line});
+    if (line) out.push_back({band.speed_ours, by_share ? text : "100%", by_share ? dynamic : line});
   }
-  if (walls && !lines.flag(*walls))
-    out.push_back({"speed_overhang", "100%", walls});
-  else if (by_share)
+  if (by_share)
     out.push_back({"speed_overhang", speed_of(bands[0].speed), dynamic});
   else if (const auto* bridge = lines.look("bridge_speed"))
     out.push_back({"speed_overhang", number(bridge_mm_s), bridge});

@@ -18,7 +18,7 @@ struct Told {
 /// Speeds and fans of walls over air. PrusaSlicer gives them by the share of their width that lies on the layer below:
 /// 0, 25, 50, 75 %, and in between what is in between; weft by bands of the share that does not, each of which takes
 /// what PrusaSlicer gives its far end. Without `enable_dynamic_…` only what lies over air as a whole is a bridge, and
-/// without `overhangs` nothing is.
+/// without `overhangs` nothing is told apart.
 /// @param bridge_mm_s what bridges are printed at
 std::vector<Told> overhangs_of(Lines& lines, double bridge_mm_s);
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -85,6 +86,18 @@ std::string_view type_name(Unit unit) {
     return "points";
   else if constexpr (std::is_same_v<T, PictureSizes>)
     return "sizes";
+  else if constexpr (std::is_same_v<T, Numbers>)
+    return "numbers";
+  else if constexpr (std::is_same_v<T, ValuesAt>)
+    return "steps";
+  else if constexpr (std::is_same_v<T, TransferCurve>)
+    return "curve";
+  else if constexpr (std::is_same_v<T, Rgb>)
+    return "colour";
+  else if constexpr (std::is_same_v<T, HeightMarks>)
+    return "heights";
+  else if constexpr (std::is_same_v<T, ToolValues>)
+    return "settings of tools";
   else
     return "polygons";
 }
@@ -103,6 +116,11 @@ void check_range(const T& v, const Bound& least, const Bound& most, Unit unit) {
     if (!v.is_share) check_range(v.length, least, most, unit);
   } else if constexpr (std::is_same_v<T, SpeedOrShare>) {
     if (!v.is_share) check_range(v.value, least, most, unit);
+  } else if constexpr (std::is_same_v<T, Numbers>) {
+    for (const double each : v) check_range(each, least, most, unit);
+  } else if constexpr (std::is_same_v<T, ValuesAt>) {
+    for (const ValueAt& each : v)
+      check_range(each.at, least, most, Unit::mm), check_range(each.value, 0.0, 100.0, Unit::percent);
   } else if (v < least || v > most) {
     throw std::invalid_argument(fmt::format(
         "{}{}{} is outside {} … {}{}{}", print_value(v, bare(unit)), unit == Unit::none ? "" : " ", symbol_of(unit),
@@ -110,11 +128,14 @@ void check_range(const T& v, const Bound& least, const Bound& most, Unit unit) {
   }
 }
 
+const Settings defaults{};
+
+/// Adds the entry of a row: in place, because compilers take minutes over three hundred temporary ones.
 template <class S, class Row>
-CatalogueEntry entry_of(const S& section, const Row& row) {
+void add_entry(std::vector<CatalogueEntry>& to, const S& section, const Row& row) {
   using T = typename Row::field_type;
   constexpr bool ranged = !std::is_same_v<decltype(row.least), detail::NoBound>;
-  CatalogueEntry e;
+  CatalogueEntry& e = to.emplace_back();
   e.section = section.name;
   e.key = row.key;
   e.scope = row.scope;
@@ -131,24 +152,22 @@ CatalogueEntry entry_of(const S& section, const Row& row) {
   const auto field = row.field;
   const Unit unit = row.unit;
   e.print = [=](const Settings& s) { return print_value((s.*group).*field, unit); };
-  const auto read = [=](std::string_view text) {
+  const auto least = row.least, most = row.most;
+  e.read = [=](std::string_view text) {
     T v = parse_value<T>(text, unit);
-    if constexpr (ranged) check_range(v, row.least, row.most, unit);
-    return v;
+    if constexpr (ranged) check_range(v, least, most, unit);
+    return std::any(std::move(v));
   };
-  e.parse = [=](Settings& s, std::string_view text) { (s.*group).*field = read(text); };
-  e.read = [=](std::string_view text) { return std::any(read(text)); };
   e.lay = [=](Settings& s, const std::any& v) { (s.*group).*field = std::any_cast<const T&>(v); };
-  e.default_text = e.print(Settings{});
-  return e;
+  e.default_text = print_value((defaults.*group).*field, unit);
 }
 
 std::vector<CatalogueEntry> every_entry() {
   std::vector<CatalogueEntry> out;
   auto add_section = [&](const auto& section) {
-    std::apply([&](const auto&... row) { (out.push_back(entry_of(section, row)), ...); }, section.rows);
+    section.rows.for_each([&](const auto& row) { add_entry(out, section, row); });
   };
-  std::apply([&](const auto&... section) { (add_section(section), ...); }, sections);
+  sections.for_each(add_section);
   return out;
 }
 

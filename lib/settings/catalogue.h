@@ -18,12 +18,13 @@ struct CatalogueEntry {
   std::vector<std::string_view> choices;  ///< of an enumeration
   bool automatic = false;                 ///< `auto` is a value
   std::function<std::string(const Settings&)> print;
-  /// @throws std::invalid_argument with one clause: wrong type, or out of range
-  std::function<void(Settings&, std::string_view)> parse;
-  /// The value of a text, of the field's type. @throws as parse
+  /// The value of a text, of the field's type. @throws std::invalid_argument with one clause: wrong type, or out of
+  /// range
   std::function<std::any(std::string_view)> read;
   /// Pre: the value is of the field's type.
   std::function<void(Settings&, const std::any&)> lay;
+  /// Reads and lays. @throws as read
+  void parse(Settings& settings, std::string_view text) const { lay(settings, read(text)); }
 };
 
 /// Every setting, in the order of `sections`.

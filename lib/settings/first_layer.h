@@ -9,7 +9,11 @@ namespace weft {
 /// made of the settings that hold at the place, and laid last.
 Overlay first_layer_of(const Settings& settings);
 
-/// The settings with it.
+/// What the first layer of a part has of its own that lies on a raft: speeds and accelerations. Height, widths and
+/// outlines are those of other layers: what they make up for is the bed's.
+Overlay first_layer_on_raft_of(const Settings& settings);
+
+/// The settings with what the first layer has of its own.
 Settings on_first_layer(Settings settings);
 
 }  // namespace weft

@@ -2,6 +2,7 @@
 #include "settings/overlay.h"
 
 #include "core/error.h"
+#include "settings/tools.h"
 
 #include <algorithm>
 #include <array>
@@ -51,6 +52,10 @@ const CatalogueEntry& known(const std::string& key, const std::string& where) {
 }
 
 }  // namespace
+
+bool differs_by_tool(const CatalogueEntry& entry) {
+  return may_differ(scope_of(entry), Scope::tool);
+}
 
 void Overlay::add(const std::string& key, const std::string& text, const std::string& where) {
   const auto& row = known(key, where);

@@ -43,7 +43,16 @@ ScopeId Scopes::with(ScopeId below, std::span<const Overlay* const> overlays) {
 }
 
 ScopeId Scopes::on_first_layer(ScopeId above) {
-  auto settings = weft::on_first_layer(settings_[above]);
+  return lowest(above, first_layer_of(settings_[above]));
+}
+
+ScopeId Scopes::on_raft(ScopeId above) {
+  return lowest(above, first_layer_on_raft_of(settings_[above]));
+}
+
+ScopeId Scopes::lowest(ScopeId above, const Overlay& overlay) {
+  auto settings = settings_[above];
+  lay(settings, overlay);
   auto bytes = exact::bytes_of(settings);
   if (bytes == exact::bytes_of(settings_[above])) return above;
   exact::add(bytes, std::uint64_t{above});  // another scope of the same values is none of a first layer

@@ -30,6 +30,8 @@ class Scopes {
 
   /// Above the first layer it is itself.
   ScopeId on_first_layer(ScopeId above);
+  /// The same for what lies on a raft.
+  ScopeId on_raft(ScopeId above);
   /// What a scope is above the first layer.
   ScopeId above_first_layer(ScopeId id) const;
 
@@ -37,6 +39,7 @@ class Scopes {
   std::size_t size() const { return settings_.size(); }
 
  private:
+  ScopeId lowest(ScopeId above, const Overlay& overlay);
   ScopeId intern(Settings settings, std::string bytes, std::optional<ScopeId> above);
 
   std::deque<Settings> settings_;  // references stay

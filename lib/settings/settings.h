@@ -13,6 +13,7 @@
 #include "settings/groups/shells.h"
 #include "settings/groups/speeds.h"
 #include "settings/groups/support.h"
+#include "settings/groups/tools.h"
 #include "settings/groups/travel.h"
 #include "settings/groups/walls.h"
 
@@ -33,6 +34,7 @@ struct Settings {
   RetractionSettings retraction;
   SpeedSettings speeds;
   CoolingSettings cooling;
+  ToolSettings tools;
   GcodeSettings gcode;
   AuditSettings audit;
 };
@@ -48,7 +50,7 @@ struct Section {
 template <class Group, class Schema>
 Section(std::string_view, Group Settings::*, const Schema&) -> Section<Group, Schema>;
 
-inline constexpr std::tuple sections{
+inline constexpr Rows sections{
     Section{"machine", &Settings::machine, machine_schema},
     Section{"material", &Settings::material, material_schema},
     Section{"layers", &Settings::layers, layer_schema},
@@ -62,9 +64,10 @@ inline constexpr std::tuple sections{
     Section{"retraction", &Settings::retraction, retraction_schema},
     Section{"speeds", &Settings::speeds, speed_schema},
     Section{"cooling", &Settings::cooling, cooling_schema},
+    Section{"tools", &Settings::tools, tool_schema},
     Section{"gcode", &Settings::gcode, gcode_schema},
     Section{"audit", &Settings::audit, audit_schema},
 };
-static_assert(field_count<Settings>() == std::tuple_size_v<decltype(sections)>, "a group has no section");
+static_assert(complete<Settings>(sections), "a group has no section");
 
 }  // namespace weft

@@ -23,7 +23,8 @@ enum class Unit : std::uint8_t {
   per_kg,
   per_h,
   mm2,
-  mm3
+  mm3,
+  celsius_s
 };
 
 struct UnitName {
@@ -31,11 +32,12 @@ struct UnitName {
   std::string_view symbol;
 };
 inline constexpr std::array unit_names{
-    UnitName{Unit::none, ""},       UnitName{Unit::mm, "mm"},         UnitName{Unit::mm_s, "mm/s"},
-    UnitName{Unit::mm_s2, "mm/s²"}, UnitName{Unit::mm3_s, "mm³/s"},   UnitName{Unit::mm3_s2, "mm³/s²"},
-    UnitName{Unit::degrees, "°"},   UnitName{Unit::celsius, "°C"},    UnitName{Unit::percent, "%"},
-    UnitName{Unit::seconds, "s"},   UnitName{Unit::layers, "layers"}, UnitName{Unit::g_cm3, "g/cm³"},
-    UnitName{Unit::per_kg, "/kg"}, UnitName{Unit::per_h, "/h"},  UnitName{Unit::mm2, "mm²"},       UnitName{Unit::mm3, "mm³"},
+    UnitName{Unit::none, ""},       UnitName{Unit::mm, "mm"},          UnitName{Unit::mm_s, "mm/s"},
+    UnitName{Unit::mm_s2, "mm/s²"}, UnitName{Unit::mm3_s, "mm³/s"},    UnitName{Unit::mm3_s2, "mm³/s²"},
+    UnitName{Unit::degrees, "°"},   UnitName{Unit::celsius, "°C"},     UnitName{Unit::percent, "%"},
+    UnitName{Unit::seconds, "s"},   UnitName{Unit::layers, "layers"},  UnitName{Unit::g_cm3, "g/cm³"},
+    UnitName{Unit::per_kg, "/kg"},  UnitName{Unit::per_h, "/h"},       UnitName{Unit::mm2, "mm²"},
+    UnitName{Unit::mm3, "mm³"},     UnitName{Unit::celsius_s, "°C/s"},
 };
 static_assert(
     [] {

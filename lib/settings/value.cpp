@@ -4,6 +4,7 @@
 #include "core/escape.h"
 #include "core/join.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <stdexcept>
@@ -59,6 +60,8 @@ bool names_unit(std::string_view suffix, Unit unit) {
       return suffix == "deg";
     case Unit::celsius:
       return suffix == "C";
+    case Unit::celsius_s:
+      return suffix == "C/s";
     case Unit::g_cm3:
       return suffix == "g/cm3";
     case Unit::layers:
@@ -95,6 +98,26 @@ void for_each_part(std::string_view text, char separator, F f) {
     if (at == std::string_view::npos) return;
     text.remove_prefix(at + 1);
   }
+}
+
+/// A text within a list: `;` parts its items, and stands in a text as `\s`, beside the escapes that texts have anyway.
+std::string without_semicolons(std::string_view text) {
+  std::string out;
+  for (const char c : text) out += c == ';' ? std::string("\\s") : std::string(1, c);
+  return out;
+}
+std::string with_semicolons(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool pair = text[i] == '\\' && i + 1 < text.size();
+    if (pair && text[i + 1] == 's') {
+      out += ';', ++i;
+    } else {
+      out += text[i];
+      if (pair) out += text[++i];
+    }
+  }
+  return out;
 }
 
 }  // namespace
@@ -216,6 +239,115 @@ void parse(std::string_view text, Unit, PictureSizes& out) {
   });
 }
 
+void parse(std::string_view text, Unit unit, Numbers& out) {
+  out.clear();
+  const auto whole = trimmed(text);
+  if (whole.empty()) return;
+  const std::string what = what_of("a list of numbers", unit) + " such as 0, 60, 120";
+  for_each_part(whole, ',', [&](std::string_view part) {
+    const double v = take_number(part, whole, what);
+    if (!names_unit(part, unit)) refuse(whole, what);
+    out.push_back(v);
+  });
+}
+
+void parse(std::string_view text, Unit, ValuesAt& out) {
+  out.clear();
+  const auto whole = trimmed(text);
+  if (whole.empty()) return;
+  constexpr std::string_view what = "a list of mm:% such as 0:60, 2:30, 8:10";
+  for_each_part(whole, ',', [&](std::string_view part) {
+    ValueAt step;
+    step.at = take_number(part, whole, what);
+    if (part.empty() || part.front() != ':') refuse(whole, what);
+    part = trimmed(part.substr(1));
+    step.value = take_number(part, whole, what);
+    if (!names_unit(part, Unit::percent)) refuse(whole, what);
+    if (!out.empty() && step.at < out.back().at) refuse(whole, "in ascending order");
+    out.push_back(step);
+  });
+}
+
+namespace {
+/// What a transfer curve is called and how many numbers it takes, with the least and the most that each may be.
+struct TransferRow {
+  std::string_view name;
+  int numbers = 0;
+  double least = 0, most = 0;
+};
+constexpr TransferRow transfer_rows[]{{"linear"},           {"simp", 1, 1, 10},
+                                      {"ramp", 1, 0, 1000}, {"heaviside", 2, 0.1, 1000},
+                                      {"linear_spacing"},   {"exponential_spacing"}};
+}  // namespace
+
+void parse(std::string_view text, Unit, TransferCurve& out) {
+  constexpr std::string_view what =
+      "linear, simp:1 … 10, ramp:0 … 1000, heaviside:0.1 … 1000:0 … 1, linear_spacing or exponential_spacing";
+  const auto whole = trimmed(text);
+  std::vector<std::string_view> parts;
+  for_each_part(whole, ':', [&](std::string_view part) { parts.push_back(part); });
+  for (std::size_t i = 0; i < std::size(transfer_rows); ++i) {
+    const TransferRow& row = transfer_rows[i];
+    if (parts.empty() || !same_word(parts.front(), row.name)) continue;
+    if (parts.size() != static_cast<std::size_t>(row.numbers) + 1) refuse(whole, what);
+    out = {static_cast<Transfer>(i), 0, 0};
+    const auto number_of = [&](std::string_view part, double least, double most) {
+      const double v = take_number(part, whole, what);
+      if (!part.empty() || v < least || v > most) refuse(whole, what);
+      return v;
+    };
+    if (row.numbers > 0) out.first = number_of(parts[1], row.least, row.most);
+    if (row.numbers > 1) out.second = number_of(parts[2], 0, 1);
+    return;
+  }
+  refuse(whole, what);
+}
+
+void parse(std::string_view text, Unit, Rgb& out) {
+  const auto t = trimmed(text);
+  constexpr std::string_view what = "a colour such as #FF8000";
+  if ((t.size() != 7 && t.size() != 9) || t.front() != '#') refuse(t, what);
+  std::uint32_t v = 0;
+  const auto [end, error] = std::from_chars(t.data() + 1, t.data() + t.size(), v, 16);
+  if (error != std::errc{} || end != t.data() + t.size()) refuse(t, what);
+  if (t.size() == 9) v >>= 8;
+  out = {static_cast<std::uint8_t>(v >> 16), static_cast<std::uint8_t>(v >> 8), static_cast<std::uint8_t>(v)};
+}
+
+void parse(std::string_view text, Unit, HeightMarks& out) {
+  out.clear();
+  const auto whole = trimmed(text);
+  if (whole.empty()) return;
+  constexpr std::string_view what = "a list of heights in mm above 0 such as 5.2 = text; 10";
+  for_each_part(whole, ';', [&](std::string_view part) {
+    if (part.empty()) return;
+    const auto equals = part.find('=');
+    auto height = trimmed(part.substr(0, equals));
+    const double mm = take_number(height, whole, what);
+    if (!names_unit(height, Unit::mm) || mm <= 0) refuse(whole, what);
+    const auto says = equals == std::string_view::npos ? std::string_view() : trimmed(part.substr(equals + 1));
+    out.push_back({length_from(mm, whole), with_semicolons(escape::one_line(says))});
+  });
+  std::stable_sort(out.begin(), out.end(), [](const HeightMark& a, const HeightMark& b) { return a.z < b.z; });
+}
+
+void parse(std::string_view text, Unit, ToolValues& out) {
+  out.clear();
+  const auto whole = trimmed(text);
+  if (whole.empty()) return;
+  constexpr std::string_view what = "a list of settings of tools such as 1.material_flow = 97; 2.material_flow = 99";
+  for_each_part(whole, ';', [&](std::string_view part) {
+    if (part.empty()) return;
+    const auto dot = part.find('.'), equals = part.find('=');
+    if (equals == std::string_view::npos || dot > equals) refuse(part, what);
+    ToolValue value{0, std::string(trimmed(part.substr(dot + 1, equals - dot - 1))), {}};
+    const auto [end, error] = std::from_chars(part.data(), part.data() + dot, value.tool);
+    if (error != std::errc{} || end != part.data() + dot || value.tool < 1 || value.tool > 31) refuse(part, what);
+    value.text = with_semicolons(trimmed(part.substr(equals + 1)));
+    out.push_back(std::move(value));
+  });
+}
+
 std::size_t parse_choice(std::string_view text, const std::vector<std::string_view>& names) {
   const auto t = trimmed(text);
   for (std::size_t i = 0; i < names.size(); ++i)
@@ -274,6 +406,47 @@ std::string print(const std::vector<Ring>& v, Unit unit) {
 std::string print(const PictureSizes& v, Unit) {
   std::string out;
   for (const auto size : v) out += fmt::format("{}{}x{}", out.empty() ? "" : ", ", size.width, size.height);
+  return out;
+}
+
+std::string print(const Numbers& v, Unit) {
+  std::string out;
+  for (const double each : v) out += (out.empty() ? "" : ", ") + number(each);
+  return out;
+}
+
+std::string print(const ValuesAt& v, Unit) {
+  std::string out;
+  for (const ValueAt& each : v)
+    out += fmt::format("{}{}:{}", out.empty() ? "" : ", ", number(each.at), number(each.value));
+  return out;
+}
+
+std::string print(const TransferCurve& v, Unit) {
+  const TransferRow& row = transfer_rows[static_cast<std::size_t>(v.kind)];
+  std::string out(row.name);
+  if (row.numbers > 0) out += ":" + number(v.first);
+  if (row.numbers > 1) out += ":" + number(v.second);
+  return out;
+}
+
+std::string print(Rgb v, Unit) {
+  return fmt::format("#{:02X}{:02X}{:02X}", v.r, v.g, v.b);
+}
+
+std::string print(const HeightMarks& v, Unit) {
+  std::string out;
+  for (const auto& mark : v)
+    out += (out.empty() ? "" : "; ") + number(to_mm(mark.z)) +
+           (mark.text.empty() ? "" : " = " + without_semicolons(mark.text));
+  return out;
+}
+
+std::string print(const ToolValues& v, Unit) {
+  std::string out;
+  for (const auto& value : v) {
+    out += fmt::format("{}{}.{} = {}", out.empty() ? "" : "; ", value.tool, value.key, without_semicolons(value.text));
+  }
   return out;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "core/polygon.h"
+#include "core/rgb.h"
 #include "settings/unit.h"
 
 #include <optional>
@@ -43,6 +44,40 @@ struct PictureSize {
 };
 using PictureSizes = std::vector<PictureSize>;
 
+using Numbers = std::vector<double>;  ///< `0, 60, 120`
+
+/// A value at a place: `2:30`.
+struct ValueAt {
+  double at = 0, value = 0;
+  friend bool operator==(ValueAt, ValueAt) = default;
+};
+using ValuesAt = std::vector<ValueAt>;  ///< `0:60, 2:30, 8:10`, places ascending; the same place twice is a step
+
+/// How a density follows from the number that is given for it.
+enum class Transfer { linear, simp, ramp, heaviside, linear_spacing, exponential_spacing };
+struct TransferCurve {
+  Transfer kind = Transfer::linear;
+  double first = 0;   ///< simp: exponent; ramp: q; heaviside: sharpness
+  double second = 0;  ///< heaviside: threshold, 0 … 1
+  friend bool operator==(TransferCurve, TransferCurve) = default;
+};
+
+/// What happens at a height, or from it on: `2.4 = text`.
+struct HeightMark {
+  Um z = 0;
+  std::string text;  ///< one line; what it says is the setting's matter
+  friend bool operator==(const HeightMark&, const HeightMark&) = default;
+};
+using HeightMarks = std::vector<HeightMark>;
+
+/// A setting of another tool than T0: `1.material_flow = 97`.
+struct ToolValue {
+  int tool = 0;
+  std::string key, text;  ///< one line, as a profile holds it
+  friend bool operator==(const ToolValue&, const ToolValue&) = default;
+};
+using ToolValues = std::vector<ToolValue>;
+
 /// One choice of an enumeration; the enumeration's `choices_of(E)` returns an array of them, row i for value i.
 template <class E>
 struct Choice {
@@ -61,6 +96,12 @@ void parse(std::string_view text, Unit unit, SpeedOrShare& out);
 void parse(std::string_view text, Unit unit, Ring& out);               ///< `0x0, 220x0, 220x220, 0x220`, mm
 void parse(std::string_view text, Unit unit, std::vector<Ring>& out);  ///< rings separated by `;`
 void parse(std::string_view text, Unit unit, PictureSizes& out);       ///< `32x32, 220x124`, 1 … 4096 pixels each way
+void parse(std::string_view text, Unit unit, Numbers& out);
+void parse(std::string_view text, Unit unit, ValuesAt& out);
+void parse(std::string_view text, Unit unit, TransferCurve& out);  ///< `linear`, `simp:3`, `heaviside:16:0.5`
+void parse(std::string_view text, Unit unit, Rgb& out);            ///< `#RRGGBB`, or `#RRGGBBAA` without its A
+void parse(std::string_view text, Unit unit, HeightMarks& out);    ///< `5.2 = text; 10`, mm, above 0; sorted
+void parse(std::string_view text, Unit unit, ToolValues& out);  ///< `1.key = text; 2.key = text`; in texts `\s` is `;`
 /// Index of the choice, without regard to case.
 std::size_t parse_choice(std::string_view text, const std::vector<std::string_view>& names);
 
@@ -73,6 +114,12 @@ std::string print(const SpeedOrShare& v, Unit unit);
 std::string print(const Ring& v, Unit unit);
 std::string print(const std::vector<Ring>& v, Unit unit);
 std::string print(const PictureSizes& v, Unit unit);
+std::string print(const ValuesAt& v, Unit unit);
+std::string print(const TransferCurve& v, Unit unit);
+std::string print(Rgb v, Unit unit);
+std::string print(const Numbers& v, Unit unit);
+std::string print(const HeightMarks& v, Unit unit);
+std::string print(const ToolValues& v, Unit unit);
 
 /// A number as short as it can be, without locale: 0.45, 220, -1.5.
 std::string number(double v, int decimals = 6);

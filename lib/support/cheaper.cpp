@@ -6,7 +6,6 @@
 #include "geometry/spatial_index.h"
 #include "support/columns.h"
 #include "support/lengths.h"
-#include "support/tree.h"
 
 #include <algorithm>
 
@@ -41,7 +40,7 @@ Split cheaper(const SupportSettings& s, const Object& object, const Stack& stack
   std::vector<double> columns_mm3(patches.size(), 0), branches_mm3(patches.size(), 0);
 
   const auto standing = columns(s, object, stack, keep_out, contacts, std::vector<Regions>(contacts.size()));
-  const auto branches = tree(s, object, stack, keep_out, contacts);
+  auto branches = tree(s, object, stack, keep_out, contacts);
   double tree_mm3 = 0;
   for (std::size_t k = 0; k < stack.levels.size(); ++k) {
     stop_if_asked();
@@ -49,9 +48,10 @@ Split cheaper(const SupportSettings& s, const Object& object, const Stack& stack
       columns_mm3[patch_of(region)] += column_mm3(s, {region}, line, stack.levels[k].height);
     tree_mm3 += perimeter_mm(branches.areas[k]) * to_mm(line) * to_mm(stack.levels[k].height);
   }
-  const double roof = s.support_roof_enable ? to_mm(s.support_roof_height) * s.support_interface_density / 100 : 0;
+  // Either has a roof, which on a branch takes the place of nothing, and on a column that of what fills it.
+  const double roof = s.support_roof_enable ? to_mm(s.support_roof_height) * s.support_infill_rate / 100 : 0;
   for (const auto& regions : contacts)
-    for (const Region& region : regions) columns_mm3[patch_of(region)] += area_mm2(region) * roof;
+    for (const Region& region : regions) columns_mm3[patch_of(region)] -= area_mm2(region) * roof;
   // Branches that meet are shared: each tip pays by its height.
   double heights = 0;
   for (const Point3 tip : branches.tips_at) heights += tip.z - object.floor;
@@ -62,12 +62,16 @@ Split cheaper(const SupportSettings& s, const Object& object, const Stack& stack
     for (const Region& region : branches.left[k])
       branches_mm3[patch_of(region)] += column_mm3(s, {region}, line, stack.levels[k].z - object.floor);
 
-  Split out{std::vector<Regions>(contacts.size()), std::vector<Regions>(contacts.size())};
+  Split out{std::vector<Regions>(contacts.size()), std::vector<Regions>(contacts.size()), std::nullopt};
+  bool columns_too = false;
   for (std::size_t k = 0; k < contacts.size(); ++k)
     for (const Region& region : contacts[k]) {
       const auto patch = patch_of(region);
-      (branches_mm3[patch] < columns_mm3[patch] ? out.for_branches : out.for_columns)[k].push_back(region);
+      const bool by_branches = branches_mm3[patch] < columns_mm3[patch];
+      (by_branches ? out.for_branches : out.for_columns)[k].push_back(region);
+      columns_too = columns_too || !by_branches;
     }
+  if (!columns_too) out.branches = std::move(branches);
   return out;
 }
 

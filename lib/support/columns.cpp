@@ -4,10 +4,12 @@
 #include "core/stop.h"
 #include "geometry/boolean.h"
 #include "geometry/clip_lines.h"
+#include "support/branch_areas.h"
 #include "support/lengths.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <utility>
 
@@ -48,7 +50,70 @@ Regions shaped(const SupportSettings& s, const Object& object, const Regions& co
   return out;
 }
 
-/// Strips thinner than two lines, made as wide as that.
+bool on_tower(const SupportSettings& s, const Region& region) {
+  const Point size = box_of(region.outer).size();
+  return s.support_use_towers && std::max(size.x, size.y) <= s.support_tower_maximum_supported_diameter;
+}
+
+/// Rounds under tiny contacts, as thick as a tower as soon as the slope of its top allows.
+class Towers {
+ public:
+  Towers(const SupportSettings& s) : s_(s) {}
+  void begin(const Regions& contacts, Um z) {
+    for (const Region& region : contacts)
+      if (on_tower(s_, region)) growing_.push_back({box_of(region.outer), z});
+  }
+  /// Adds what towers are on a level with its top there.
+  void add(Um z, Regions& falling) {
+    const double most = s_.support_tower_diameter / 2.0;
+    std::vector<Ring> rings;
+    std::erase_if(growing_, [&](const Tower& tower) {
+      const double least = std::max(tower.box.size().x, tower.box.size().y) / 2.0;
+      const double slope = std::tan(s_.support_tower_roof_angle * std::numbers::pi / 180);
+      const double radius = slope > 0 ? std::min(most, least + (tower.z - z) / slope) : most;
+      if (radius > 0) rings.push_back(circle_around({tower.box.centre(), radius}));
+      return radius >= most;
+    });
+    if (rings.empty()) return;
+    append(falling, geometry::regions_from_rings(rings));
+    falling = geometry::unite(falling);
+  }
+
+ private:
+  struct Tower {
+    Box box;
+    Um z;
+  };
+  const SupportSettings& s_;
+  std::vector<Tower> growing_;
+};
+
+/// A level further down columns are narrower by that much at each side (wider below 0), but keep their least width.
+void lean(const SupportSettings& s, const Object& object, Um height, Regions& falling) {
+  const Um rests = line_width(s, object.nozzle) / 2;  // more of a bead would hang
+  const Um by =
+      std::clamp(rounded(height * std::tan(s.support_conical_angle * std::numbers::pi / 180)), -8 * rests, rests);
+  if (by < 0) {
+    falling = grown(falling, -by);
+    return;
+  }
+  const auto with = [](Um offset) { return geometry::OffsetOptions{.by = offset, .corner = geometry::Corner::miter}; };
+  const Um least = s.support_conical_min_width / 2;
+  Regions out = geometry::offset(falling, with(-by));
+  append(out, geometry::subtract(falling, geometry::offset(geometry::offset(falling, with(-least)), with(least + 20))));
+  falling = geometry::opening(geometry::unite(out), rests / 2);
+}
+
+}  // namespace
+
+TowersAndOthers for_towers(const SupportSettings& settings, const std::vector<Regions>& contacts) {
+  TowersAndOthers out{std::vector<Regions>(contacts.size()), std::vector<Regions>(contacts.size())};
+  for (std::size_t k = 0; k < contacts.size(); ++k)
+    for (const Region& region : contacts[k])
+      (on_tower(settings, region) ? out.towers : out.others)[k].push_back(region);
+  return out;
+}
+
 void thicken(Regions& area, const Regions& fresh, Um line) {
   Regions thin = geometry::subtract(area, grown(geometry::opening(area, line), 20));
   if (thin.empty()) return;
@@ -58,20 +123,20 @@ void thicken(Regions& area, const Regions& fresh, Um line) {
   area = geometry::unite(area);
 }
 
-}  // namespace
+void rest_on(const SupportSettings& s, const Object& object, const Stack::Level& level, const Regions& below,
+             Regions& here) {
+  constexpr Um sinks = 0.6_mm;  // what hangs so far above the part comes to lie on it
+  if (here.empty() || geometry::subtract(here, below).empty()) return;
+  Regions base = below;
+  if (s.support_type == SupportType::everywhere)
+    append(base, outlines_between(object, level.bottom() - bottom_gap(s) - sinks, level.bottom()));
+  here = geometry::intersect(here, grown(base, std::max(line_width(s, object.nozzle) * 6 / 10, level.height)));
+}
 
 void let_rest(const SupportSettings& s, const Object& object, const Stack& stack, std::vector<Regions>& levels) {
-  constexpr Um sinks = 0.6_mm;  // what hangs so far above the part comes to lie on it
-  const Um line = line_width(s, object.nozzle);
   for (std::size_t k = 1; k < levels.size(); ++k) {
-    if (levels[k].empty()) continue;
     stop_if_asked();
-    if (geometry::subtract(levels[k], levels[k - 1]).empty()) continue;
-    const auto& level = stack.levels[k];
-    Regions base = levels[k - 1];
-    if (s.support_type == SupportType::everywhere)
-      append(base, outlines_between(object, level.bottom() - bottom_gap(s) - sinks, level.bottom()));
-    levels[k] = geometry::intersect(levels[k], grown(base, std::max(line * 6 / 10, level.height)));
+    rest_on(s, object, stack.levels[k], levels[k - 1], levels[k]);
   }
 }
 
@@ -96,8 +161,12 @@ std::vector<Regions> columns(const SupportSettings& settings, const Object& obje
   std::vector<Regions> shadow;
   if (settings.support_type == SupportType::buildplate) shadow = shadows(settings, object, stack);
   Regions falling;  // what comes down from above
+  Towers towers(settings);
   for (std::size_t k = stack.levels.size(); k-- > 0;) {
     stop_if_asked();
+    if (settings.support_conical_enabled && !falling.empty()) lean(settings, object, stack.levels[k].height, falling);
+    towers.begin(contacts[k], stack.levels[k].z);
+    towers.add(stack.levels[k].z, falling);
     if (!contacts[k].empty()) {
       const Regions fresh = shaped(settings, object, contacts[k]);
       append(falling, fresh);

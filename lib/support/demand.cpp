@@ -23,7 +23,7 @@ struct Patch {
 };
 struct LayerPatches {
   std::vector<Patch> patches;
-  bool island = false;
+  std::size_t islands = 0;
   double bridged_mm2 = 0;
 };
 
@@ -70,7 +70,7 @@ class Layer {
     Regions starts;
     if (automatic || enforced_layer)
       for (const auto r : beginning(here_, step, o_.outer_line)) starts.push_back(here_[r]);
-    out.island = !starts.empty();
+    out.islands = starts.size();
     if (i_ < o_.blocked.size() && !o_.blocked[i_].empty()) {
       wanted = geometry::subtract(wanted, o_.blocked[i_]);
       starts = geometry::subtract(starts, o_.blocked[i_]);
@@ -190,19 +190,24 @@ Demand demand(const SupportSettings& settings, const Object& object) {
   drop_small(settings, layers);
   Demand out(layers.size());
   for (std::size_t i = 0; i < layers.size(); ++i) {
-    out[i].island = layers[i].island, out[i].bridged_mm2 = layers[i].bridged_mm2;
+    out[i].islands = layers[i].islands, out[i].bridged_mm2 = layers[i].bridged_mm2;
     for (Patch& p : layers[i].patches) out[i].wanted.push_back(std::move(p.region));
   }
   return out;
 }
 
-std::vector<Island> islands(const Object& object) {
+std::vector<Island> islands(const Object& object, std::span<const Regions* const> over_air) {
   const auto of_layer = tasks::parallel_map(object.layers.size(), [&](std::size_t i) {
     std::vector<Island> out;
     if (i == 0) return out;
     const Regions& here = object.layers[i]->regions;
     const Regions& below = object.layers[i - 1]->regions;
-    if (here.empty() || here == below) return out;
+    const Regions* known = i < over_air.size() ? over_air[i] : nullptr;
+    if (here.empty() || (known ? known->empty() : here == below)) return out;
+    if (known) {
+      for (const auto r : beginning(here, *known, object.outer_line)) out.push_back({i, here[r].outer.front()});
+      return out;
+    }
     // Where each region has a corner in one below, nothing begins here: most layers are told so.
     const Box under = box_of(below);
     const bool near = std::all_of(here.begin(), here.end(), [&](const Region& r) {

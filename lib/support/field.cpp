@@ -99,12 +99,17 @@ void Field::size_up(const SupportSettings& settings, const Object& object, const
   }
 }
 
-std::vector<std::uint8_t> Field::barred(const Object& object, const Stack& stack, std::size_t slab) const {
+std::vector<std::uint8_t> Field::barred(const SupportSettings& settings, const Object& object, const Stack& stack,
+                                        std::size_t slab) const {
   std::vector<std::uint8_t> out(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_),
                                 object.room != nullptr ? 1 : 0);
   if (object.room != nullptr)
     rasterize(*object.room, origin_, cell_, columns_, rows_, [&](int c, int r) { out[index(c, r)] = 0; });
-  const auto run = layers_between(object, stack.levels[first_[slab]].bottom(), stack.levels[first_[slab + 1] - 1].z);
+  const Um low = stack.levels[first_[slab]].bottom(), high = stack.levels[first_[slab + 1] - 1].z;
+  if (settings.support_blockers_avoided)
+    rasterize(blocked_between(object, low, high), origin_, cell_, columns_, rows_,
+              [&](int c, int r) { out[index(c, r)] = 1; });
+  const auto run = layers_between(object, low, high);
   for (std::size_t i = run.from; i < run.to; ++i)
     rasterize(object.layers[i]->regions, origin_, cell_, columns_, rows_, [&](int c, int r) { out[index(c, r)] = 2; });
   return out;
@@ -162,7 +167,7 @@ std::vector<std::uint8_t> Field::spread(const std::vector<std::uint8_t>& from, U
 Field::Field(const SupportSettings& settings, const Object& object, const Stack& stack, const std::vector<KeepOut>&) {
   beside_ = beside(settings, object);
   size_up(settings, object, stack);
-  barred_ = tasks::parallel_map(slabs(), [&](std::size_t slab) { return barred(object, stack, slab); });
+  barred_ = tasks::parallel_map(slabs(), [&](std::size_t slab) { return barred(settings, object, stack, slab); });
   const auto clear = tasks::parallel_map(slabs(), [&](std::size_t slab) { return clearance(barred_[slab]); });
   const bool everywhere = settings.support_type == SupportType::everywhere;
   for (std::size_t slab = 0; slab < slabs(); ++slab) {

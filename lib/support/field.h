@@ -39,7 +39,8 @@ class Field {
   }
   Um at(const std::vector<std::vector<std::uint8_t>>& field, std::size_t slab, Point p) const;
   void size_up(const SupportSettings& settings, const Object& object, const Stack& stack);
-  std::vector<std::uint8_t> barred(const Object& object, const Stack& stack, std::size_t slab) const;
+  std::vector<std::uint8_t> barred(const SupportSettings& settings, const Object& object, const Stack& stack,
+                                   std::size_t slab) const;
   std::vector<std::uint8_t> clearance(const std::vector<std::uint8_t>& barred) const;
   std::vector<std::uint8_t> spread(const std::vector<std::uint8_t>& from, Um reach) const;
 

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include "core/table.h"
 #include "geometry/offset.h"
 #include "settings/groups/support.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
 
 /// The distances that support keeps, resolved.
 namespace weft::support {
@@ -18,6 +24,39 @@ inline Um bottom_gap(const SupportSettings& s) {
 }
 inline Um line_width(const SupportSettings& s, Um nozzle) {
   return s.support_line_width.value_or(nozzle);
+}
+
+/// Diameters of branches, where the settings leave them to the style.
+struct BranchStyle {
+  SupportTreeStyle style;
+  Um tip, branch;
+  double angle;  ///< how fast they get thicker, °
+};
+inline constexpr std::array branch_styles{
+    BranchStyle{SupportTreeStyle::organic, 0.8_mm, 2_mm, 5},
+    BranchStyle{SupportTreeStyle::slim, 0.6_mm, 1.2_mm, 3},
+    BranchStyle{SupportTreeStyle::strong, 1_mm, 4_mm, 7},
+};
+static_assert(in_order(branch_styles, &BranchStyle::style), "row i of branch_styles is style i");
+inline BranchStyle branch_style(const SupportSettings& s) {
+  BranchStyle out = row_of(branch_styles, s.support_tree_style);
+  out.tip = s.support_tree_tip_diameter.value_or(out.tip);
+  out.branch = std::max(out.tip, s.support_tree_branch_diameter.value_or(out.branch));
+  out.angle = s.support_tree_branch_diameter_angle.value_or(out.angle);
+  return out;
+}
+
+/// How far from the middle of a tip what it holds may reach: support_tree_branch_distance from its edge, or as far as
+/// the places between tips are when only support_tree_top_rate of what is held lies on one (hexagons).
+inline Um tip_covers(const SupportSettings& s, const BranchStyle& style) {
+  const double lattice = style.tip * std::sqrt(std::numbers::pi / (6 * std::sqrt(3.0) * s.support_tree_top_rate / 100));
+  return std::max(style.tip / 2 + s.support_tree_branch_distance, rounded(lattice));
+}
+
+/// The free length that strands of a roof cross from branch to branch. Strands of ten nozzles' length sag by less than
+/// their height, and there are more layers above them.
+inline Um roof_span(Um nozzle) {
+  return 10 * nozzle;
 }
 
 inline Regions grown(const Regions& regions, Um by) {

@@ -3,6 +3,7 @@
 #include "geometry/boolean.h"
 #include "support/cheaper.h"
 #include "support/columns.h"
+#include "support/landing.h"
 #include "support/lengths.h"
 #include "support/support.h"
 #include "support/tree.h"
@@ -39,12 +40,6 @@ std::vector<Regions> given_on(const Object& object, const Stack& stack) {
   return out;
 }
 
-/// How many levels from k on an interface of that height takes.
-std::size_t levels_of(const Stack& stack, std::size_t k, Um height) {
-  return std::max<std::size_t>(
-      1, static_cast<std::size_t>(std::lround(static_cast<double>(height) / stack.levels[k].height)));
-}
-
 /// Cuts a level's columns into roof, bottom and what is between.
 SupportLayer divided(const SupportSettings& s, const Object& object, const Stack& stack, std::size_t k,
                      const std::vector<Regions>& standing, const std::vector<Regions>& contacts) {
@@ -54,8 +49,10 @@ SupportLayer divided(const SupportSettings& s, const Object& object, const Stack
   if (out.columns.empty()) return out;
   if (s.support_roof_enable && s.support_roof_height > 0) {
     Regions held;
-    const std::size_t end = std::min(stack.levels.size(), k + levels_of(stack, k, s.support_roof_height));
-    for (std::size_t j = k; j < end; ++j) append(held, contacts[j]);
+    for (std::size_t j = k; j < stack.levels.size(); ++j) {
+      if (stack.levels[j].bottom() >= level.z + s.support_roof_height + 2 * object.nozzle) break;
+      if (!contacts[j].empty() && j - k < interface_levels(stack, j, s.support_roof_height)) append(held, contacts[j]);
+    }
     if (!held.empty()) out.roof = geometry::intersect(out.columns, grown(geometry::unite(held), line));
   }
   if (s.support_bottom_enable && level.bottom() > object.floor) {
@@ -92,7 +89,7 @@ void spread_first(const SupportSettings& s, const Object& object, const KeepOut&
 void note_reached(const Object& object, const Stack& stack, const Demand& demand, Plan& plan) {
   struct Reached {
     Regions held;
-    double needed_mm2 = 0, left_mm2 = 0;
+    double needed_mm2 = 0, left_mm2 = 0, contact_mm2 = 0;
     Point left_at;
   };
   const auto of_layer = tasks::parallel_map(demand.size(), [&](std::size_t i) {
@@ -104,7 +101,9 @@ void note_reached(const Object& object, const Stack& stack, const Demand& demand
       const auto& level = plan.layers[stack.contact[i]];
       Regions all = level.roof;
       append(all, level.columns), append(all, level.branches);
-      const Regions wide = grown(geometry::unite(all), reached);
+      all = geometry::unite(all);
+      out.contact_mm2 = area_mm2(geometry::intersect(all, demand[i].wanted));
+      const Regions wide = grown(all, reached);
       out.held = geometry::intersect(wide, object.layers[i]->regions);
       left = geometry::opening(geometry::subtract(left, wide), 20);
     }
@@ -115,12 +114,75 @@ void note_reached(const Object& object, const Stack& stack, const Demand& demand
   for (std::size_t i = 0; i < of_layer.size(); ++i) {
     plan.held[i] = of_layer[i].held;
     plan.figures.needed_mm2 += of_layer[i].needed_mm2;
+    plan.figures.contact_mm2 += of_layer[i].contact_mm2;
+    plan.figures.islands += demand[i].islands;
     plan.figures.bridged_mm2 += demand[i].bridged_mm2;
     if (of_layer[i].left_mm2 > 0.01 && plan.figures.left_mm2 <= 0.01)
       plan.figures.left_at = {of_layer[i].left_at.x, of_layer[i].left_at.y,
                               object.layers[i]->z - object.layers[i]->height};
     plan.figures.left_mm2 += of_layer[i].left_mm2;
   }
+}
+
+/// What stands under the contacts.
+struct Standing {
+  Tree branches;
+  std::vector<Regions> columns;
+  std::vector<Regions> under_columns;  ///< by level: the contacts that columns hold
+};
+
+/// What of contacts branches left, by level.
+std::vector<Regions> left_by(const Tree& branches, const std::vector<Regions>& contacts) {
+  return tasks::parallel_map(contacts.size(), [&](std::size_t k) {
+    if (contacts[k].empty()) return Regions{};
+    Regions held = branches.areas[k];
+    append(held, branches.roofs[k]);
+    return geometry::opening(geometry::subtract(contacts[k], grown(geometry::unite(held), reached)), 50);
+  });
+}
+
+Standing stand(const SupportSettings& s, const Object& object, const Stack& stack, const std::vector<KeepOut>& keep_out,
+               const std::vector<Regions>& contacts, const std::vector<Regions>& given) {
+  const std::size_t count = contacts.size();
+  Standing out;
+  if (s.support_structure == SupportStructure::normal || count == 0) {
+    out.under_columns = contacts;
+    out.columns = columns(s, object, stack, keep_out, contacts, given);
+    return out;
+  }
+  auto [towers, others] = for_towers(s, contacts);
+  Split split;
+  if (s.support_structure == SupportStructure::hybrid)
+    split = cheaper(s, object, stack, keep_out, others);
+  else
+    split = {others, std::vector<Regions>(count), std::nullopt};
+  out.branches = split.branches ? std::move(*split.branches) : tree(s, object, stack, keep_out, split.for_branches);
+  out.under_columns = std::move(split.for_columns);
+  const auto left = left_by(out.branches, split.for_branches);
+  for (std::size_t k = 0; k < count; ++k) {
+    if (left[k].empty() && towers[k].empty()) continue;
+    append(out.under_columns[k], left[k]), append(out.under_columns[k], towers[k]);
+    out.under_columns[k] = geometry::unite(out.under_columns[k]);
+  }
+  out.columns = columns(s, object, stack, keep_out, out.under_columns, given);
+  return out;
+}
+
+/// Branches and their roofs, where no columns are.
+void add_branches(const SupportSettings& s, const Object& object, std::size_t k, const Standing& standing,
+                  SupportLayer& layer) {
+  const Um half = line_width(s, object.nozzle) / 2;
+  const Regions &areas = standing.branches.areas[k], &roofs = standing.branches.roofs[k];
+  if (!roofs.empty()) {
+    Regions own = standing.columns[k].empty() ? roofs : geometry::subtract(roofs, grown(standing.columns[k], 20));
+    own = geometry::opening(own, half / 2);
+    append(layer.roof, own);
+    if (layer.roof.size() > own.size()) layer.roof = geometry::unite(layer.roof);
+  }
+  if (areas.empty()) return;
+  Regions others = grown(standing.columns[k], half);
+  append(others, roofs);
+  layer.branches = others.empty() ? areas : geometry::opening(geometry::subtract(areas, others), half / 2);
 }
 
 }  // namespace
@@ -134,42 +196,24 @@ Plan plan(const SupportSettings& settings, const Object& object, const Demand& d
       std::all_of(object.given.begin(), object.given.end(), nothing))
     return out;
   out.figures = {};
-  Stack stack = stack_of(settings, object);
+  Stack stack = stack_of(settings, object, demand);
   const auto contacts = contacts_of(stack, demand);
   auto given = given_on(object, stack);
   std::size_t used = contacts.size();
   while (used > 0 && contacts[used - 1].empty() && given[used - 1].empty()) --used;
   stack.levels.resize(used);
   const auto keep_out = keep_outs(settings, object, stack);
-  Tree branches;
-  std::vector<Regions> under_columns = contacts;  // what they hold
-  if (settings.support_structure != SupportStructure::normal && used > 0) {
-    const auto split = settings.support_structure == SupportStructure::hybrid
-                           ? cheaper(settings, object, stack, keep_out, contacts)
-                           : Split{contacts, std::vector<Regions>(contacts.size())};
-    branches = tree(settings, object, stack, keep_out, split.for_branches);
-    under_columns = split.for_columns;
-    const auto left = tasks::parallel_map(used, [&](std::size_t k) {
-      if (split.for_branches[k].empty()) return Regions{};
-      return geometry::opening(geometry::subtract(split.for_branches[k], grown(branches.areas[k], reached)), 50);
-    });
-    for (std::size_t k = 0; k < used; ++k)
-      if (!left[k].empty()) {
-        append(under_columns[k], left[k]);
-        under_columns[k] = geometry::unite(under_columns[k]);
-      }
-    out.figures.tips = branches.tips_at.size(), out.figures.trunks = branches.trunks;
-  }
-  const auto standing = columns(settings, object, stack, keep_out, under_columns, given);
+  const Standing standing = stand(settings, object, stack, keep_out, contacts, given);
+  out.figures.tips = standing.branches.tips_at.size(), out.figures.trunks = standing.branches.trunks;
+  out.figures.slenderest = standing.branches.slenderest;
   out.layers = tasks::parallel_map(used, [&](std::size_t k) {
-    auto layer = divided(settings, object, stack, k, standing, under_columns);
-    if (k < branches.areas.size() && !branches.areas[k].empty())
-      layer.branches =
-          geometry::subtract(branches.areas[k], grown(standing[k], line_width(settings, object.nozzle) / 2));
+    auto layer = divided(settings, object, stack, k, standing.columns, standing.under_columns);
+    if (k < standing.branches.areas.size()) add_branches(settings, object, k, standing, layer);
     return layer;
   });
   if (used > 0) spread_first(settings, object, keep_out[0], out.layers[0]);
   note_reached(object, stack, demand, out);
+  out.figures.on_part_mm2 = land(settings, object, out.layers);
   return out;
 }
 

@@ -28,6 +28,29 @@ Regions outlines_between(const Object& object, Um low, Um high) {
   return run.to - run.from > 1 ? geometry::unite(out) : out;
 }
 
+Regions blocked_between(const Object& object, Um low, Um high) {
+  Regions out;
+  const auto run = layers_between(object, low, high);
+  for (std::size_t i = run.from; i < std::min(run.to, object.blocked.size()); ++i) append(out, object.blocked[i]);
+  return out.empty() ? out : geometry::unite(out);
+}
+
+namespace {
+
+/// What of a level waits for the next step over a slope: what the part has left since the step began, no wider than a
+/// step may be.
+Regions stair(const SupportSettings& settings, const Object& object, const Stack::Level& level) {
+  const Um step = settings.support_bottom_stair_step_height, width = settings.support_bottom_stair_step_width;
+  if (step <= 0 || width <= 0 || level.bottom() <= object.floor) return {};
+  const Um begun = object.floor + (level.bottom() - object.floor) / step * step, gap = bottom_gap(settings);
+  if (begun == level.bottom()) return {};
+  const Regions now = outlines_between(object, level.bottom() - gap - 1, level.bottom() - gap);
+  if (now.empty()) return {};
+  return geometry::intersect(outlines_between(object, begun - gap, level.bottom() - gap), grown(now, width));
+}
+
+}  // namespace
+
 std::vector<KeepOut> keep_outs(const SupportSettings& settings, const Object& object, const Stack& stack) {
   const Um xy = beside(settings, object);
   const Um close = settings.support_xy_overrides_z ? xy : std::min(xy, settings.support_xy_distance_overhang);
@@ -44,6 +67,8 @@ std::vector<KeepOut> keep_outs(const SupportSettings& settings, const Object& ob
     if (above > 0) out.over = outlines_between(object, level.z, level.z + above);
     if (below > 0 && level.bottom() > object.floor)
       append(out.over, outlines_between(object, level.bottom() - below, level.bottom()));
+    append(out.over, stair(settings, object, level));
+    if (settings.support_blockers_avoided) append(out.over, blocked_between(object, level.bottom(), level.z));
     return out;
   });
 }

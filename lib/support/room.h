@@ -25,6 +25,9 @@ LayerRun layers_between(const Object& object, Um low, Um high);
 /// Their outlines together.
 Regions outlines_between(const Object& object, Um low, Um high);
 
+/// What blockers mark there.
+Regions blocked_between(const Object& object, Um low, Um high);
+
 /// Of each level, what of the plane has something of the object anywhere below: what cannot stand on the plate.
 std::vector<Regions> shadows(const SupportSettings& settings, const Object& object, const Stack& stack);
 

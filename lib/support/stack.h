@@ -18,8 +18,11 @@ struct Stack {
   std::vector<std::uint32_t> contact;  ///< of each layer of the object: the level that ends below its gap, or none
 };
 
-/// Post: heights are between a quarter and three quarters of the nozzle, where the object's own are. On the bed the
-///       first level is as high as the object's first layer.
-Stack stack_of(const SupportSettings& settings, const Object& object);
+/// Post: heights are between a quarter and three quarters of the nozzle, where the object's own are, and no more than
+///       support_infill_sparse_thickness. On the bed the first level is as high as the object's first layer.
+Stack stack_of(const SupportSettings& settings, const Object& object, const Demand& demand);
+
+/// How many levels, from that one down, an interface of that height takes.
+std::size_t interface_levels(const Stack& stack, std::size_t level, Um height);
 
 }  // namespace weft::support

@@ -29,8 +29,8 @@ struct Object {
 /// What of the underside of a layer must be held.
 struct LayerDemand {
   Regions wanted;
-  bool island = false;     ///< something of it begins in the air
-  double bridged_mm2 = 0;  ///< left out, because strands cross it
+  std::size_t islands = 0;  ///< so many of its regions begin in the air
+  double bridged_mm2 = 0;   ///< left out, because strands cross it
 };
 using Demand = std::vector<LayerDemand>;
 
@@ -44,7 +44,8 @@ struct Island {
   std::size_t layer = 0;
   Point at;
 };
-std::vector<Island> islands(const Object& object);
+/// @param over_air by layer: what of it has nothing below, where that is known
+std::vector<Island> islands(const Object& object, std::span<const Regions* const> over_air = {});
 
 /// One layer of support. Areas do not overlap.
 struct SupportLayer {
@@ -58,10 +59,13 @@ struct SupportLayer {
 
 struct Figures {
   double needed_mm2 = 0, bridged_mm2 = 0;
-  double left_mm2 = 0;  ///< what could not be reached
-  Point3 left_at{};     ///< the first place of it
-  double on_part_mm2 = 0;
+  double left_mm2 = 0;      ///< what could not be reached
+  Point3 left_at{};         ///< the first place of it
+  double contact_mm2 = 0;   ///< right below the part, a gap away
+  double on_part_mm2 = 0;   ///< what stands on the part
+  std::size_t islands = 0;  ///< places that begin in the air
   std::size_t tips = 0, trunks = 0;
+  double slenderest = 0;  ///< of trunks: height by width where they stand, without what spreads on the bed
 };
 
 struct Plan {

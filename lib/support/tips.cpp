@@ -38,14 +38,17 @@ class NearPoints {
 
 }  // namespace
 
-std::vector<Point> tips_under(const Regions& contact, const std::vector<Point>& standing, Um covers, const Field& field,
-                              std::size_t slab, Um radius) {
-  NearPoints held(covers);
-  for (const Point p : standing) held.add(p);
-  std::vector<Point> out;
-  const auto put = [&](Point p) { out.push_back(p), held.add(p); };
-  const geometry::SegmentIndex inside(contact);
+std::vector<Point> tips_under(const Regions& contact, const std::vector<Point>& standing, TipSpacing spacing,
+                              const Field& field, std::size_t slab, Um radius) {
+  const Um covers = spacing.inside;
   const Box box = box_of(contact);
+  NearPoints held(covers), held_at_rim(spacing.rim);
+  std::vector<Point> out;
+  const auto hold = [&](Point p) { held.add(p), held_at_rim.add(p); };
+  const auto put = [&](Point p) { out.push_back(p), hold(p); };
+  for (const Point p : standing)
+    if (box.grown(covers).contains(p)) hold(p);
+  const geometry::SegmentIndex inside(contact);
   // The middle of three points of such a lattice is 0.92 of what one covers away from each.
   const Um across = covers * 16 / 10, up = covers * 139 / 100;
   const auto floor_div = [](Um v, Um by) { return v >= 0 ? v / by : -((-v + by - 1) / by); };
@@ -58,7 +61,7 @@ std::vector<Point> tips_under(const Regions& contact, const std::vector<Point>& 
     }
   }
   // Then the rim, where branches find a way, and at last where they may not.
-  const double step = std::max(200.0, covers / 4.0);
+  const double step = std::max(200.0, spacing.rim / 4.0);
   for (const bool free : {true, false})
     for (const Region& region : contact) {
       stop_if_asked();
@@ -69,7 +72,7 @@ std::vector<Point> tips_under(const Regions& contact, const std::vector<Point>& 
           const int pieces = std::max(1, static_cast<int>(distance(a, b) / step));
           for (int k = 0; k < pieces; ++k) {
             const Point p = lerp(a, b, static_cast<double>(k) / pieces);
-            if ((!free || field.to_anything(slab, p) >= radius) && !held.any(p)) put(p);
+            if ((!free || field.to_anything(slab, p) >= radius) && !held_at_rim.any(p)) put(p);
           }
         }
       }

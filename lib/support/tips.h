@@ -6,10 +6,15 @@
 
 namespace weft::support {
 
-/// Where branches begin under a contact so that no place of it is further than `covers` from one.
+/// How far a place of a contact may be from the next branch.
+struct TipSpacing {
+  Um inside = 0, rim = 0;  ///< rim <= inside
+};
+
+/// Where branches begin under a contact so that no place of it is further from one than that.
 /// @param standing  where branches already are on that level: they hold what lies near them
 /// Post: none nearer to another than half of it, but where the contact is narrow.
-std::vector<Point> tips_under(const Regions& contact, const std::vector<Point>& standing, Um covers, const Field& field,
-                              std::size_t slab, Um radius);
+std::vector<Point> tips_under(const Regions& contact, const std::vector<Point>& standing, TipSpacing spacing,
+                              const Field& field, std::size_t slab, Um radius);
 
 }  // namespace weft::support

@@ -3,9 +3,10 @@
 
 #include "core/stop.h"
 #include "geometry/boolean.h"
-#include "support/columns.h"
+#include "support/branch_areas.h"
 #include "support/field.h"
 #include "support/lengths.h"
+#include "support/roofs.h"
 #include "support/tips.h"
 #include "tasks/parallel.h"
 
@@ -29,11 +30,6 @@ struct Node {
   bool gone = false;
 };
 
-struct Disc {
-  Point at;
-  double radius = 0;
-};
-
 class Grower {
  public:
   Grower(const SupportSettings& s, const Object& o, const Stack& stack, const std::vector<KeepOut>& keep_out,
@@ -44,19 +40,22 @@ class Grower {
         contacts_(contacts),
         field_(s, o, stack, keep_out),
         slope_(std::tan(s.support_tree_angle * std::numbers::pi / 180)),
-        tip_(s.support_tree_tip_diameter / 2.0),
+        slow_(std::tan(s.support_tree_angle_slow.value_or(s.support_tree_angle) * std::numbers::pi / 180)),
+        style_(branch_style(s)),
+        tip_(style_.tip / 2.0),
         discs_(stack.levels.size()) {
     tree_.left.resize(stack.levels.size());
   }
 
   Tree grow(const std::vector<KeepOut>& keep_out) && {
+    Roofs roofs(s_, o_, stack_, contacts_);
     for (std::size_t slab = field_.slabs(); slab-- > 0;) {
       stop_if_asked();
-      begin_tips(slab);
+      begin_tips(slab, roofs);
       step(slab);
     }
-    tree_.areas = tasks::parallel_map(discs_.size(), [&](std::size_t k) { return area(k, keep_out[k]); });
-    let_rest(s_, o_, stack_, tree_.areas);
+    tree_.areas = branch_areas(s_, o_, stack_, keep_out, contacts_, discs_);
+    tree_.roofs = std::move(roofs).areas(keep_out);
     return std::move(tree_);
   }
 
@@ -67,31 +66,42 @@ class Grower {
     return node.plate ? field_.to_plate(slab, p) : field_.to_anything(slab, p);
   }
 
-  void begin_tips(std::size_t slab) {
-    const Um covers = rounded(tip_) + s_.support_tree_branch_distance;
+  void begin_tips(std::size_t slab, Roofs& roofs) {
+    const Um covers = tip_covers(s_, style_);
     for (std::size_t k = field_.first_level(slab + 1); k-- > field_.first_level(slab);) {
-      if (contacts_[k].empty()) continue;
-      std::vector<Point> standing;
-      for (const Node& node : nodes_) standing.push_back(node.at);
-      const Um z = stack_.levels[k].z;
-      for (const Point p : tips_under(contacts_[k], standing, covers, field_, slab, rounded(tip_))) {
-        Node node{p, tip_, z, z, true, false};
-        if (slab > 0 && !finds_way(slab, node)) {
-          node.plate = false;
-          if (s_.support_type == SupportType::buildplate || !finds_way(slab, node)) {
-            leave(k, p, covers);
-            continue;
-          }
+      begin_under(slab, k, roofs.bare(k), {covers, covers});
+      const Regions& roof = roofs.begins_above(k);
+      if (roof.empty()) continue;
+      // Strands of a roof cross from branch to branch, but hang free at its rim.
+      const Um spans = rounded(tip_) + roof_span(o_.nozzle) / 2;
+      begin_under(slab, k, roof, {spans, std::min(spans, covers)});
+      roofs.rest(k, standing(), spans + o_.nozzle);
+    }
+  }
+  std::vector<Point> standing() const {
+    std::vector<Point> out;
+    for (const Node& node : nodes_) out.push_back(node.at);
+    return out;
+  }
+  void begin_under(std::size_t slab, std::size_t k, const Regions& contact, TipSpacing spacing) {
+    if (contact.empty()) return;
+    const Um z = stack_.levels[k].z;
+    for (const Point p : tips_under(contact, standing(), spacing, field_, slab, rounded(tip_))) {
+      Node node{p, tip_, z, z, true, false};
+      if (slab > 0 && !finds_way(slab, node)) {
+        node.plate = false;
+        if (s_.support_type == SupportType::buildplate || !finds_way(slab, node)) {
+          leave(k, contact, p, spacing.inside);
+          continue;
         }
-        nodes_.push_back(node);
-        tree_.tips_at.push_back({p.x, p.y, z});
       }
+      nodes_.push_back(node);
+      tree_.tips_at.push_back({p.x, p.y, z});
     }
   }
   /// What a tip should have held.
-  void leave(std::size_t k, Point p, Um covers) {
-    const Regions held = geometry::intersect(contacts_[k], {{circle({p, static_cast<double>(covers)}), {}}});
-    append(tree_.left[k], held);
+  void leave(std::size_t k, const Regions& contact, Point p, Um covers) {
+    append(tree_.left[k], geometry::intersect(contact, {{circle_around({p, static_cast<double>(covers)}), {}}}));
   }
   bool finds_way(std::size_t slab, const Node& node) const {
     return !node.plate && field_.stands_on_part(slab, node.at)
@@ -102,6 +112,11 @@ class Grower {
   /// How far it may go aside on its way to the bottom of the slab.
   Um reach(std::size_t slab, const Node& node) const {
     return std::max<Um>(rounded((node.from_z - bottom_of(slab)) * slope_), 0);
+  }
+
+  /// How far it goes where it may choose.
+  Um likes(std::size_t slab, const Node& node) const {
+    return std::max<Um>(rounded((node.from_z - bottom_of(slab)) * slow_), 0);
   }
 
   /// The place at the bottom of the slab nearest to `goal` from which a branch of that radius gets down.
@@ -126,7 +141,7 @@ class Grower {
   /// The nearest other branch of the same kind, where going there pays.
   std::vector<std::size_t> nearest_of(std::size_t slab) const {
     const double left = bottom_of(slab) - o_.floor;
-    const double most = std::min<double>(farthest, 1.4 * left * slope_);
+    const double most = std::min<double>(farthest, 1.4 * left * slow_);
     std::vector<std::size_t> order(nodes_.size()), out(nodes_.size(), nodes_.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::sort(order.begin(), order.end(),
@@ -152,10 +167,10 @@ class Grower {
 
   /// How thick a branch is that far below its tip.
   double thickness(double was, Um below_tip) const {
-    const double branch = std::max(tip_, s_.support_tree_branch_diameter / 2.0);
+    const double branch = style_.branch / 2.0;
     constexpr double flare = 0.35;  // a tip is a branch within three times the difference; thinner ones, each with a
                                     // loop of its own, take more
-    const double angle = std::tan(s_.support_tree_branch_diameter_angle * std::numbers::pi / 180);
+    const double angle = std::tan(style_.angle * std::numbers::pi / 180);
     const double ramp = tip_ + below_tip * flare;
     const double wanted = ramp < branch ? ramp : branch + (below_tip - (branch - tip_) / flare) * angle;
     return std::max(was, std::min(wanted, s_.support_tree_max_diameter / 2.0));
@@ -163,8 +178,12 @@ class Grower {
 
   void step(std::size_t slab) {
     if (nodes_.empty()) return;
+    const auto stand = [&](const Node& node, Um z) {
+      ++tree_.trunks;
+      tree_.slenderest = std::max(tree_.slenderest, (node.tip_z - z) / (2 * node.radius));
+    };
     if (slab == 0) {
-      for (Node& node : nodes_) end(0, node), ++tree_.trunks;
+      for (Node& node : nodes_) end(0, node), stand(node, o_.floor);
       nodes_.clear();
       return;
     }
@@ -174,7 +193,7 @@ class Grower {
       Node& node = nodes_[i];
       if (node.gone) continue;
       if (!node.plate && field_.stands_on_part(slab, node.at)) {
-        end(slab, node), end(slab - 1, node), ++tree_.trunks;
+        end(slab, node), end(slab - 1, node), stand(node, node.from_z);
         continue;
       }
       const std::size_t j = nearest[i];
@@ -183,7 +202,7 @@ class Grower {
       Point goal = node.at;
       if (j < nodes_.size()) {
         const double d = distance(node.at, nodes_[j].at);
-        goal = lerp(node.at, nodes_[j].at, d > 0 ? std::min(0.5, 0.99 * reach(slab, node) / d) : 0);
+        goal = lerp(node.at, nodes_[j].at, d > 0 ? std::min(0.5, 0.99 * likes(slab, node) / d) : 0);
       }
       const auto place = best_place(slab, node, goal, node.radius);
       move(slab, node, place.value_or(node.at), node.radius, next);
@@ -195,7 +214,7 @@ class Grower {
   bool meet(std::size_t slab, Node& a, Node& b, std::vector<Node>& next) {
     const double weight = b.radius * b.radius / (a.radius * a.radius + b.radius * b.radius);
     const Point at = lerp(a.at, b.at, weight);
-    if (distance(a.at, at) > reach(slab, a) || distance(b.at, at) > reach(slab, b)) return false;
+    if (distance(a.at, at) > likes(slab, a) || distance(b.at, at) > likes(slab, b)) return false;
     const double joined = std::cbrt(std::pow(a.radius, 3) + std::pow(b.radius, 3));
     const double room = way(slab - 1, a, at);
     if (room < std::max(a.radius, b.radius)) return false;
@@ -220,7 +239,7 @@ class Grower {
     draw(slab, node, below);
     next.push_back(below);
   }
-  /// Straight down to the bottom of the slab, where it ends.
+  /// Straight down to the bottom of the slab.
   void end(std::size_t slab, Node& node) {
     Node below = node;
     below.from_z = bottom_of(slab);
@@ -238,30 +257,14 @@ class Grower {
     }
   }
 
-  static Ring circle(const Disc& disc) {
-    const int corners = std::clamp(static_cast<int>(4 * std::sqrt(disc.radius / 100)), 10, 40);  // to 0.03 mm
-    const double outside = disc.radius / std::cos(std::numbers::pi / corners);
-    Ring out;
-    for (int i = 0; i < corners; ++i) {
-      const double angle = 2 * std::numbers::pi * i / corners;
-      out.push_back({disc.at.x + rounded(outside * std::cos(angle)), disc.at.y + rounded(outside * std::sin(angle))});
-    }
-    return out;
-  }
-  Regions area(std::size_t k, const KeepOut& keep_out) const {
-    if (discs_[k].empty()) return {};
-    std::vector<Ring> rings;
-    for (const Disc& disc : discs_[k]) rings.push_back(circle(disc));
-    const Regions all = geometry::regions_from_rings(rings);
-    return geometry::opening(free_part(all, keep_out, contacts_[k], o_), line_width(s_, o_.nozzle) * 4 / 10);
-  }
-
   const SupportSettings& s_;
   const Object& o_;
   const Stack& stack_;
   const std::vector<Regions>& contacts_;
   Field field_;
-  double slope_, tip_;
+  double slope_, slow_;  ///< how far branches lean: at most, and where nothing is in their way
+  BranchStyle style_;
+  double tip_;
   std::vector<std::vector<Disc>> discs_;
   std::vector<Node> nodes_;
   Tree tree_;

@@ -9,9 +9,11 @@ namespace weft::support {
 /// Branches for contacts.
 struct Tree {
   std::vector<Regions> areas;  ///< by level
+  std::vector<Regions> roofs;  ///< by level: interfaces that lie on branches
   std::vector<Regions> left;   ///< by level: contacts that no branch could get to
   std::vector<Point3> tips_at;
   std::size_t trunks = 0;
+  double slenderest = 0;  ///< height by diameter where a trunk stands
 };
 
 /// Tips stand so near that no place of a contact is further than support_tree_branch_distance from one; branches lean

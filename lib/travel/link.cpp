@@ -4,6 +4,7 @@
 #include "travel/blocks.h"
 
 #include <algorithm>
+#include <map>
 
 namespace weft::travel {
 namespace {
@@ -36,6 +37,36 @@ std::vector<Point> places_of(const Prepared& layer, const std::vector<Start>& se
 
 bool starts_with_adhesion(const Prepared& layer) {
   return !layer.blocks.empty() && layer.blocks[0].object == Block::adhesion;
+}
+
+/// Whose a block is, of each block; none where the layer has no support.
+std::vector<BlockOwner> owners_of(const Prepared& layer) {
+  const auto& objects = layer.input.objects;
+  if (std::none_of(objects.begin(), objects.end(), [](const ObjectLayer& o) { return o.support; })) return {};
+  std::vector<BlockOwner> out;
+  for (const auto& block : layer.blocks)
+    out.push_back(block.object == Block::adhesion
+                      ? BlockOwner{}
+                      : BlockOwner{objects[block.object].object, objects[block.object].support});
+  return out;
+}
+
+/// Support is printed before what stands on it, and all of an object's together: a branch that waits for its neighbours
+/// on the other side of the plate cools and curls.
+void put_support_first(const std::vector<BlockOwner>& owners, std::vector<std::uint32_t>& order) {
+  if (owners.empty()) return;
+  std::map<ObjectId, std::vector<std::uint32_t>> support;  // in their order
+  for (const std::uint32_t block : order)
+    if (owners[block].support) support[owners[block].object].push_back(block);
+  std::vector<std::uint32_t> out;
+  for (const std::uint32_t block : order) {
+    if (const auto first = support.find(owners[block].object); first != support.end()) {
+      out.insert(out.end(), first->second.begin(), first->second.end());
+      support.erase(first);
+    }
+    if (!owners[block].support) out.push_back(block);
+  }
+  order = std::move(out);
 }
 
 }  // namespace
@@ -71,6 +102,7 @@ void Linker::add(const Prepared& layer) {
   if (layer.input.time.comes_down) below_.clear();
   for (const auto& object : layer.input.objects)
     if (object.stack >= below_.size()) below_.resize(object.stack + std::size_t{1});
+  owners_.push_back(owners_of(layer));
   Linked& out = linked_.emplace_back();
   out.seams = choose_seams(layer);
   for (const auto& object : layer.input.objects) below_[object.stack].layer = &layer;
@@ -90,12 +122,14 @@ std::vector<Linked> Linker::linked() {
     out.from = at;
     const auto skip = static_cast<std::uint32_t>(out.block_order.size());
     for (const std::uint32_t b : orders[i]) out.block_order.push_back(b + skip);
+    put_support_first(owners_[i], out.block_order);
     if (out.block_order.empty()) continue;
     out.begin = out.places[out.block_order.front()];
     at = out.places[out.block_order.back()];
   }
   for (std::size_t i = linked_.size(); i-- > 1;)
     linked_[i - 1].next = linked_[i].begin ? linked_[i].begin : linked_[i].next;
+  owners_.clear();
   return std::move(linked_);
 }
 

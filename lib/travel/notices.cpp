@@ -31,8 +31,9 @@ void check_combing(const TravelSettings& t, const RetractionSettings& r, Check& 
                        "retraction_combing is off");
   check.without_effect(off && t.retraction_combing_max_detour != usual.retraction_combing_max_detour,
                        "retraction_combing_max_detour", "retraction_combing is off");
-  check.without_effect(!t.travel_avoid_other_parts && t.travel_avoid_distance != usual.travel_avoid_distance,
-                       "travel_avoid_distance", "travel_avoid_other_parts is off");
+  check.without_effect(
+      !t.travel_avoid_other_parts && !t.travel_avoid_supports && t.travel_avoid_distance != usual.travel_avoid_distance,
+      "travel_avoid_distance", "travel_avoid_other_parts and travel_avoid_supports are off");
   check.contradiction(
       t.retraction_combing_max_distance && *t.retraction_combing_max_distance < r.retraction_min_travel,
       fmt::format("retraction_combing_max_distance ({:.3f} mm) is less than retraction_min_travel ({:.3f} mm): combed "
@@ -56,6 +57,7 @@ void check_seams(const TravelSettings& t, Check& check) {
                        "scarf_joint_seam_start_height_ratio", "scarf_joint_seam_length is 0");
   check.without_effect(!scarf && t.scarf_split_distance != usual.scarf_split_distance, "scarf_split_distance",
                        "scarf_joint_seam_length is 0");
+  check.without_effect(!scarf && t.scarf_joint_inner_walls, "scarf_joint_inner_walls", "scarf_joint_seam_length is 0");
   check.without_effect(scarf && t.seam_gap_distance != usual.seam_gap_distance, "seam_gap_distance",
                        "a scarf seam (scarf_joint_seam_length) has no gap");
   check.without_effect(scarf && t.scarf_joint_seam_start_height_ratio == 100, "scarf_joint_seam_length",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/stop.h"
+#include "geometry/spatial_index.h"
 #include "travel/open_walls.h"
 #include "travel/tour.h"
 #include "travel/wall_order.h"
@@ -29,11 +30,16 @@ class BlockOrder {
     const std::size_t first = turns_.size();
     const auto from = at;
     const bool fills_first = settings_.infill_before_walls && !block_.walls.empty();
-    if (fills_first) at = fills(at, linked_.places[index_]);
-    const bool walls_last = fills_first || block_.fills.empty();
+    std::vector<std::uint32_t> first_fills, last_fills = block_.fills;
+    if (fills_first)
+      first_fills.swap(last_fills);
+    else
+      find_bridges_under_walls(first_fills, last_fills);
+    if (!first_fills.empty()) at = fills(first_fills, at, linked_.places[index_]);
+    const bool walls_last = last_fills.empty();
     const auto walls = order_walls(settings_, layer_, linked_, index_, at, walls_last ? then : std::nullopt);
     for (const auto& turn : walls) at = append(turn);
-    if (!fills_first) at = fills(at, then);
+    if (!last_fills.empty()) at = fills(last_fills, at, then);
     if (settings_.path_order == PathOrder::nearest) return at;
     fit_open_walls(beads_, std::span(turns_).subspan(first), {from, then});
     return turns_.size() > first ? std::optional(end_of(beads_[turns_.back().bead], turns_.back())) : at;
@@ -86,13 +92,41 @@ class BlockOrder {
            (layer_.input.time.first() && bead.role != Role::gap_fill);
   }
 
-  std::optional<Point> fills(std::optional<Point> at, std::optional<Point> then) {
+  /// Walls over the gap that a bridge spans hang on nothing but each other: the bridge is laid before them, so that
+  /// they lie against it. One over sparse infill has its time after them.
+  void find_bridges_under_walls(std::vector<std::uint32_t>& bridges, std::vector<std::uint32_t>& others) const {
+    const auto is_bridge = [&](std::uint32_t b) { return beads_[b].role == Role::bridge; };
+    if (block_.object == Block::adhesion || block_.walls.empty() ||
+        std::none_of(others.begin(), others.end(), is_bridge))
+      return;
+    const Regions& over_air = layer_.input.objects[block_.object].over_air;
+    if (over_air.empty()) return;
+    constexpr double least_um = 1000;  // of what hangs: shorter walls carry themselves
+    const geometry::SegmentIndex air(over_air);
+    const auto hangs = [&](std::uint32_t b) {
+      const auto& path = beads_[b].path;
+      for (std::size_t i = beads_[b].closed ? 0 : 1, j = i == 0 ? path.size() - 1 : 0; i < path.size(); j = i++) {
+        const double length = distance(path[j].at, path[i].at);
+        for (double along = least_um / 2; along + least_um / 2 <= length; along += least_um / 2)
+          if (air.region_at(lerp(path[j].at, path[i].at, along / length))) return true;
+      }
+      return false;
+    };
+    if (std::none_of(block_.walls.begin(), block_.walls.end(), hangs)) return;
+    const auto rest = std::stable_partition(others.begin(), others.end(),
+                                            [&](std::uint32_t b) { return !is_bridge(b) || !hangs(b); });
+    bridges.assign(rest, others.end());
+    others.erase(rest, others.end());
+  }
+
+  std::optional<Point> fills(const std::vector<std::uint32_t>& which, std::optional<Point> at,
+                             std::optional<Point> then) {
     std::vector<Stop> stops;
     std::vector<std::vector<Turn>> chains;  // of stops that are a sequence
     std::vector<std::uint32_t> bead_of;     // of the others
     constexpr std::uint32_t is_chain = 0x80000000;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> sequenced;
-    for (const std::uint32_t b : block_.fills) {
+    for (const std::uint32_t b : which) {
       const Bead& bead = beads_[b];
       if (in_sequence(bead)) {
         sequenced.push_back({bead.sequence, b});

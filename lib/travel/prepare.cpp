@@ -103,9 +103,19 @@ Regions free_area(const Room& room) {
   return geometry::subtract(reach, geometry::offset(geometry::regions_from_rings(room.no_go), {.by = clearance}));
 }
 
-/// The same less the parts and what is to be kept from them.
+/// What travels go round.
+Regions obstacles_of(const TravelSettings& settings, const LayerInput& input) {
+  Regions out;
+  const auto add = [&](const Regions& more) { out.insert(out.end(), more.begin(), more.end()); };
+  for (const auto& object : input.objects)
+    if (object.support ? settings.travel_avoid_supports : settings.travel_avoid_other_parts) add(object.outline);
+  if (settings.travel_avoid_supports) add(input.support);
+  return out;
+}
+
+/// The room less what travels go round and what is to be kept from it.
 Regions area_around(const TravelSettings& settings, const Regions& outline, const Room& room, const Regions& free) {
-  if (!settings.travel_avoid_other_parts || outline.empty()) return {};
+  if (outline.empty()) return {};
   Regions place = free;
   if (place.empty() && room.reach.size() >= 3) place = {{room.reach, {}}};
   if (place.empty()) {
@@ -190,7 +200,7 @@ void prepare_ways(const TravelSettings& settings, Prepared& layer) {
     layer.comb = comb_boundary(settings, layer.input);
   const auto free = free_area(layer.input.room);
   layer.free = Comb(free);
-  layer.around = Comb(area_around(settings, outline, layer.input.room, free));
+  layer.around = Comb(area_around(settings, obstacles_of(settings, layer.input), layer.input.room, free));
 }
 
 Prepared prepare(const TravelSettings& settings, LayerInput input) {

@@ -85,7 +85,8 @@ class Writer {
     held.closed_wall = held.closed_outer || (bead.closed && bead.role == Role::inner_wall);
     const Um loop = bead.closed ? rounded(1000 * length_mm(bead)) : 0;
     // On the bed a ramp would begin in it.
-    held.scarf = held.closed_outer && settings_.scarf_joint_seam_length > 0 && !layer_.input.time.first();
+    held.scarf = (held.closed_outer || (held.closed_wall && settings_.scarf_joint_inner_walls)) &&
+                 settings_.scarf_joint_seam_length > 0 && !layer_.input.time.first();
     if (held.scarf) {
       auto scarf = scarfed(settings_, path, height);
       held.pieces.push_back({std::move(scarf.ramp), bead.role, bead.tool, bead.scope, height, 0, {}});
@@ -98,7 +99,7 @@ class Writer {
       if (bead.closed) held.onward = path;
       held.pieces.push_back({std::move(path), bead.role, bead.tool, bead.scope, height, 0, {}});
     }
-    for (Extrude& piece : held.pieces) piece.loop_length = loop;
+    for (Extrude& piece : held.pieces) piece.loop_length = loop, piece.on_support = bead.on_support;
     return held;
   }
 

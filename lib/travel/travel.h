@@ -35,6 +35,7 @@ struct ObjectLayer {
   Regions top;              ///< what will be seen from above: what combing = no_outer_surfaces keeps off
   Regions sparse;           ///< sparse infill: what combing = infill keeps to
   Regions over_air;         ///< where nothing lies below
+  bool support = false;     ///< it stands under the object of that number, and is printed before it
 };
 
 /// Which areas of an ObjectLayer are read with these settings; the others may be left empty.
@@ -58,6 +59,7 @@ struct LayerInput {
   Beads adhesion;  ///< skirt and brim: printed first
   std::vector<ObjectLayer> objects;
   Room room;
+  Regions support;                   ///< what stands up to here, or nearly, and is not of this layer
   double filament_area_mm2 = 2.405;  ///< cross-section of the filament: 1.75 mm round
   Um nozzle = 400;                   ///< diameter
 };
@@ -79,7 +81,7 @@ struct Prepared {
   Comb narrows;                    ///< where they may where that has no way; empty: nowhere
   Comb outline;                    ///< what a travel may not leave unretracted
   Comb free;                       ///< where the nozzle may go at all; empty: wherever a straight way may lead
-  Comb around;  ///< the same less the parts and what is to be kept from them; empty: they are passed over
+  Comb around;  ///< the same less what travels go round, and what is to be kept from it; empty: it is passed over
 };
 
 /// What the layers have agreed on.
@@ -141,6 +143,12 @@ void prepare_ways(const TravelSettings& settings, Prepared& layer);
 /// Both.
 Prepared prepare(const TravelSettings& settings, LayerInput input);
 
+/// Whose a block is.
+struct BlockOwner {
+  ObjectId object = ~ObjectId{0};
+  bool support = false;
+};
+
 /// Chooses seams from layer to layer, and the order of the parts of all layers together. Sequential, and layers can be
 /// prepared meanwhile; cost: linear in the vertices of outer walls, and a few tours of the parts a layer.
 class Linker {
@@ -167,6 +175,7 @@ class Linker {
   };
   std::vector<Below> below_;  ///< by stack
   std::vector<Linked> linked_;
+  std::vector<std::vector<BlockOwner>> owners_;  ///< of each layer, by block; or none
 };
 
 /// The same for layers that are all there.

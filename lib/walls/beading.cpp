@@ -19,6 +19,8 @@ double nominal_pairs(const Widths& w, int pairs) {
   return pairs <= 0 ? 0 : 2 * (w.outer + (pairs - 1) * w.inner);
 }
 
+constexpr double least_volume_um3 = 1e7;  // 0.01 mm³: a nozzle that travels oozes more
+
 }  // namespace
 
 Widths widths_of(const WallSettings& s, Um nozzle, Um height, std::size_t layer) {
@@ -40,6 +42,7 @@ Widths widths_of(const WallSettings& s, Um nozzle, Um height, std::size_t layer)
   w.least_odd = std::min(std::max(w.least_odd, stable), 2 * w.least_even);
   w.most = most;
   w.open = std::min(0.8 * w.inner, 2 * (most - w.inner) + w.inner / 2);
+  w.least_area = least_volume_um3 / height;
   w.least_feature = s.min_feature_size - 2.0 * w.bulge - lattice_um;
   w.walls = s.wall_line_count + (s.alternate_extra_wall && layer % 2 == 1 ? 1 : 0);
   w.shared = std::max(1, s.wall_distribution_count);

@@ -18,6 +18,7 @@ struct Widths {
   Um bulge = 0;                          ///< so far inside the outline lies what walls get
   int walls = 0;                         ///< on each side
   int shared = 1;                        ///< innermost beads of a side that take up the difference
+  double least_area = 0;                 ///< of beads that are too thin to count for themselves, µm²
 };
 
 /// `layer` has one more wall on odd layers with alternate_extra_wall.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -64,6 +65,35 @@ struct Give {
   double left = 0, right = 0;
 };
 
+/// Junctions in the long pieces beside those that give way, a bead's width from them: what lies beyond stays. `giving`
+/// and `pieces` by their first junction; those that are cut are looked at from now on.
+void hold_beyond(const std::vector<std::uint8_t>& giving, Bead& bead, std::vector<std::size_t>& pieces) {
+  const std::size_t n = bead.path.size(), last = bead.closed ? n : n - 1;
+  std::vector<Junction> path;
+  path.reserve(n + 8);
+  std::vector<std::size_t> looked_at;
+  auto piece = pieces.begin();
+  for (std::size_t k = 0; k < n; ++k) {
+    const Junction &a = bead.path[k], &b = bead.path[(k + 1) % n];
+    const bool suspect = piece != pieces.end() && *piece == k;
+    if (suspect) ++piece, looked_at.push_back(path.size());
+    path.push_back(a);
+    if (k == last || giving[k] != 0) continue;
+    const bool before = (k > 0 || bead.closed) && giving[(k + n - 1) % n] != 0,
+               after = (k + 1 < last || bead.closed) && giving[(k + 1) % n] != 0;
+    const double length = distance(a.at, b.at), width = std::max(laid(a), laid(b));
+    if (length <= (before + after + 1) * width) continue;
+    const auto cut = [&](double t) {
+      path.push_back({lerp(a.at, b.at, t), rounded(a.width + t * (b.width - a.width)),
+                      static_cast<float>(a.flow + t * static_cast<double>(b.flow - a.flow))});
+    };
+    if (before && !suspect) looked_at.push_back(path.size() - 1);
+    if (before) cut(width / length);
+    if (after) cut(1 - width / length), looked_at.push_back(path.size() - 1);
+  }
+  bead.path = std::move(path), pieces = std::move(looked_at);
+}
+
 void give_way(const std::vector<Give>& gives, Um narrowest, Bead& bead) {
   std::vector<double> inwards;
   for (std::size_t j = 0; j < bead.path.size(); ++j) {
@@ -85,8 +115,8 @@ Footprints::Footprints(Room& room, Point origin, Um nominal, Um narrowest, const
     const std::size_t n = bead.path.size(), pieces = bead.closed ? n : n - 1;
     Suspect suspect{i, {}};
     for (std::size_t k = 0; k < pieces; ++k) {
-      const Um twice = bead.path[k].width + bead.path[(k + 1) % n].width;
-      if (bead.closed && std::abs(twice - 2 * nominal) <= 2 * nominal_within) continue;
+      const auto is_nominal = [&](std::size_t j) { return std::abs(bead.path[j].width - nominal) <= nominal_within; };
+      if (bead.closed && is_nominal(k) && is_nominal((k + 1) % n)) continue;
       const Piece p = piece_of(bead, k, origin);
       const double swollen = (1 + most_change) * p.half;
       if (swollen - room.beside(p.a, p.b, swollen) > noticed_um) suspect.pieces.push_back(k);
@@ -97,15 +127,30 @@ Footprints::Footprints(Room& room, Point origin, Um nominal, Um narrowest, const
 
 Bead Footprints::kept(const Suspect& suspect, double outside, const Bead& bead) const {
   Bead out = bead;
-  const std::size_t n = bead.path.size();
+  auto pieces = suspect.pieces;
+  const auto give_of = [&](std::size_t k) {
+    const Piece p = piece_of(out, k, origin_);
+    const auto room = room_.sides(p.a, p.b, p.half);
+    return Give{too_far(room_, p.b, p.a, p.half, room.left, outside),
+                too_far(room_, p.a, p.b, p.half, room.right, outside)};
+  };
   for (int round = 0; round < most_rounds; ++round) {
+    if (round == 0) {
+      std::vector<std::uint8_t> giving(out.path.size(), 0);
+      bool any = false;
+      for (const std::size_t k : pieces) {
+        const Give give = give_of(k);
+        giving[k] = give.left + give.right > 0;
+        any = any || giving[k] != 0;
+      }
+      if (!any) break;
+      hold_beyond(giving, out, pieces);
+    }
+    const std::size_t n = out.path.size();
     std::vector<Give> gives(n);
     bool any = false;
-    for (const std::size_t k : suspect.pieces) {
-      const Piece p = piece_of(out, k, origin_);
-      const auto room = room_.sides(p.a, p.b, p.half);
-      const Give give{too_far(room_, p.b, p.a, p.half, room.left, outside),
-                      too_far(room_, p.a, p.b, p.half, room.right, outside)};
+    for (const std::size_t k : pieces) {
+      const Give give = give_of(k);
       any = any || give.left + give.right > 0;
       for (const std::size_t j : {k, (k + 1) % n})
         gives[j] = {std::max(gives[j].left, give.left), std::max(gives[j].right, give.right)};

@@ -58,6 +58,20 @@ Regions offset_outlines(const WallSettings& settings, const Regions& regions) {
   return geometry::subtract(solid, holes);
 }
 
+Regions drawn_in(const WallSettings& settings, const Regions& regions, Um by, Um least) {
+  WallSettings others = settings;
+  others.xy_offset += by;
+  const Regions drawn = offset_outlines(settings, regions), whole = offset_outlines(others, regions);
+  const Um radius = least / 2 + by;
+  const double dot_mm2 = to_mm(least) * to_mm(least) / 4;  // less is the tip of a corner
+  Regions thin = geometry::subtract(whole, geometry::opening(whole, radius, geometry::Corner::miter));
+  std::erase_if(thin, [&](const Region& region) { return area_mm2(region) < dot_mm2; });
+  if (thin.empty()) return drawn;
+  // What is drawn in beside it begins `by` further in: there they meet.
+  const Regions kept = geometry::intersect(whole, geometry::offset(thin, {.by = 2 * by}));
+  return geometry::unite(drawn, kept);
+}
+
 Within within(const Region& part, Um bulge) {
   if (bulge == 0) return {{part}, {}};
   Within out{geometry::offset({part}, {.by = -bulge}), {}};

@@ -12,6 +12,11 @@ namespace weft::walls {
 /// The regions with their outlines moved by the xy offsets.
 Regions offset_outlines(const WallSettings& settings, const Regions& regions);
 
+/// The regions of a first layer, their outlines drawn in by `by` more than `xy_offset` says of the others: what would
+/// be thinner than `least` thereby, two walls that stand on their own, stays as it is. An elephant's foot is of what is
+/// heavy above; a rib has none, and would stick to the bed with half of itself.
+Regions drawn_in(const WallSettings& settings, const Regions& regions, Um by, Um least);
+
 /// A part less what the rounded sides of its outermost beads stand out beyond their bands.
 struct Within {
   Regions regions;

@@ -127,6 +127,7 @@ Part part_of(const WallSettings& settings, const Widths& widths, const Region& r
   finishing.part = index;
   finishing.least_feature = 0.8 * widths.least_feature;  // what is thinner was not laid; widths may give a little
   finishing.least_length = settings.min_wall_length;
+  finishing.least_area = widths.least_area;
   finishing.compensate = settings.flow_compensation;
   finishing.stable_outer = std::max<double>(settings.min_output_width, widths.outer / 4);
   finishing.stable_inner = std::max<double>(settings.min_output_width, widths.inner / 4);

@@ -101,7 +101,10 @@ WallLayer build(const WallSettings& settings, const WallInput& input) {
   constexpr double worth_a_notice_mm = 0.5;  // the last bit of every tip is thinner than any bead
   WallLayer out;
   const Widths widths = widths_of(settings, input.nozzle_diameter, input.layer.height, input.index);
-  const Regions regions = offset_outlines(settings, input.layer.regions);
+  const Um foot = input.settings_above != nullptr ? input.settings_above->xy_offset - settings.xy_offset : 0;
+  const Regions regions =
+      foot > 0 ? drawn_in(settings, input.layer.regions, foot, rounded(2 * widths.outer) + 2 * widths.bulge)
+               : offset_outlines(settings, input.layer.regions);
   if (widths.walls == 0) {
     out.inside = regions;
     return out;
@@ -126,9 +129,9 @@ WallLayer build(const WallSettings& settings, const WallInput& input) {
                                       "no medial axis of the outline; its walls are concentric and thin places stay "
                                       "empty"));
     if (part.dropped_mm > worth_a_notice_mm)
-      out.notices.push_back(notice_of("thin_feature_dropped", input, regions[i],
-                                      fmt::format("{:.2f} mm of a part thinner than {:.3f} mm are left out",
-                                                  part.dropped_mm, to_mm(settings.min_feature_size))));
+      out.notices.push_back(
+          notice_of("thin_feature_dropped", input, regions[i],
+                    fmt::format("{:.2f} mm of a part too thin for a bead of its own are left out", part.dropped_mm)));
     else if (part.beads.empty() && part.inside.empty())
       add_left_out(input, regions[i], out.notices);
     std::move(part.beads.begin(), part.beads.end(), std::back_inserter(out.beads));

@@ -116,16 +116,10 @@ TEST_CASE("audit T1: the skirt of a part as large as the bed is found on all fou
 TEST_CASE("audit T3: a spiral lift at the edge of the bed gives way to one that stays inside") {
   Scratch scratch;
   scratch.write("part.stl", box_stl(20, 40, 2));
-  const auto s = slice(scratch, "part.stl", {"--copies", "2",
-                                             "--center", "177,22",
-                                             "-s",       "skirt_line_count=0",
-                                             "-s",       "retraction_hop=1",
-                                             "-s",       "retraction_hop_type=spiral",
-                                             "-s",       "z_seam_type=user",
-                                             "-s",       "z_seam_x=200",
-                                             "-s",       "z_seam_y=100",
-                                             "-s",       "travel_slope=1.2",
-                                             "-s",       "skin_line_width=0.45"});
+  const auto s = slice(scratch, "part.stl",
+                       {"--copies", "2", "--center", "177,22", "-s", "skirt_line_count=0", "-s", "retraction_hop=1",
+                        "-s", "retraction_hop_type=spiral", "-s", "z_seam_type=user", "-s", "z_seam_x=200", "-s",
+                        "z_seam_y=100", "-s", "travel_slope=1.2"});
   check_passes(s);
   const auto& warnings = s.report["warnings"];
   CHECK(std::any_of(warnings.begin(), warnings.end(), [](const json& w) { return w["code"] == "lift_gave_way"; }));

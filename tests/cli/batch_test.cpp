@@ -177,6 +177,32 @@ TEST_CASE("batch: shares make together what one run makes, and --collect merges 
   CHECK(o.reports()[0]["status"] == "missing");
 }
 
+TEST_CASE("batch: G-code that was changed after it was made is not there for --collect, and is made again") {
+  const Orders o;
+  o.batch();
+  const auto made = o.scratch.read("out/one.gcode");
+  std::filesystem::resize_file(o.scratch.path() / "out/one.gcode", made.size() / 2);
+  CHECK_THAT(o.batch({"--collect"}).err, Contains("2 there, 1 failed, 1 not run"));
+  CHECK(o.reports()[0]["status"] == "missing");
+  CHECK_THAT(o.batch().err, Contains("1 made, 2 unchanged"));
+  CHECK(o.scratch.read("out/one.gcode") == made);
+  // A copy has another stamp, and is looked into.
+  std::filesystem::copy_file(o.scratch.path() / "out/one.gcode", o.scratch.path() / "out/copy");
+  std::filesystem::rename(o.scratch.path() / "out/copy", o.scratch.path() / "out/one.gcode");
+  CHECK_THAT(o.batch({"--collect"}).err, Contains("3 there, 1 failed, 0 not run"));
+}
+
+TEST_CASE("batch: a job whose output is named otherwise than the last time is made under its new name") {
+  const Orders o;
+  o.scratch.write("list.jsonl", R"({"id": "a", "models": ["a.stl"], "output": "old.gcode"})");
+  CHECK(weft({"batch", "list.jsonl", "-o", "out"}, o.scratch.path()).status == 0);
+  o.scratch.write("list.jsonl", R"({"id": "a", "models": ["a.stl"], "output": "new.gcode"})");
+  const auto run = weft({"batch", "list.jsonl", "-o", "out"}, o.scratch.path());
+  CHECK(run.status == 0);
+  CHECK_THAT(run.err, Contains("1 made, 0 unchanged"));
+  CHECK(o.scratch.read("out/new.gcode") == o.scratch.read("out/old.gcode"));
+}
+
 TEST_CASE("batch: a scheduler's environment tells the share") {
   const Orders o;
   ::setenv("CI_NODE_INDEX", "2", 1);

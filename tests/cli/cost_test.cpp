@@ -1,26 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/program.h"
-
-#include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
+#include "cli/priced_report.h"
 
 using Catch::Matchers::Contains;
 using nlohmann::json;
-
-namespace {
-
-const std::vector<std::string> prices{"--filament-cost", "25", "--machine-hourly-cost", "1.5", "--currency", "EUR"};
-
-json report_of(const Scratch& scratch, std::vector<std::string> words, const std::vector<std::string>& more = {}) {
-  words.insert(words.end(), more.begin(), more.end());
-  words.insert(words.end(), {"--report", "report.json", "-q"});
-  const auto run = weft(words, scratch.path());
-  INFO(run.err);
-  REQUIRE(run.status == 0);
-  return json::parse(scratch.read("report.json"));
-}
-
-}  // namespace
 
 TEST_CASE("cost: filament and machine are in report, footer, summary and on standard error, where they have prices") {
   const Scratch scratch;

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/program.h"
+#include "cli/priced_report.h"
 #include "source.h"
 
 #include <cmath>
 #include <sstream>
-
-#include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 using Catch::Matchers::Contains;
 using nlohmann::json;
@@ -15,16 +12,6 @@ namespace {
 
 std::string example(const char* name) {
   return (tests::source / "examples" / name).string();
-}
-const std::vector<std::string> prices{"--filament-cost", "25", "--machine-hourly-cost", "1.5", "--currency", "EUR"};
-
-json report_of(const Scratch& scratch, std::vector<std::string> words, const std::vector<std::string>& more = {}) {
-  words.insert(words.end(), more.begin(), more.end());
-  words.insert(words.end(), {"--report", "report.json", "-q"});
-  const auto run = weft(words, scratch.path());
-  INFO(run.err);
-  REQUIRE(run.status == 0);
-  return json::parse(scratch.read("report.json"));
 }
 
 }  // namespace

@@ -290,6 +290,19 @@ TEST_CASE("profile: check tells what slice would warn of") {
     if (line.find("warning") != std::string::npos) CHECK_THAT(checked.err, Contains(line));
 }
 
+TEST_CASE("profile: check refuses custom G-code and substitutions that slice refuses") {
+  Scratch scratch;
+  scratch.write("box.stl", box_stl(10, 10, 1));
+  for (const auto* line : {"machine_start_gcode = G28\n{nope}", "gcode_substitutions = s/(/x/r"}) {
+    scratch.write("p.ini", line);
+    const auto checked = weft({"profile", "check", "p.ini"}, scratch.path()),
+               made = weft({"slice", "box.stl", "-p", "p.ini", "-o", "x.gcode"}, scratch.path());
+    CHECK(checked.status == 3);
+    CHECK(made.status == 3);
+    CHECK(checked.err == made.err);
+  }
+}
+
 TEST_CASE("slice: machine_height = 0 is no limit") {
   Scratch scratch;
   scratch.write("tower.stl", box_stl(3, 3, 300));

@@ -65,3 +65,24 @@ TEST_CASE("verify: what was changed since is told, file or model") {
   CHECK_THAT(weft({"verify", "out.gcode"}, scratch.path()).err, Contains("was made by weft 0.0.1"));
   CHECK(weft({"verify"}, scratch.path()).status == 2);
 }
+
+TEST_CASE("verify: what was marked for support stands in the file, with its hash, and is laid beside the model again") {
+  Scratch scratch;
+  scratch.write("part.stl", box_stl(20, 10, 3));
+  scratch.write("mark.stl", box_stl(8, 8, 1));
+  const auto sliced = weft({"slice", "part.stl", "--support-blocker", "mark.stl", "--support-enforcer",
+                            "box:0,0,0,10,10,2", "-s", "support_enable=true", "-o", "out.gcode"},
+                           scratch.path());
+  INFO(sliced.err);
+  REQUIRE(sliced.status == 0);
+  const auto gcode = scratch.read("out.gcode");
+  CHECK_THAT(gcode, Contains("; weft_support_blocker = 0 ") && Contains(" mark.stl\n") &&
+                        Contains("; weft_support_enforcer = 0 box:0,0,0,10,10,2\n"));
+  const auto again = weft({"verify", "out.gcode"}, scratch.path());
+  INFO(again.err);
+  CHECK(again.status == 0);
+  scratch.write("mark.stl", box_stl(8, 8, 1.5F));
+  const auto changed = weft({"verify", "out.gcode"}, scratch.path());
+  CHECK(changed.status == 4);
+  CHECK_THAT(changed.err, Contains("mark.stl: is not the file that out.gcode was made of"));
+}

@@ -86,6 +86,44 @@ TEST_CASE(
   CHECK(covered_mm2(infill::fill({}, {}, input(areas)).beads) == Approx(17.4 * 17.4).epsilon(0.005));
 }
 
+TEST_CASE("infill: lines run along a strip of up to three of them, on every layer", "[infill]") {
+  const double angle = GENERATE(0, 0.3, 1.2);
+  const LayerAreas strip = solid_area(turned(rectangle(0, 0, 30000, 1700), angle)),
+                   area = solid_area(rectangle(0, 0, 30000, 6000));
+  const auto longest = [](const LayerAreas& areas, std::size_t index) {  // a bead's mean line
+    const Beads beads = infill::fill({}, {}, input(areas, index)).beads;
+    double most = 0;
+    for (const Bead& bead : beads)
+      for (std::size_t i = 1; i < bead.path.size(); ++i)
+        most = std::max(most, distance(bead.path[i - 1].at, bead.path[i].at));
+    return most;
+  };
+  for (const std::size_t index : {0U, 1U}) CHECK(longest(strip, index) > 28000);
+  CHECK(longest(area, 1) < 8000);  // a wider one is crossed
+}
+
+TEST_CASE("infill: behind a single wall, or none, lines with their round ends stay within the outline",
+          "[infill][law]") {
+  const int walls = GENERATE(0, 1);
+  const double depth = walls == 0 ? 0 : (420 + flow::band(420, 200)) / 2.0;  // of the automatic width's wall
+  LayerAreas areas = solid_area(rectangle(0, 0, 9000, 6000));
+  areas[0].top.push_back(rectangle(9000, 0, 18000, 6000));
+  areas[0].sparse.push_back(rectangle(0, 6000, 18000, 20000));
+  FillInput in = input(areas);
+  in.wall_count = walls;
+  const Beads beads = infill::fill({}, {}, in).beads;
+  CHECK(std::any_of(beads.begin(), beads.end(), [](const Bead& b) { return b.role == Role::infill; }));
+  double furthest = 0;
+  for (const Bead& bead : beads)
+    for (const Junction& j : bead.path) {
+      const double beyond =
+          std::max({0.0 - j.at.x, 0.0 - j.at.y, j.at.x - 18000.0, j.at.y - 20000.0});  // out of the areas together
+      furthest = std::max(furthest, beyond + flow::line_width(j.width, 200) / 2.0 - depth);
+    }
+  // without walls the bands of lines along the outline end on it, and their widest points a little beyond
+  CHECK(furthest <= (walls == 0 ? flow::bulge_um(500, 200, 1) : 0) + 2);  // the lattice
+}
+
 TEST_CASE("infill: every bead knows its part, ordered fills have a sequence of their own", "[infill]") {
   LayerAreas areas = solid_area(rectangle(0, 0, 9000, 9000));
   areas[0].top.push_back(rectangle(20000, 0, 29000, 9000));

@@ -52,11 +52,12 @@ double bridged(const LayerAreas& layer) {
   return mm2;
 }
 double all(const LayerAreas& layer) {
-  return sum(layer, &PartAreas::top) + sum(layer, &PartAreas::solid) + sum(layer, &PartAreas::sparse) + bridged(layer);
+  return sum(layer, &PartAreas::top) + sum(layer, &PartAreas::solid) + sum(layer, &PartAreas::sparse) +
+         sum(layer, &PartAreas::belted) + bridged(layer);
 }
 bool solid_at(const LayerAreas& layer, Point p) {
   return std::any_of(layer.begin(), layer.end(), [&](const PartAreas& a) {
-    return holds(a.top, p) || holds(a.solid, p) ||
+    return holds(a.top, p) || holds(a.solid, p) || holds(a.belted, p) ||
            std::any_of(a.bridges.begin(), a.bridges.end(), [&](const auto& b) { return holds(b.regions, p); });
   });
 }
@@ -240,6 +241,18 @@ TEST_CASE("shells: small patches of sparse infill become solid", "[infill]") {
   const Object tower(std::vector<Regions>(20, {rectangle(0, 0, 8000, 8000)}));
   CHECK(sum(tower.areas(skin(4, 4, 0, 0, 40))[10], &PartAreas::sparse) == 0);
   CHECK(sum(tower.areas(skin(4, 4, 0, 0, 30))[10], &PartAreas::sparse) == Approx(36));
+}
+
+TEST_CASE("shells: a small patch that solid cuts off of sparse infill stays sparse where that goes on below",
+          "[infill]") {
+  std::vector<Regions> outlines(10, {rectangle(0, 0, 40000, 8000)});
+  for (int i = 0; i < 10; ++i) outlines.push_back({rectangle(0, 0, 4500, 8000), rectangle(12000, 0, 40000, 8000)});
+  const auto areas = Object(std::move(outlines)).areas(skin(2, 2, 0, 0));
+  const Point patch{2200, 4000}, slot{8000, 4000};  // 15 mm² beside the floor of a slot
+  CHECK_FALSE(solid_at(areas[7], slot));
+  CHECK(solid_at(areas[8], slot));
+  CHECK_FALSE(solid_at(areas[8], patch));
+  CHECK(solid_at(areas[13], patch));  // what is that small by its walls
 }
 
 TEST_CASE("shells: full density is solid everywhere", "[infill]") {

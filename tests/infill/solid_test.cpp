@@ -134,6 +134,14 @@ TEST_CASE("solid: a strip narrower than a line gets one bead as wide as the stri
   CHECK(std::any_of(beads.begin(), beads.end(), [](const Bead& b) { return b.role == Role::gap_fill; }));
 }
 
+TEST_CASE("solid: without gap fill a strip narrower than a line stays open, and wide areas stay as they are",
+          "[infill]") {
+  const Region strip{{{0, 0}, {20000, 0}, {20000, 300}, {0, 300}}, {}};
+  CHECK(covered_mm2(filled(strip, {.band = 430, .angle_rad = degrees(45), .gaps = false})) == 0);
+  const Region square{{{0, 0}, {20000, 0}, {20000, 20000}, {0, 20000}}, {}};
+  CHECK(filled(square, {.band = 430, .gaps = false}).size() == filled(square, {.band = 430}).size());
+}
+
 TEST_CASE("solid: lines reach over the edge by the overlap and no further", "[infill][law]") {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     const Region region = star(seed, 9000, 13);
@@ -148,6 +156,17 @@ TEST_CASE("solid: lines reach over the edge by the overlap and no further", "[in
         CHECK(near);
       }
   }
+}
+
+TEST_CASE("solid: slivers that lie between other areas are no beads", "[infill]") {
+  Beads beads;
+  SolidStyle style;
+  style.band = 400;
+  fill_solid(rectangle(0, 0, 60, 20000), style, beads);
+  fill_solid(rectangle(0, 0, 20000, 60), style, beads);
+  CHECK(beads.empty());
+  fill_solid(rectangle(0, 0, 150, 20000), style, beads);
+  CHECK(beads.size() == 1);
 }
 
 TEST_CASE("solid: nothing, specks and needles are borne", "[infill]") {

@@ -108,7 +108,8 @@ TEST_CASE("sweep: the strength of a solid is 100 and grows with density") {
 
 TEST_CASE("sweep: the page holds its data, whatever stands in it, and asks the network for nothing") {
   std::vector<Trial> trials(2);
-  trials[0] = {"a=1", "a.gcode", "", true, true, {"1"}, 10, 2, 30, 4, 1.5, "EUR", std::string("\x89PNG\0x", 6), "a.gcode.html"};
+  trials[0] = {"a=1",         "a.gcode", "", true, true, {"1"}, 10, 2, 30, 4, 1.5, "EUR", std::string("\x89PNG\0x", 6),
+               "a.gcode.html"};
   trials[1].id = "</script><b>";
   trials[1].values = {"2"};
   const auto page = sweep_page("<part>.stl", {"a"}, trials);

@@ -346,6 +346,9 @@ TEST_CASE("motion: the first layer is slow, a share is of the feature's own spee
   settings.speeds.speed_layer_0 = {50, true};
   CHECK(feature_speed_mm_s(rules_for(), Role::infill) == 40);
   CHECK(feature_speed_mm_s(rules_for(), Role::overhang_wall) == 10);  // half of half of 40
+  settings.speeds.speed_topbottom_layer_0 = 31;
+  CHECK(feature_speed_mm_s(rules_for(), Role::solid_infill) == 31);
+  CHECK(feature_speed_mm_s(rules_for(), Role::infill) == 40);
   const std::array rules{rules_of(settings), rules_for()};
   LayerPlan layer = layer_of({Travel{{{0, 0, 400}, {50'000, 0, 400}}}});
   CHECK(std::get<Travel>(plan_layer(rules, layer, {}).plan.steps.back()).speed_mm_s == 150);
@@ -497,6 +500,28 @@ TEST_CASE("motion: a fast layer is slowed to cool_min_layer_time, travels are no
     if (const auto* travel = std::get_if<Travel>(&step)) CHECK(travel->speed_mm_s == 150);
 }
 
+TEST_CASE("motion: where a layer is slowed down the fastest beads give first, and outer walls keep their speed") {
+  Rules rules = plain_rules();
+  rules.speeds.speed_wall_0 = 20, rules.speeds.speed_wall_x = 60, rules.speeds.speed_infill = 120;
+  rules.cooling.cool_min_speed = 5;
+  const auto planned_for = [&](double seconds) {
+    rules.cooling.cool_min_layer_time = seconds;
+    return plan_layer(rules,
+                      layer_of({square(20'000), line({{0, 400}, {100'000, 400}}, Role::inner_wall),
+                                line({{0, 400}, {400'000, 400}}, Role::infill)}),
+                      Point3{0, 0, 400});
+  };
+  const double unhurried = planned_for(0).statistics.print_time_s;
+  const auto a_little = planned_for(unhurried + 1);
+  CHECK(bead_in(a_little.plan, 0).speed_mm_s == 20);
+  CHECK(bead_in(a_little.plan, 1).speed_mm_s == 60);
+  CHECK(bead_in(a_little.plan, 2).speed_mm_s < 110);
+  const auto more = planned_for(unhurried + 8);
+  CHECK(bead_in(more.plan, 0).speed_mm_s == 20);
+  CHECK(bead_in(more.plan, 1).speed_mm_s == bead_in(more.plan, 2).speed_mm_s);
+  CHECK(more.statistics.print_time_s == Approx(unhurried + 8).margin(0.011));
+}
+
 TEST_CASE("motion: slowing down ends at cool_min_speed, and what is slower already stays") {
   Rules rules;
   rules.cooling.cool_min_layer_time = 1000;
@@ -506,6 +531,35 @@ TEST_CASE("motion: slowing down ends at cool_min_speed, and what is slower alrea
       plan_layer(rules, layer_of({square(20'000), line({{0, 400}, {10'000, 400}}, Role::bridge)}), Point3{0, 0, 400});
   CHECK(bead_in(planned.plan, 0).speed_mm_s == 25);
   CHECK(bead_in(planned.plan, 1).speed_mm_s == 12);
+}
+
+TEST_CASE("motion: what lies on support has a fan of its own where that is asked for, and so have interfaces") {
+  CoolingSettings c;
+  c.cool_min_layer_time = 0, c.cool_min_layer_time_fan_speed_max = 0;
+  c.cool_fan_off_layers = 0, c.cool_fan_full_layer = 0, c.cool_fan_speed_min = 50;
+  const auto fans = [&] {
+    LayerPlan layer;
+    layer.time.number = 5;
+    for (const auto& [role, on_support] :
+         {std::pair{Role::solid_infill, false}, {Role::solid_infill, true}, {Role::support_interface, false}}) {
+      Extrude bead;
+      bead.path = {{{0, 0}, 400, 1.F}, {{200'000, 0}, 400, 1.F}};
+      bead.role = role, bead.on_support = on_support, bead.speed_mm_s = 50;
+      layer.steps.emplace_back(std::move(bead));
+    }
+    motion::set_fan(c, layer, 60);
+    std::vector<int> out;
+    for (const auto& step : layer.steps)
+      if (const auto* fan = std::get_if<SetFan>(&step)) out.push_back(static_cast<int>(std::lround(100 * fan->share)));
+    return out;
+  };
+  CHECK(fans() == std::vector{50});
+  c.support_fan_enable = true, c.support_supported_skin_fan_speed = 90;
+  CHECK(fans() == std::vector{50, 90, 50});
+  c.support_interface_fan_speed = 20;
+  CHECK(fans() == std::vector{50, 90, 20});
+  c.cool_fan_enabled = false;
+  CHECK(fans() == std::vector{0});
 }
 
 TEST_CASE("motion: the fan is off at first, rises by layer, follows the layer's time, and is on over bridges") {
@@ -606,7 +660,8 @@ TEST_CASE("motion: the moves that are timed are those that are written") {
   LayerPlan layer =
       layer_of({line({{0, 450}, {10'000, 450}, {10'010, 350}, {20'000, 350}, {20'012, 420}, {30'000, 420}})});
   std::get<Extrude>(layer.steps[0]).speed_mm_s = 50;
-  const auto moves = moves_of(plain_rules(), layer, Point3{0, 0, 400});
+  const std::vector<Rules> rules{plain_rules()};
+  const auto moves = moves_of(rules, layer, Point3{0, 0, 400});
   CHECK(moves.size() == 3);
   double length = 0;
   for (const auto& move : moves) length += move.length_mm;

@@ -26,7 +26,23 @@ check "the bash completion is what the program prints" cmp <("$weft" completions
 check "profiles are found by name" "$weft" slice "$root/examples/box.stl" -p marlin-220 -p pla -p standard -o box.gcode
 check "and listed" bash -c "'$weft' profile list | grep -q '^printers/marlin-220 '"
 # Every library that is compiled or linked in has its notice.
-for library in CGAL Clipper Boost Eigen fmt oneTBB nlohmann-json nettle zlib minizip expat libpng; do
+for library in CGAL Clipper Boost Eigen fmt oneTBB nlohmann-json nettle zlib minizip expat libpng PCRE2; do
   check "the copyright file names $library" grep -q "third-party/$library" moved/share/doc/weft/copyright
 done
+
+# The library, for a program that embeds it. Its archives are there when everything was built.
+if "$cmake" --install "$build" --prefix "$scratch/dev" --component dev > "$scratch/log" 2>&1; then
+  check "a program finds the library" "$cmake" -S "$root/tests/package/embed" -B "$scratch/embed" -G Ninja \
+    -DCMAKE_PREFIX_PATH="$scratch/dev"
+  check "and is built with it" "$cmake" --build "$scratch/embed"
+  check "and slices" bash -c "'$scratch/embed/embeds_weft' '$root/examples/box.stl' | grep -q ' layers'"
+  # What it was found with are packages that weft-dev names.
+  depends=$(sed -n '/DEV_PACKAGE_DEPENDS/,/)/p' "$root/cmake/install.cmake")
+  for package in zlib1g-dev libeigen3-dev libfmt-dev libtbb-dev libcgal-dev libboost-dev nlohmann-json3-dev libpolyclipping-dev \
+    nettle-dev libminizip-dev libexpat1-dev libpng-dev pkg-config; do
+    check "weft-dev depends on $package" grep -qE "(^|[\", ])$package[\",]" <<< "$depends"
+  done
+else
+  echo "skipped: the library, of which not all archives are built"
+fi
 exit $failed

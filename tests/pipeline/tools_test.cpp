@@ -136,7 +136,8 @@ TEST_CASE("tools: a tool keeps what was drawn back of it, and one that comes new
   const auto text = Printed(settings).text;
   // T0 is drawn back when it leaves; the Prime of T1 says nothing; T1 is drawn back for the pause, and pushed forward.
   CHECK_THAT(text, Contains("G1 E-1 F2400\nM109 T1 S215\nT1\nG0 X20 Y40 F9000\nG0 Z.2 F600\nG1 X40"));
-  CHECK_THAT(text, Contains("G1 E-1 F2400\nM0 lay the nut in\nG0 X20 Y40 F9000\nG0 Z.4 F600\nG1 E1 F2400\n"));
+  CHECK_THAT(text,
+             Contains("G1 E-1 F2400\n;PAUSE_PRINT\nM0 lay the nut in\nG0 X20 Y40 F9000\nG0 Z.4 F600\nG1 E1 F2400\n"));
 }
 
 TEST_CASE("tools: with absolute E each tool counts from zero") {

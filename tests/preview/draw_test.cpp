@@ -77,7 +77,8 @@ TEST_CASE("preview: moves that the audit found are red on top of everything, and
   CHECK(at(image, -3, 8) == std::array{255, 255, 255});  // beside it
   CHECK(at(image, 7, 1)[0] > at(image, 7, 1)[1] + 10);   // no-go area
   CHECK(svg(one_bead(), close_up(), overlay).find("outside") != std::string::npos);
-  CHECK(html(one_bead(), close_up(), overlay).find("\"noGo\":[[[6.0,0.0],[8.0,0.0],[8.0,2.0],[6.0,2.0]]]") != std::string::npos);
+  CHECK(html(one_bead(), close_up(), overlay).find("\"noGo\":[[[6.0,0.0],[8.0,0.0],[8.0,2.0],[6.0,2.0]]]") !=
+        std::string::npos);
 }
 
 TEST_CASE("preview: colours tell what they are asked to tell, from violet to yellow", "[preview]") {

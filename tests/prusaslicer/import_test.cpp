@@ -63,7 +63,9 @@ TEST_CASE("prusaslicer: walls over air have the speeds and fans that the profile
   CHECK(value_of(plain, "speed_overhang") == "35");
   CHECK(value_of(plain, "speed_overhang_75") == "100%");
   CHECK(value_of(plain, "overhang_fan_speed_75") == "0");
-  CHECK(value_of(translated("overhangs = 0\nbridge_speed = 35\n"), "speed_overhang") == "100%");
+  CHECK(value_of(plain, "overhang_walls") == "true");
+  CHECK(value_of(translated("overhangs = 0\nbridge_speed = 35\n"), "overhang_walls") == "false");
+  CHECK(value_of(translated("bridge_speed = 35\n"), "speed_overhang") == "35");
   const auto by_share = translated(
       "overhangs = 1\nenable_dynamic_overhang_speeds = 1\noverhang_speed_0 = 12\noverhang_speed_1 = 20%\n"
       "overhang_speed_2 = 30\noverhang_speed_3 = 0\nenable_dynamic_fan_speeds = 1\noverhang_fan_speed_0 = 90\n"
@@ -187,14 +189,59 @@ TEST_CASE("prusaslicer: filament G-code is laid between the printer's and the pr
 
 TEST_CASE("prusaslicer: what has no effect is listed when it would change the print, and only then") {
   const auto t = translated(
-      "draft_shield = enabled\nironing = 0\nspiral_vase = 1\nperimeters = 2\nprinter_notes = mine\nno_such_key = "
+      "interlocking_beam = 1\nironing = 0\nspiral_vase = 1\nperimeters = 2\nprinter_notes = mine\nno_such_key = "
       "1\nfilament_retract_length = nil\n");
   REQUIRE(t.unsupported.size() == 2);
-  CHECK(t.unsupported[0].key == "draft_shield");
+  CHECK(t.unsupported[0].key == "interlocking_beam");
   CHECK(t.unsupported[1].key == "spiral_vase");
   REQUIRE(t.unknown.size() == 1);
   CHECK(t.unknown[0].line == 6);
   CHECK(t.not_needed.size() == 2);
+}
+
+TEST_CASE("prusaslicer: substitutions in the G-code become weft's lines, with flags and groups") {
+  const auto setting_of = [](const std::string& value) {
+    return value_of(translated("gcode_substitutions = " + value + "\n"), "gcode_substitutions");
+  };
+  CHECK(setting_of("") == "");
+  CHECK(setting_of("M204;M205;\"\";\"\"") == "s/M204/M205/");
+  CHECK(setting_of("\"a/b; c\";\"\";\"wi\";\"a note\"") == "s|a/b; c||wi");
+  // Two of them; a backslash of an expression is doubled in either file.
+  CHECK(setting_of(R"("^G1 F(\\d+)\\n";"G1 F\\1\\n";"r";"";"x";"y";"";"")") ==
+        R"(s/^G1 F(\\d+)\\n/G1 F$1\\n/r\ns/x/y/)");
+}
+
+TEST_CASE("prusaslicer: what bounds or replaces a speed or a width by itself does so") {
+  const std::string speeds = "infill_speed = 80\nsolid_infill_speed = 50%\n";
+  CHECK(value_of(translated(speeds + "first_layer_infill_speed = 50%\n"), "speed_topbottom_layer_0") == "20");
+  CHECK(value_of(translated(speeds + "first_layer_infill_speed = 0\n"), "speed_topbottom_layer_0") == "auto");
+  const std::string bounds = speeds + "filament_infill_max_speed = 70\nfilament_infill_max_crossing_speed = 40\n";
+  CHECK(value_of(translated(bounds + "fill_pattern = gyroid\n"), "speed_infill") == "70");
+  CHECK(value_of(translated(bounds + "fill_pattern = grid\n"), "speed_infill") == "40");
+  CHECK(value_of(translated(speeds + "filament_infill_max_speed = 0\n"), "speed_infill") == "80");
+  const auto t = translated(
+      "nozzle_diameter = 0.6\nextrusion_width = 0.5\nperimeter_extrusion_width = 0.45\n"
+      "support_material_extrusion_width = 0.35\nautomatic_extrusion_widths = 1\n");
+  CHECK(value_of(t, "wall_line_width_x") == "0.675");
+  CHECK(value_of(t, "support_line_width") == "auto");
+}
+
+TEST_CASE("prusaslicer: a draft shield is a skirt of every layer") {
+  CHECK(value_of(translated("draft_shield = enabled\nskirt_height = 2\n"), "skirt_height") == "100000");
+  CHECK(value_of(translated("draft_shield = limited\nskirt_height = 2\n"), "skirt_height") == "2");
+}
+
+TEST_CASE("prusaslicer: what weft does otherwise for a reason is told, with what does it") {
+  const auto t = translated(
+      "post_process = /usr/bin/upload\nbinary_gcode = 1\nextrusion_axis = A\ntravel_lift_before_obstacle = 1\n"
+      "scarf_seam_placement = everywhere\nscarf_seam_entire_loop = 1\nscarf_seam_only_on_smooth = 1\n");
+  CHECK(t.unsupported.empty());
+  CHECK(t.approximated.size() == 6);
+  CHECK_THAT(t.approximated.front().why, Catch::Contains("--exec"));
+  CHECK(value_of(t, "scarf_joint_seam_length") == "100");
+  CHECK(translated("post_process = \nbinary_gcode = 0\nextrusion_axis = E\nscarf_seam_only_on_smooth = 1\n")
+            .approximated.empty());
+  CHECK_THROWS_AS(translated("printer_technology = SLA\n"), Error);
 }
 
 TEST_CASE("prusaslicer: values that do not parse whole are errors with the line") {

@@ -85,6 +85,27 @@ TEST_CASE("first layer: heights, widths, outlines and temperatures follow from w
   CHECK(origin_of("xy_offset", {&overlay})->where == "first layer");
 }
 
+TEST_CASE("first layer: on a raft it has speeds and accelerations of its own, and nothing else") {
+  Settings settings;
+  settings.layers.initial_layer_height = 300;
+  settings.walls.xy_offset_layer_0 = -200;
+  settings.speeds.acceleration_enabled = true, settings.speeds.acceleration_layer_0 = 700;
+  settings.speeds.speed_wall_0 = 40, settings.speeds.speed_infill = 80;
+  settings.raft.speed_layer_0_over_raft = SpeedOrShare{75, true};
+  settings.raft.acceleration_layer_0_over_raft = 333;
+  Scopes scopes{settings};
+  const Settings& first = scopes[scopes.on_raft(0)];
+  CHECK(first.layers.layer_height == settings.layers.layer_height);
+  CHECK(first.walls.xy_offset == 0);
+  CHECK(first.speeds.speed_wall_0 == 30);
+  CHECK(first.speeds.speed_infill == 60);
+  CHECK(first.speeds.acceleration_print == 333);
+  CHECK(scopes.above_first_layer(scopes.on_raft(0)) == 0);
+  settings.raft.speed_layer_0_over_raft = std::nullopt;
+  Scopes usual{settings};
+  CHECK(usual[usual.on_raft(0)].speeds.speed_wall_0 == settings.speeds.speed_layer_0.of(40));
+}
+
 TEST_CASE("scopes: equal settings are one scope, and a first layer knows what it is above") {
   Scopes scopes{Settings{}};
   Overlay lid = of_object();

@@ -35,7 +35,9 @@ TEST_CASE("travel: each setting that cannot matter, or contradicts another, is n
              t.retraction_combing_max_detour = length(9000), t.retraction_combing = Combing::off;
            }},
       Case{"travel_avoid_distance has no effect",
-           [](TravelSettings& t, RetractionSettings&) { t.travel_avoid_distance = 2000; }},
+           [](TravelSettings& t, RetractionSettings&) {
+             t.travel_avoid_supports = false, t.travel_avoid_distance = 2000;
+           }},
       Case{"retraction_combing_max_distance (0.500 mm) is less",
            [](TravelSettings& t, RetractionSettings&) { t.retraction_combing_max_distance = 500; }},
       Case{"z_seam_x has no effect", [](TravelSettings& t, RetractionSettings&) { t.z_seam_x = 1000; }},

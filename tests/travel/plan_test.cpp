@@ -75,6 +75,31 @@ TEST_CASE("travel: a part is finished before the next is begun, its walls first 
   }
 }
 
+TEST_CASE(
+    "travel: a bridge is laid before the walls that hang over the same gap, one over sparse infill after its walls",
+    "[travel]") {
+  const auto roles_of = [](bool gap, bool below_walls) {
+    auto input = sample::layer({sample::rectangle(0, 0, 20000, 10000)}, 1, 800, 7);
+    for (Bead& bead : input.objects[0].beads)
+      if (bead.role == Role::infill) bead.role = Role::bridge;
+    if (gap)
+      input.objects[0].over_air = {sample::rectangle(5000, below_walls ? 0 : 3000, 15000, below_walls ? 10000 : 7000)};
+    std::vector<LayerInput> inputs{sample::layer({sample::rectangle(0, 0, 20000, 10000)}), std::move(input)};
+    std::vector<Role> roles;
+    for (const Extrude& e : extrusions(plan({}, {}, std::move(inputs))[1])) roles.push_back(e.role);
+    return roles;
+  };
+  for (const bool gap : {false, true})
+    for (const bool below_walls : {false, true}) {
+      const auto roles = roles_of(gap, below_walls);
+      const auto walls = std::count_if(roles.begin(), roles.end(), [](Role role) { return is_wall(role); });
+      CAPTURE(gap, below_walls);
+      REQUIRE(walls == 3);
+      CHECK(is_wall(roles.front()) == !(gap && below_walls));
+      CHECK(is_wall(roles.back()) == (gap && below_walls));
+    }
+}
+
 TEST_CASE("travel: the walls of one contour follow each other", "[travel]") {
   const auto plans = plan({}, {}, stack(1));
   const auto printed = extrusions(plans[0]);

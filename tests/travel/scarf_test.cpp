@@ -53,6 +53,8 @@ TEST_CASE("travel: outer walls have scarf seams from the second layer on; the no
           "[travel]") {
   TravelSettings settings;
   settings.scarf_joint_seam_length = 5000;
+  settings.scarf_joint_inner_walls = GENERATE(false, true);
+  int inner_ramps = 0;
   std::vector<LayerInput> inputs;
   for (std::size_t i = 0; i < 3; ++i) inputs.push_back(sample::layer(sample::plate(), i));
   const auto plans = plan(settings, {}, inputs);
@@ -61,8 +63,8 @@ TEST_CASE("travel: outer walls have scarf seams from the second layer on; the no
     for (std::size_t s = 0; s < plans[i].steps.size(); ++s) {
       const auto* e = std::get_if<Extrude>(&plans[i].steps[s]);
       if (!e || e->below.empty()) continue;
-      ++ramps;
-      CHECK(e->role == Role::outer_wall);
+      CHECK((e->role == Role::outer_wall || settings.scarf_joint_inner_walls));
+      ++(e->role == Role::outer_wall ? ramps : inner_ramps);
       CHECK(e->below.size() == e->path.size());
       // what comes before ends where it begins, and lower than the layer
       std::size_t before = s - 1;
@@ -74,6 +76,7 @@ TEST_CASE("travel: outer walls have scarf seams from the second layer on; the no
     CHECK(ramps == (i == 0 ? 0 : 4));
     CHECK(end_of(plans[i], {}).z == plans[i].z);
   }
+  CHECK((inner_ramps > 0) == settings.scarf_joint_inner_walls);
 }
 
 TEST_CASE("travel: staggered seams of inner walls lie aside, on every second wall", "[travel]") {

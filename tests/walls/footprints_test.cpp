@@ -43,6 +43,36 @@ TEST_CASE("footprints: a loop that reaches over the outline by more than 10 µm 
   }
 }
 
+TEST_CASE("footprints: where the end of a wall reaches over the outline, what is further off than it is wide stays",
+          "[walls]") {
+  // Its whole side gave way, and left a wedge of 4 mm bare.
+  Beads beads{wall(200, nominal)};
+  auto& path = beads.front().path;
+  path.insert(path.begin() + 1,
+              {{{5'000, 200}, nominal}, {{5'100, 200}, 460}, {{5'300, 200}, 460}, {{5'400, 200}, nominal}});
+  CHECK(kept(beads, 0));
+  int moved = 0;
+  for (const Junction& j : beads.front().path) {
+    const bool stays = j.at.x == 200 || j.at.x == 9'800 || j.at.y == 200 || j.at.y == 9'800;
+    moved += stays ? 0 : 1;
+    CAPTURE(j.at.x, j.at.y);
+    CHECK((stays || (j.at.x >= 5'000 - nominal && j.at.x <= 5'400 + nominal)));
+  }
+  CHECK(moved >= 2);
+  // … and between the junctions that stay and those that move there is a bead's width.
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    const Point a = path[k].at, b = path[(k + 1) % path.size()].at;
+    if (distance(a, b) > 1'000) CHECK((a.x == b.x || a.y == b.y));
+  }
+}
+
+TEST_CASE("footprints: a ramp of width is looked at although the width in its middle is the nominal one", "[walls]") {
+  Beads beads{wall(185, nominal)};
+  Um wider = 40;  // … everywhere: they reach over the outline by 15 µm
+  for (Junction& j : beads.front().path) j.width += wider, wider = -wider;
+  CHECK(kept(beads, 0));
+}
+
 TEST_CASE("footprints: what reaches over the outline by less stays", "[walls]") {
   Beads beads{wall(200, 416)};
   const Beads before = beads;
@@ -67,7 +97,7 @@ TEST_CASE("footprints: a single bead gets narrower where it reaches over, on eit
   const auto& path = beads.front().path;
   CHECK(path[0].width + path[1].width <= 2 * (480 + 20));
   CHECK(path[0].at == bead.path[0].at);
-  CHECK(path[3] == bead.path[3]);
+  CHECK(path.back() == bead.path.back());
 }
 
 TEST_CASE("footprints: the part's volume comes first", "[walls]") {

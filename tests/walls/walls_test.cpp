@@ -106,6 +106,27 @@ TEST_CASE("walls: xy offsets move outlines and holes", "[walls]") {
   CHECK(area_mm2(walls.inside) + bead_area_mm2(walls) == Approx(expected).epsilon(0.003));
 }
 
+TEST_CASE("walls: what draws in the first layer leaves ribs and pins as wide as they are", "[walls]") {
+  WallSettings above = by_volume();
+  above.wall_line_width_0 = 450;
+  WallSettings settings = above;
+  settings.xy_offset = -200;
+  const auto printed_mm2 = [&](const Regions& regions) {
+    const SlicedLayer layer{.z = 200, .height = 200, .regions = regions};
+    const auto walls = walls::build(settings, {.layer = layer, .settings_above = &above});
+    return area_mm2(walls.inside) + bead_area_mm2(walls);
+  };
+  const Um rib = GENERATE(300, 500, 800, 1'200);  // 2 x 0.45 mm and 2 x 0.2 mm are more
+  CHECK(printed_mm2({rectangle(0, 0, 20_mm, rib)}) == Approx(20 * to_mm(rib)).epsilon(0.02));
+  CHECK(printed_mm2({rectangle(0, 0, 20_mm, 1.5_mm)}) == Approx(19.6 * 1.1).epsilon(0.02));
+  CHECK(printed_mm2({rectangle(0, 0, 20_mm, 20_mm)}) == Approx(19.6 * 19.6).epsilon(0.002));
+  // A rib on a block: the block is drawn in, the rib is not, and nothing parts them.
+  const Region flag{
+      {{0, 0}, {10_mm, 0}, {10_mm, 5_mm}, {20_mm, 5_mm}, {20_mm, 5.5_mm}, {10_mm, 5.5_mm}, {10_mm, 10_mm}, {0, 10_mm}},
+      {}};
+  CHECK(printed_mm2({flag}) == Approx(9.6 * 9.6 + 10.2 * 0.5).epsilon(0.01));
+}
+
 TEST_CASE("walls: no bead is wider than max_wall_line_width allows", "[walls]") {
   const Um thickness = GENERATE(600, 900, 1200, 1500, 2100, 2700);
   const auto walls = built({rectangle(0, 0, 10_mm, thickness)});

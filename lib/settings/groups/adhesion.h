@@ -45,7 +45,7 @@ struct AdhesionSettings {
   AdhesionOutside adhesion_outside = AdhesionOutside::keep;
 };
 
-inline constexpr std::tuple adhesion_schema{
+inline constexpr Rows adhesion_schema{
     setting("adhesion_type", Scope::plate, &AdhesionSettings::adhesion_type,
             "What holds the print to the bed: nothing, a skirt alone, a brim alone, a raft, or what skirt_line_count "
             "and brim_width say."),

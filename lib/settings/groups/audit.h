@@ -11,7 +11,7 @@ struct AuditSettings {
   int audit_max_findings = 100;
 };
 
-inline constexpr std::tuple audit_schema{
+inline constexpr Rows audit_schema{
     setting("audit_tolerance", Scope::plate, &AuditSettings::audit_tolerance, Unit::mm, 0_mm, 1_mm,
             "How far outside still counts as inside."),
     setting("audit_max_findings", Scope::plate, &AuditSettings::audit_max_findings, Unit::none, 1, 1000000,

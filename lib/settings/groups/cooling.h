@@ -18,12 +18,15 @@ struct CoolingSettings {
   std::optional<double> overhang_fan_speed_50;
   std::optional<double> overhang_fan_speed_75;
   std::optional<double> overhang_fan_speed_100;
+  bool support_fan_enable = false;
+  double support_supported_skin_fan_speed = 100;
+  std::optional<double> support_interface_fan_speed;
   double cool_min_layer_time_fan_speed_max = 30;
   double cool_min_layer_time = 5;
   double cool_min_speed = 10;
 };
 
-inline constexpr std::tuple cooling_schema{
+inline constexpr Rows cooling_schema{
     setting("cool_fan_enabled", Scope::layer, &CoolingSettings::cool_fan_enabled,
             "The part-cooling fan is used at all."),
     setting("cool_fan_always_on", Scope::layer, &CoolingSettings::cool_fan_always_on,
@@ -50,6 +53,12 @@ inline constexpr std::tuple cooling_schema{
     setting("overhang_fan_speed_100", Scope::region, &CoolingSettings::overhang_fan_speed_100, Unit::percent, 0, 100,
             "The same with more than three quarters of their width; auto: bridge_fan_speed, which holds where all of "
             "it lies over air."),
+    setting("support_fan_enable", Scope::region, &CoolingSettings::support_fan_enable,
+            "Skin that lies on support has a fan of its own, so that it does not weld to it."),
+    setting("support_supported_skin_fan_speed", Scope::region, &CoolingSettings::support_supported_skin_fan_speed,
+            Unit::percent, 0, 100, "That fan."),
+    setting("support_interface_fan_speed", Scope::region, &CoolingSettings::support_interface_fan_speed, Unit::percent,
+            0, 100, "Fan over interfaces of support; auto: the layer's."),
     setting("cool_min_layer_time_fan_speed_max", Scope::layer, &CoolingSettings::cool_min_layer_time_fan_speed_max,
             Unit::seconds, 0, 3600, "Layers faster than this get more than cool_fan_speed_min."),
     setting("cool_min_layer_time", Scope::layer, &CoolingSettings::cool_min_layer_time, Unit::seconds, 0, 3600,

@@ -39,8 +39,13 @@ struct GcodeSettings {
   std::string before_layer_gcode;
   std::string layer_gcode;
   std::string tool_change_gcode;
+  std::string machine_extruder_start_code;
+  std::string machine_extruder_end_code;
+  std::string pause_gcode;
+  std::string color_change_gcode;
   std::string between_objects_gcode;
   std::string gcode_variables;
+  std::string gcode_substitutions;
   ObjectLabels gcode_label_objects = ObjectLabels::firmware;
   CommentDialect gcode_comment_dialect = CommentDialect::prusaslicer;
   bool gcode_progress = true;
@@ -51,7 +56,7 @@ struct GcodeSettings {
   std::string output_filename_format = "{input_filename_base}.gcode";
 };
 
-inline constexpr std::tuple gcode_schema{
+inline constexpr Rows gcode_schema{
     setting("relative_extrusion", Scope::plate, &GcodeSettings::relative_extrusion,
             "E is relative (M83); off: absolute (M82), from zero in each layer."),
     setting("volumetric_extrusion", Scope::plate, &GcodeSettings::volumetric_extrusion,
@@ -69,14 +74,26 @@ inline constexpr std::tuple gcode_schema{
     setting("layer_gcode", Scope::plate, &GcodeSettings::layer_gcode,
             "G-code after the move to each layer: {layer_num}, {layer_z}."),
     setting("tool_change_gcode", Scope::plate, &GcodeSettings::tool_change_gcode,
-            "G-code at changes of the tool: {previous_extruder}, {next_extruder}. Checked; without effect while there "
-            "is one extruder."),
+            "G-code at changes of the tool: {previous_extruder}, {next_extruder}, {toolchange_z}. The tool is chosen "
+            "after it, unless it does that itself."),
+    setting("machine_extruder_start_code", Scope::tool, &GcodeSettings::machine_extruder_start_code,
+            "G-code after this tool was loaded; with one tool, after machine_start_gcode."),
+    setting("machine_extruder_end_code", Scope::tool, &GcodeSettings::machine_extruder_end_code,
+            "G-code before another tool is loaded; with one tool, before machine_end_gcode."),
+    setting("pause_gcode", Scope::plate, &GcodeSettings::pause_gcode,
+            "G-code of pause_at_heights; empty: the firmware's command."),
+    setting("color_change_gcode", Scope::plate, &GcodeSettings::color_change_gcode,
+            "G-code of color_change_at_heights; empty: the firmware's command, M600 where it has one."),
     setting("between_objects_gcode", Scope::plate, &GcodeSettings::between_objects_gcode,
             "G-code between objects that are printed one after the other, before the first layer of the next."),
     setting("gcode_variables", Scope::plate, &GcodeSettings::gcode_variables,
             "Further names that custom G-code may use: lines `name = value`, lists between commas, texts in quotes. On "
             "import from PrusaSlicer, those "
             "of its keys that the custom G-code names."),
+    setting("gcode_substitutions", Scope::plate, &GcodeSettings::gcode_substitutions,
+            "Changes to the G-code between head and settings, one after the other: lines s/FIND/REPLACE/FLAGS, with "
+            "any character for the slash. Flags: r, FIND is a regular expression (Perl's, $1 in REPLACE); i, of either "
+            "case; w, whole words; s, in one piece: a dot is also the end of a line. The audit reads what they leave."),
     setting(
         "gcode_label_objects", Scope::plate, &GcodeSettings::gcode_label_objects,
         "Objects are named in the file: firmware (EXCLUDE_OBJECT for Klipper, M486 for others), comments, or none."),

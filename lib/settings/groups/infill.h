@@ -7,14 +7,96 @@
 namespace weft {
 using namespace weft::literals;
 
-/// How sparse infill is laid out.
-enum class InfillPattern { lines, grid, triangles, gyroid, concentric };
+/// How sparse infill is laid out; infill/pattern.cpp has a row for each.
+enum class InfillPattern {
+  lines,
+  grid,
+  triangles,
+  gyroid,
+  concentric,
+  zigzag,
+  aligned,
+  slanted,
+  crosszag,
+  trihexagon,
+  cubic,
+  tetrahedral,
+  quarter_cubic,
+  cubicsubdiv,
+  support_cubic,
+  honeycomb,
+  octagon,
+  honeycomb_3d,
+  crosshatch,
+  lateral_lattice,
+  lateral_honeycomb,
+  diamond,
+  fischer_koch,
+  schwarz_p,
+  hilbert,
+  peano,
+  archimedean,
+  octagram,
+  fermat,
+  voronoi,
+  voronoi_3d,
+  cross,
+  cross_3d,
+  lightning,
+};
 constexpr auto choices_of(InfillPattern) {
-  return std::array{Choice<InfillPattern>{InfillPattern::lines, "lines"},
-                    Choice<InfillPattern>{InfillPattern::grid, "grid"},
-                    Choice<InfillPattern>{InfillPattern::triangles, "triangles"},
-                    Choice<InfillPattern>{InfillPattern::gyroid, "gyroid"},
-                    Choice<InfillPattern>{InfillPattern::concentric, "concentric"}};
+  using enum InfillPattern;
+  return std::array{
+      Choice<InfillPattern>{lines, "lines"},
+      Choice<InfillPattern>{grid, "grid"},
+      Choice<InfillPattern>{triangles, "triangles"},
+      Choice<InfillPattern>{gyroid, "gyroid"},
+      Choice<InfillPattern>{concentric, "concentric"},
+      Choice<InfillPattern>{zigzag, "zigzag"},
+      Choice<InfillPattern>{aligned, "aligned"},
+      Choice<InfillPattern>{slanted, "slanted"},
+      Choice<InfillPattern>{crosszag, "crosszag"},
+      Choice<InfillPattern>{trihexagon, "trihexagon"},
+      Choice<InfillPattern>{cubic, "cubic"},
+      Choice<InfillPattern>{tetrahedral, "tetrahedral"},
+      Choice<InfillPattern>{quarter_cubic, "quarter_cubic"},
+      Choice<InfillPattern>{cubicsubdiv, "cubicsubdiv"},
+      Choice<InfillPattern>{support_cubic, "support_cubic"},
+      Choice<InfillPattern>{honeycomb, "honeycomb"},
+      Choice<InfillPattern>{octagon, "octagon"},
+      Choice<InfillPattern>{honeycomb_3d, "honeycomb_3d"},
+      Choice<InfillPattern>{crosshatch, "crosshatch"},
+      Choice<InfillPattern>{lateral_lattice, "lateral_lattice"},
+      Choice<InfillPattern>{lateral_honeycomb, "lateral_honeycomb"},
+      Choice<InfillPattern>{diamond, "diamond"},
+      Choice<InfillPattern>{fischer_koch, "fischer_koch"},
+      Choice<InfillPattern>{schwarz_p, "schwarz_p"},
+      Choice<InfillPattern>{hilbert, "hilbert"},
+      Choice<InfillPattern>{peano, "peano"},
+      Choice<InfillPattern>{archimedean, "archimedean"},
+      Choice<InfillPattern>{octagram, "octagram"},
+      Choice<InfillPattern>{fermat, "fermat"},
+      Choice<InfillPattern>{voronoi, "voronoi"},
+      Choice<InfillPattern>{voronoi_3d, "voronoi_3d"},
+      Choice<InfillPattern>{cross, "cross"},
+      Choice<InfillPattern>{cross_3d, "cross_3d"},
+      Choice<InfillPattern>{lightning, "lightning"},
+  };
+}
+
+/// Which densities win where several are asked for.
+enum class DensityCombine { max, min, multiply };
+constexpr auto choices_of(DensityCombine) {
+  using enum DensityCombine;
+  return std::array{Choice<DensityCombine>{max, "max"}, Choice<DensityCombine>{min, "min"},
+                    Choice<DensityCombine>{multiply, "multiply"}};
+}
+
+/// What the numbers of a file of densities mean.
+enum class DensityUnit { fraction, percent };
+constexpr auto choices_of(DensityUnit) {
+  return std::array{Choice<DensityUnit>{DensityUnit::fraction, "fraction"},
+                    Choice<DensityUnit>{DensityUnit::percent, "percent"}};
 }
 
 /// What stands inside the part between its shells.
@@ -23,14 +105,32 @@ struct InfillSettings {
   InfillPattern infill_pattern = InfillPattern::grid;
   std::optional<Um> infill_line_width;
   double infill_angle = 45;
+  Numbers infill_angles;
+  Um infill_offset_x = 0;
+  Um infill_offset_y = 0;
   LengthOrShare infill_overlap = share(15);
   bool infill_connect_lines = true;
+  std::optional<Um> infill_anchor_max;
+  Um infill_anchor_length = 0;
+  int infill_wall_line_count = 0;
   std::optional<Um> infill_sparse_thickness;
   bool infill_support_enabled = false;
   double infill_support_angle = 40;
+  ValuesAt infill_density_by_distance;
+  ValuesAt infill_density_by_height;
+  int gradual_infill_steps = 0;
+  Um gradual_infill_step_height = 1.5_mm;
+  std::string infill_density_image;
+  Ring infill_density_image_box;
+  std::string infill_density_field;
+  DensityUnit infill_density_field_unit = DensityUnit::fraction;
+  TransferCurve infill_density_transfer;
+  DensityCombine infill_density_combine = DensityCombine::max;
+  double infill_density_min = 5;
+  double infill_density_max = 90;
 };
 
-inline constexpr std::tuple infill_schema{
+inline constexpr Rows infill_schema{
     setting("infill_sparse_density", Scope::region, &InfillSettings::infill_sparse_density, Unit::percent, 0, 100,
             "Share of the inside that is plastic; 100 % is solid."),
     setting("infill_pattern", Scope::region, &InfillSettings::infill_pattern, "Layout of sparse infill."),
@@ -38,12 +138,25 @@ inline constexpr std::tuple infill_schema{
             "Line width of sparse infill; auto keeps the cross-section of the nozzle."),
     setting("infill_angle", Scope::region, &InfillSettings::infill_angle, Unit::degrees, -360, 360,
             "Direction of sparse lines, against X; the pattern lines is turned by 90° on every second layer."),
+    setting("infill_angles", Scope::region, &InfillSettings::infill_angles, Unit::degrees, -360, 360,
+            "Directions of sparse lines, against X, a layer each, again from the first after the last: 0, 60, 120. "
+            "Empty: infill_angle, as the pattern turns it."),
+    setting("infill_offset_x", Scope::region, &InfillSettings::infill_offset_x, Unit::mm, -1000_mm, 1000_mm,
+            "How far the pattern is moved along X from the middle of the object."),
+    setting("infill_offset_y", Scope::region, &InfillSettings::infill_offset_y, Unit::mm, -1000_mm, 1000_mm,
+            "How far the pattern is moved along Y from the middle of the object."),
     setting("infill_overlap", Scope::region, &InfillSettings::infill_overlap, Unit::mm, 0_mm, 5_mm,
             "How far the ends of skin and infill lines reach into the innermost wall, to bond with it; a share is of "
             "that wall's line width."),
     setting(
         "infill_connect_lines", Scope::region, &InfillSettings::infill_connect_lines,
         "Neighbouring lines, solid ones too, are joined along the wall instead of travelling from one to the next."),
+    setting("infill_anchor_max", Scope::region, &InfillSettings::infill_anchor_max, Unit::mm, 0_mm, 1000_mm,
+            "Longest joint along the wall between two sparse lines; auto is one and a half times their distance."),
+    setting("infill_anchor_length", Scope::region, &InfillSettings::infill_anchor_length, Unit::mm, 0_mm, 1000_mm,
+            "How far a sparse line that is joined to none is bent along the wall that it ends at, to hold there."),
+    setting("infill_wall_line_count", Scope::region, &InfillSettings::infill_wall_line_count, Unit::none, 0, 100,
+            "Lines around each area of sparse infill, inside of the walls; the pattern fills what they leave."),
     setting("infill_sparse_thickness", Scope::object, &InfillSettings::infill_sparse_thickness, Unit::mm, 0.02_mm, 5_mm,
             "Height of sparse infill, printed every so many layers at once: as many as it holds; auto is layer_height. "
             "No more than nozzle_diameter."),
@@ -51,6 +164,34 @@ inline constexpr std::tuple infill_schema{
             "Sparse infill only below what is solid and does not carry itself; elsewhere the inside stays hollow."),
     setting("infill_support_angle", Scope::object, &InfillSettings::infill_support_angle, Unit::degrees, 0, 90,
             "With infill_support_enabled: a shell that leans less than this from the vertical carries itself."),
+    setting("infill_density_by_distance", Scope::region, &InfillSettings::infill_density_by_distance, Unit::none, 0,
+            1000000,
+            "Density by the distance from the object's surface, mm:%, straight between: 0:60, 2:30, 8:10. A distance "
+            "given twice is a step. Empty: none."),
+    setting("infill_density_by_height", Scope::region, &InfillSettings::infill_density_by_height, Unit::none, 0,
+            1000000, "Density by the height over the bed, mm:%, as infill_density_by_distance."),
+    setting("gradual_infill_steps", Scope::region, &InfillSettings::gradual_infill_steps, Unit::none, 0, 10,
+            "How often the density is halved with growing distance below what is above the infill."),
+    setting("gradual_infill_step_height", Scope::region, &InfillSettings::gradual_infill_step_height, Unit::mm, 0.01_mm,
+            1000_mm, "Height of one step of gradual_infill_steps."),
+    setting("infill_density_image", Scope::region, &InfillSettings::infill_density_image,
+            "A picture, .png or .pgm, seen from above: black is infill_density_max, white infill_density_min."),
+    setting("infill_density_image_box", Scope::region, &InfillSettings::infill_density_image_box,
+            "Two corners between which the picture lies on the bed; empty: the object's box."),
+    setting("infill_density_field", Scope::region, &InfillSettings::infill_density_field,
+            "A grid of densities in space: VTK's .vtk (STRUCTURED_POINTS), or .csv with x, y, z, density."),
+    setting("infill_density_field_unit", Scope::region, &InfillSettings::infill_density_field_unit,
+            "What the numbers of infill_density_field are."),
+    setting("infill_density_transfer", Scope::region, &InfillSettings::infill_density_transfer,
+            "What becomes of the values of picture and grid: linear; simp:3, ramp:8, the density of the stiffness that "
+            "they are; heaviside:16:0.5, sharpness and threshold; linear_spacing, exponential_spacing, where not the "
+            "density but the distance of lines follows them."),
+    setting("infill_density_combine", Scope::region, &InfillSettings::infill_density_combine,
+            "Where several of these densities are asked for: max, min, or multiply, their product."),
+    setting("infill_density_min", Scope::region, &InfillSettings::infill_density_min, Unit::percent, 0, 100,
+            "No density that varies is less."),
+    setting("infill_density_max", Scope::region, &InfillSettings::infill_density_max, Unit::percent, 0, 100,
+            "No density that varies is more."),
 };
 static_assert(complete<InfillSettings>(infill_schema));
 

@@ -28,7 +28,7 @@ struct LayerSettings {
   SlicingMode slicing_mode = SlicingMode::regular;
 };
 
-inline constexpr std::tuple layer_schema{
+inline constexpr Rows layer_schema{
     setting("layer_height", Scope::layer, &LayerSettings::layer_height, Unit::mm, 0.02_mm, 2_mm, "Height of a layer."),
     setting("initial_layer_height", Scope::object, &LayerSettings::initial_layer_height, Unit::mm, 0.02_mm, 2_mm,
             "Height of the first layer; auto is layer_height."),

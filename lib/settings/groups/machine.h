@@ -58,7 +58,7 @@ struct MachineSettings {
   double machine_max_jerk = 8;
 };
 
-inline constexpr std::tuple machine_schema{
+inline constexpr Rows machine_schema{
     setting("machine_name", Scope::machine, &MachineSettings::machine_name,
             "Name of the printer, for comments and messages."),
     setting("machine_hourly_cost", Scope::machine, &MachineSettings::machine_hourly_cost, Unit::per_h, 0, 1'000'000,

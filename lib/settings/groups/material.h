@@ -20,11 +20,12 @@ struct MaterialSettings {
   int material_bed_temperature = 60;
   std::optional<int> material_bed_temperature_layer_0;
   int build_volume_temperature = 0;
+  std::optional<int> build_volume_wait_temperature;
   bool material_print_temp_wait = true;
   bool material_bed_temp_wait = true;
 };
 
-inline constexpr std::tuple material_schema{
+inline constexpr Rows material_schema{
     setting("material_type", Scope::tool, &MaterialSettings::material_type,
             "Kind of plastic, for comments and messages."),
     setting("filament_diameter", Scope::tool, &MaterialSettings::filament_diameter, Unit::mm, 0.5_mm, 5_mm,
@@ -53,6 +54,10 @@ inline constexpr std::tuple material_schema{
             Unit::celsius, 0, 200, "Bed temperature of the first layer; auto is material_bed_temperature."),
     setting("build_volume_temperature", Scope::plate, &MaterialSettings::build_volume_temperature, Unit::celsius, 0,
             200, "Temperature of the chamber; 0 leaves it alone."),
+    setting("build_volume_wait_temperature", Scope::plate, &MaterialSettings::build_volume_wait_temperature,
+            Unit::celsius, 0, 200,
+            "The start G-code begins when the chamber is as warm as this (M191), and goes on heating; 0 does not wait, "
+            "auto is build_volume_temperature."),
     setting("material_print_temp_wait", Scope::plate, &MaterialSettings::material_print_temp_wait,
             "The print begins when the nozzle is hot (M109); off: it is only told to heat (M104)."),
     setting("material_bed_temp_wait", Scope::plate, &MaterialSettings::material_bed_temp_wait,

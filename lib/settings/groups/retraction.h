@@ -38,7 +38,7 @@ struct RetractionSettings {
   std::optional<Um> retraction_hop_below;
 };
 
-inline constexpr std::tuple retraction_schema{
+inline constexpr Rows retraction_schema{
     setting("retraction_enable", Scope::tool, &RetractionSettings::retraction_enable,
             "Filament is drawn back before travels that may string."),
     setting("retraction_amount", Scope::tool, &RetractionSettings::retraction_amount, Unit::mm, 0_mm, 50_mm,

@@ -13,12 +13,22 @@ enum class SkinPattern {
   monotonic_lines,  ///< the same, not joined
   lines,            ///< joined, in whatever order is shortest
   aligned_lines,    ///< the same, in one direction in all layers
+  concentric,       ///< rings along the edge
+  hilbert,          ///< the patterns of sparse infill, dense
+  archimedean,
+  octagram,
+  fermat,
 };
 constexpr auto choices_of(SkinPattern) {
   return std::array{Choice<SkinPattern>{SkinPattern::monotonic, "monotonic"},
                     Choice<SkinPattern>{SkinPattern::monotonic_lines, "monotonic_lines"},
                     Choice<SkinPattern>{SkinPattern::lines, "lines"},
-                    Choice<SkinPattern>{SkinPattern::aligned_lines, "aligned_lines"}};
+                    Choice<SkinPattern>{SkinPattern::aligned_lines, "aligned_lines"},
+                    Choice<SkinPattern>{SkinPattern::concentric, "concentric"},
+                    Choice<SkinPattern>{SkinPattern::hilbert, "hilbert"},
+                    Choice<SkinPattern>{SkinPattern::archimedean, "archimedean"},
+                    Choice<SkinPattern>{SkinPattern::octagram, "octagram"},
+                    Choice<SkinPattern>{SkinPattern::fermat, "fermat"}};
 }
 
 /// What closes the part above and below: solid layers, and bridges where they hang over air.
@@ -34,13 +44,15 @@ struct ShellSettings {
   SkinPattern bottom_pattern = SkinPattern::monotonic;
   std::optional<int> infill_solid_every_layers;
   double infill_solid_below_area = 20;
+  bool gap_fill_enabled = true;
+  bool overhang_walls = true;
   bool bridges = true;
   std::optional<double> bridge_angle;
   double bridge_flow = 100;
   Um bridge_anchor = 2_mm;
 };
 
-inline constexpr std::tuple shell_schema{
+inline constexpr Rows shell_schema{
     setting("top_layers", Scope::region, &ShellSettings::top_layers, Unit::layers, 0, 100000,
             "Solid layers under every top surface; top_thickness may ask for more."),
     setting("bottom_layers", Scope::region, &ShellSettings::bottom_layers, Unit::layers, 0, 100000,
@@ -57,15 +69,22 @@ inline constexpr std::tuple shell_schema{
             "Direction of the lines of solid layers, against X; every second layer is turned by 90°. auto runs along "
             "straight "
             "walls, where lines at a slant would leave gaps at their ends, and at 45° in areas without."),
-    setting("top_pattern", Scope::region, &ShellSettings::top_pattern,
-            "How the lines of top surfaces lie: monotonic, each beside the one before; monotonic_lines, not joined at "
-            "their ends; lines, in the shortest order; aligned_lines, in one direction in all layers."),
+    setting(
+        "top_pattern", Scope::region, &ShellSettings::top_pattern,
+        "How the lines of top surfaces lie: monotonic, each beside the one before; monotonic_lines, not joined at "
+        "their ends; lines, in the shortest order; aligned_lines, in one direction in all layers; concentric, rings "
+        "along the edge; hilbert, archimedean, octagram, fermat, one winding curve."),
     setting("bottom_pattern", Scope::region, &ShellSettings::bottom_pattern,
             "The same for bottoms and for solid layers inside."),
     setting("infill_solid_every_layers", Scope::region, &ShellSettings::infill_solid_every_layers, Unit::layers, 1,
             100000, "Every so many layers sparse infill is solid; auto: never."),
     setting("infill_solid_below_area", Scope::region, &ShellSettings::infill_solid_below_area, Unit::mm2, 0, 1000000,
             "A patch of sparse infill smaller than this is made solid."),
+    setting("gap_fill_enabled", Scope::region, &ShellSettings::gap_fill_enabled,
+            "Strips of a solid layer that are too narrow for its lines get one bead along them; off: they stay open."),
+    setting("overhang_walls", Scope::region, &ShellSettings::overhang_walls,
+            "Walls over air have a speed, a fan and, where both ends are held, a strand of their own; off: they are "
+            "printed like other walls."),
     setting("bridges", Scope::region, &ShellSettings::bridges,
             "Bottoms over air that rest on two sides are printed as bridges: free strands along the shorter span."),
     setting("bridge_angle", Scope::region, &ShellSettings::bridge_angle, Unit::degrees, -360, 360,

@@ -27,6 +27,7 @@ struct SpeedSettings {
   double speed_travel = 150;
   double speed_z_hop = 10;
   SpeedOrShare speed_layer_0 = {20, false};
+  std::optional<double> speed_topbottom_layer_0;
   std::optional<double> speed_travel_layer_0;
   double speed_equalize_flow_width_factor = 0;
   std::optional<double> max_extrusion_rate_slope;
@@ -42,7 +43,7 @@ struct SpeedSettings {
   std::optional<double> acceleration_travel;
 };
 
-inline constexpr std::tuple speed_schema{
+inline constexpr Rows speed_schema{
     setting("speed_wall_0", Scope::region, &SpeedSettings::speed_wall_0, Unit::mm_s, 0.1, 5000,
             "Speed of the outermost walls."),
     setting("speed_wall_x", Scope::region, &SpeedSettings::speed_wall_x, Unit::mm_s, 0.1, 5000,
@@ -84,6 +85,8 @@ inline constexpr std::tuple speed_schema{
             "Speed along Z, in layer changes and lifts."),
     setting("speed_layer_0", Scope::region, &SpeedSettings::speed_layer_0, Unit::mm_s, 0.1, 5000,
             "Speed of the first layer, where that is slower; a share is of the feature's own speed."),
+    setting("speed_topbottom_layer_0", Scope::region, &SpeedSettings::speed_topbottom_layer_0, Unit::mm_s, 0.1, 5000,
+            "Speed of bottoms and of solid infill in the first layer; auto: like the rest of it, by speed_layer_0."),
     setting("speed_travel_layer_0", Scope::layer, &SpeedSettings::speed_travel_layer_0, Unit::mm_s, 0.1, 5000,
             "Speed of travels in the first layer; auto is speed_travel."),
     setting("speed_equalize_flow_width_factor", Scope::region, &SpeedSettings::speed_equalize_flow_width_factor,

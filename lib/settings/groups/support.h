@@ -39,6 +39,14 @@ constexpr auto choices_of(SupportPattern) {
                     Choice<SupportPattern>{SupportPattern::gyroid, "gyroid"}};
 }
 
+/// How thick branches are where nothing else is said. slim: off again most easily; strong: for heavy parts.
+enum class SupportTreeStyle { organic, slim, strong };
+constexpr auto choices_of(SupportTreeStyle) {
+  return std::array{Choice<SupportTreeStyle>{SupportTreeStyle::organic, "organic"},
+                    Choice<SupportTreeStyle>{SupportTreeStyle::slim, "slim"},
+                    Choice<SupportTreeStyle>{SupportTreeStyle::strong, "strong"}};
+}
+
 /// What happens to support that would leave the print surface or enter a no-go area.
 enum class SupportOutside { keep, route };
 constexpr auto choices_of(SupportOutside) {
@@ -65,7 +73,10 @@ struct SupportSettings {
   LengthOrShare support_xy_distance = length(0.7_mm);
   Um support_xy_distance_overhang = 0.2_mm;
   bool support_xy_overrides_z = false;
+  Um support_bottom_stair_step_height = 0_mm;
+  Um support_bottom_stair_step_width = 5_mm;
   bool support_synchronize_layers = false;
+  std::optional<Um> support_infill_sparse_thickness;
   std::optional<Um> support_line_width;
   std::optional<int> support_wall_count;
   SupportPattern support_pattern = SupportPattern::zigzag;
@@ -81,17 +92,32 @@ struct SupportSettings {
   double support_interface_density = 100;
   SupportPattern support_interface_pattern = SupportPattern::zigzag;
   int support_roof_wall_count = 0;
+  std::optional<int> support_infill_extruder_nr;
+  std::optional<int> support_interface_extruder_nr;
+  bool support_conical_enabled = false;
+  double support_conical_angle = 30;
+  Um support_conical_min_width = 5_mm;
+  bool support_use_towers = false;
+  Um support_tower_diameter = 3_mm;
+  Um support_tower_maximum_supported_diameter = 3_mm;
+  double support_tower_roof_angle = 65;
+  SupportTreeStyle support_tree_style = SupportTreeStyle::organic;
   double support_tree_angle = 40;
-  Um support_tree_branch_diameter = 2_mm;
-  double support_tree_branch_diameter_angle = 5;
-  Um support_tree_tip_diameter = 0.8_mm;
+  std::optional<double> support_tree_angle_slow;
+  std::optional<Um> support_tree_branch_diameter;
+  std::optional<double> support_tree_branch_diameter_angle;
+  Um support_tree_branch_diameter_double_wall = 3_mm;
+  std::optional<Um> support_tree_tip_diameter;
   Um support_tree_branch_distance = 1_mm;
+  double support_tree_top_rate = 15;
+  double support_tree_infill_rate = 0;
   Um support_tree_max_diameter = 25_mm;
   Um support_tree_bp_diameter = 7.5_mm;
+  bool support_blockers_avoided = false;
   SupportOutside support_outside = SupportOutside::route;
 };
 
-inline constexpr std::tuple support_schema{
+inline constexpr Rows support_schema{
     setting("support_enable", Scope::object, &SupportSettings::support_enable,
             "Support is printed under what overhangs."),
     setting("support_auto", Scope::object, &SupportSettings::support_auto,
@@ -127,15 +153,25 @@ inline constexpr std::tuple support_schema{
             0_mm, 20_mm, "The same beside what is supported, where support_xy_overrides_z is off."),
     setting("support_xy_overrides_z", Scope::object, &SupportSettings::support_xy_overrides_z,
             "support_xy_distance holds beside overhangs as well, although support then ends further below them."),
+    setting("support_bottom_stair_step_height", Scope::object, &SupportSettings::support_bottom_stair_step_height,
+            Unit::mm, 0_mm, 10_mm,
+            "Support that stands on a slope of the part begins in steps of this height, so that it comes off; 0: as "
+            "near everywhere as support_bottom_distance allows."),
+    setting("support_bottom_stair_step_width", Scope::object, &SupportSettings::support_bottom_stair_step_width,
+            Unit::mm, 0_mm, 100_mm, "No step of support_bottom_stair_step_height is wider than this."),
     setting("support_synchronize_layers", Scope::object, &SupportSettings::support_synchronize_layers,
             "Support is printed in the part's layers; the gap above it is rounded up to whole ones."),
+    setting("support_infill_sparse_thickness", Scope::object, &SupportSettings::support_infill_sparse_thickness,
+            Unit::mm, 0.02_mm, 5_mm,
+            "Height of support's layers where nothing that it holds asks for others; auto is three quarters of "
+            "nozzle_diameter."),
     setting("support_line_width", Scope::object, &SupportSettings::support_line_width, Unit::mm, 0.05_mm, 10_mm,
             "Line width of support; auto is nozzle_diameter."),
     setting("support_wall_count", Scope::object, &SupportSettings::support_wall_count, Unit::none, 0, 20,
             "Loops around support; auto: one around branches, none around columns."),
     setting("support_pattern", Scope::object, &SupportSettings::support_pattern, "Layout of the inside of support."),
     setting("support_infill_rate", Scope::object, &SupportSettings::support_infill_rate, Unit::percent, 0, 100,
-            "Share of the inside of columns that is plastic. Branches are hollow."),
+            "Share of the inside of columns that is plastic."),
     setting("support_infill_angle", Scope::object, &SupportSettings::support_infill_angle, Unit::degrees, -360, 360,
             "Direction of the lines of support, against X; those of interfaces lie across."),
     setting("support_join_distance", Scope::object, &SupportSettings::support_join_distance, Unit::mm, 0_mm, 50_mm,
@@ -158,20 +194,55 @@ inline constexpr std::tuple support_schema{
             "Layout of interfaces that are not dense, and of dense ones zigzag (joined at the ends) or lines."),
     setting("support_roof_wall_count", Scope::object, &SupportSettings::support_roof_wall_count, Unit::none, 0, 20,
             "Loops around interfaces."),
+    setting("support_infill_extruder_nr", Scope::object, &SupportSettings::support_infill_extruder_nr, Unit::none, 0,
+            31, "Tool that prints columns and branches; auto: whichever is loaded."),
+    setting("support_interface_extruder_nr", Scope::object, &SupportSettings::support_interface_extruder_nr, Unit::none,
+            0, 31, "Tool that prints interfaces; auto: whichever is loaded."),
+    setting("support_conical_enabled", Scope::object, &SupportSettings::support_conical_enabled,
+            "Columns get narrower downwards, by support_conical_angle."),
+    setting("support_conical_angle", Scope::object, &SupportSettings::support_conical_angle, Unit::degrees, -85, 85,
+            "How far the faces of conical columns lean inwards on the way down; below 0 they get wider."),
+    setting("support_conical_min_width", Scope::object, &SupportSettings::support_conical_min_width, Unit::mm, 0_mm,
+            200_mm, "Conical columns get no narrower."),
+    setting("support_use_towers", Scope::object, &SupportSettings::support_use_towers,
+            "Tiny overhangs stand on round towers, which are thicker than they are."),
+    setting("support_tower_diameter", Scope::object, &SupportSettings::support_tower_diameter, Unit::mm, 0.1_mm, 50_mm,
+            "Diameter of towers."),
+    setting("support_tower_maximum_supported_diameter", Scope::object,
+            &SupportSettings::support_tower_maximum_supported_diameter, Unit::mm, 0_mm, 50_mm,
+            "Overhangs no wider than this in X and Y stand on towers."),
+    setting("support_tower_roof_angle", Scope::object, &SupportSettings::support_tower_roof_angle, Unit::degrees, 0, 85,
+            "How steep the top of a tower is, against the horizontal: 0 is flat."),
+    setting("support_tree_style", Scope::object, &SupportSettings::support_tree_style,
+            "What is taken for diameters of branches that are auto: thin ones come off more easily, thick ones stand "
+            "firmer."),
     setting("support_tree_angle", Scope::object, &SupportSettings::support_tree_angle, Unit::degrees, 1, 85,
             "How far branches may lean, against the vertical."),
+    setting("support_tree_angle_slow", Scope::object, &SupportSettings::support_tree_angle_slow, Unit::degrees, 1, 85,
+            "How far branches lean where nothing is in their way; auto is support_tree_angle. No more than that."),
     setting("support_tree_branch_diameter", Scope::object, &SupportSettings::support_tree_branch_diameter, Unit::mm,
-            0.1_mm, 50_mm, "Diameter of a branch that has left its tip behind."),
+            0.1_mm, 50_mm, "Diameter of a branch that has left its tip behind; auto: 2 mm, slim 1.2, strong 4."),
     setting("support_tree_branch_diameter_angle", Scope::object, &SupportSettings::support_tree_branch_diameter_angle,
-            Unit::degrees, 0, 30, "How fast branches get thicker downwards."),
+            Unit::degrees, 0, 30, "How fast branches get thicker downwards; auto: 5°, slim 3, strong 7."),
+    setting("support_tree_branch_diameter_double_wall", Scope::object,
+            &SupportSettings::support_tree_branch_diameter_double_wall, Unit::mm, 0_mm, 200_mm,
+            "Branches thicker than this have two walls; 0: none have."),
     setting("support_tree_tip_diameter", Scope::object, &SupportSettings::support_tree_tip_diameter, Unit::mm, 0.1_mm,
-            50_mm, "Diameter of a branch where it begins. No more than support_tree_branch_diameter."),
+            50_mm,
+            "Diameter of a branch where it begins; auto: 0.8 mm, slim 0.6, strong 1. No more than "
+            "support_tree_branch_diameter."),
     setting("support_tree_branch_distance", Scope::object, &SupportSettings::support_tree_branch_distance, Unit::mm,
             0.1_mm, 50_mm, "No place of what is supported lies further than this from the tip of a branch."),
+    setting("support_tree_top_rate", Scope::object, &SupportSettings::support_tree_top_rate, Unit::percent, 1, 100,
+            "Share of what is supported that tips touch, where support_tree_branch_distance would set them denser."),
+    setting("support_tree_infill_rate", Scope::object, &SupportSettings::support_tree_infill_rate, Unit::percent, 0,
+            100, "Share of the inside of branches that is plastic; 0: they are hollow."),
     setting("support_tree_max_diameter", Scope::object, &SupportSettings::support_tree_max_diameter, Unit::mm, 0.1_mm,
             200_mm, "Branches get no thicker."),
     setting("support_tree_bp_diameter", Scope::object, &SupportSettings::support_tree_bp_diameter, Unit::mm, 0_mm,
             200_mm, "Least diameter of a trunk where it stands on the plate."),
+    setting("support_blockers_avoided", Scope::object, &SupportSettings::support_blockers_avoided,
+            "No support goes through what blockers mark; off: they only forbid contacts."),
     setting(
         "support_outside", Scope::object, &SupportSettings::support_outside,
         "Support that would leave the print surface or enter a no-go area: keep leaves it to the audit, route keeps "

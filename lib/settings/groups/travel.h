@@ -58,6 +58,7 @@ struct TravelSettings {
   std::optional<LengthOrShare> retraction_combing_max_detour = length(20_mm);
   bool travel_avoid_other_parts = false;
   Um travel_avoid_distance = 0.625_mm;
+  bool travel_avoid_supports = true;
   bool staggered_inner_seams = false;
   LengthOrShare seam_gap_distance = share(15);
   Um wall_0_wipe_dist = 0_mm;
@@ -65,10 +66,11 @@ struct TravelSettings {
   double coasting_volume = 0.064;
   Um scarf_joint_seam_length = 0_mm;
   double scarf_joint_seam_start_height_ratio = 0;
+  bool scarf_joint_inner_walls = false;
   Um scarf_split_distance = 1_mm;
 };
 
-inline constexpr std::tuple travel_schema{
+inline constexpr Rows travel_schema{
     setting("path_order", Scope::layer, &TravelSettings::path_order,
             "Order of the paths of a layer: nearest takes the nearest next one, optimized improves that order by local "
             "search."),
@@ -106,6 +108,8 @@ inline constexpr std::tuple travel_schema{
             "Retracted travels go round the other parts of the layer instead of over them."),
     setting("travel_avoid_distance", Scope::layer, &TravelSettings::travel_avoid_distance, Unit::mm, 0_mm, 100_mm,
             "How far travels keep from the parts that they go round."),
+    setting("travel_avoid_supports", Scope::layer, &TravelSettings::travel_avoid_supports,
+            "Travels go round support, which a nozzle that runs into it knocks over, where the way round is not long."),
     setting("staggered_inner_seams", Scope::region, &TravelSettings::staggered_inner_seams,
             "Seams of inner walls lie aside of the outer wall's, alternately, so that no gap runs through all walls."),
     setting("seam_gap_distance", Scope::region, &TravelSettings::seam_gap_distance, Unit::mm, 0_mm, 5_mm,
@@ -122,6 +126,8 @@ inline constexpr std::tuple travel_schema{
             "they begin and end at one place."),
     setting("scarf_joint_seam_start_height_ratio", Scope::region, &TravelSettings::scarf_joint_seam_start_height_ratio,
             Unit::percent, 0, 100, "Height of a scarf seam's ramp at its beginning; a share of the layer height."),
+    setting("scarf_joint_inner_walls", Scope::region, &TravelSettings::scarf_joint_inner_walls,
+            "The other walls have scarf seams too; off: the outermost alone."),
     setting("scarf_split_distance", Scope::region, &TravelSettings::scarf_split_distance, Unit::mm, 0.05_mm, 100_mm,
             "Longest piece of a scarf seam's ramp that is printed at one rate of flow."),
 };

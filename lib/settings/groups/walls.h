@@ -56,7 +56,7 @@ struct WallSettings {
   Um hole_xy_offset = 0_mm;
 };
 
-inline constexpr std::tuple wall_schema{
+inline constexpr Rows wall_schema{
     setting("wall_line_count", Scope::region, &WallSettings::wall_line_count, Unit::none, 0, 1000,
             "Walls on each side of the part."),
     setting("wall_line_width_0", Scope::region, &WallSettings::wall_line_width_0, Unit::mm, 0.05_mm, 5_mm,

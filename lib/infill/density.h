@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "field/grid.h"
+#include "infill/shells.h"
+#include "model/bead.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace weft::infill {
+
+/// A density that differs from place to place, as settings ask for it.
+class Density {
+ public:
+  /// Does the density differ at all?
+  static bool varies(const InfillSettings& infill);
+
+  /// @param areas of all layers: gradual steps are counted below what is above the infill
+  /// Distances are known on a grid of half a millimetre, coarser for what is larger than four million cells.
+  /// Cost: O(cells).
+  /// @param on_bed what is added to the object's places to have those on the bed, where pictures and grids lie
+  /// @throws Error{settings} for a file that is not there or cannot be used, Error{file} for one that cannot be read
+  Density(const InfillSettings& infill, const ShellObject& object, const std::vector<LayerAreas>& areas, Point on_bed);
+
+  /// What the files that the settings name hold, hashed; empty when they name none.
+  static std::string files_of(const InfillSettings& infill);
+
+  /// 0 … 1, at a height over the bed.
+  double at(Point p, double z_um) const;
+
+  /// A part of a region whose density is within a factor of √2 of `level`.
+  struct Part {
+    Region region;
+    double level = 0;
+  };
+  /// Levels are doubled from each to the next, so that the coarse lines of a pattern are some of the fine ones.
+  std::vector<Part> parts(const Region& region, double z_um) const;
+
+  /// Widths of beads that were laid at a level, from `from` on, follow the density along them.
+  void follow(double level, double z_um, std::size_t from, Beads& beads) const;
+
+ private:
+  /// A number for each cell of a box.
+  struct Volume {
+    Point origin;
+    double z0 = 0, cell = 1;  ///< µm; numbers stand in the middle of cells
+    int columns = 0, rows = 0, slices = 0;
+    std::vector<float> values;
+    double at(Point p, double z_um) const;
+  };
+  static double value_of(const ValuesAt& curve, double at);
+  Volume empty_volume(const ShellObject& object) const;
+  void find_distance(const ShellObject& object);
+  void find_depth(const ShellObject& object, const std::vector<LayerAreas>& areas);
+
+  void read_files(const ShellObject& object);
+  double transferred(double v) const;
+
+  const InfillSettings infill_;
+  Point on_bed_;
+  std::optional<field::Grid> picture_, grid_;
+  Box picture_box_;  ///< on the bed
+  Volume distance_;  ///< from the surface, µm
+  Volume depth_;     ///< below what is above the infill, µm
+};
+
+}  // namespace weft::infill

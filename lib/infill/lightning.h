@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "core/polygon.h"
+
+#include <span>
+#include <vector>
+
+namespace weft::infill {
+
+/// A layer as branches see it.
+struct LightningLayer {
+  Um height = 0;
+  Regions sparse;  ///< to be filled
+};
+
+/// Branches below what is solid above sparse infill, and nothing elsewhere: from the top downwards each place that
+/// hangs farther than `radius` from wall and branch grows one, to whichever is nearer; further down tips are shortened,
+/// paths straightened and roots kept at the wall, none moved by more than the layer's height allows.
+/// @param origin  what moves with the object: places that are looked at stand on a lattice around it
+/// @param lean  how far a branch may move from layer to layer, of its height
+/// @returns the branches of each layer. They end at walls a little outside of the area, so that they are cut there.
+/// Source: Tricard, Claux, Lefebvre 2020, "Ribbed support vaults for 3D printing of hollowed objects".
+/// Cost: O(layers · branches · edges nearby), the layers one after the other.
+std::vector<std::vector<Polyline>> lightning(std::span<const LightningLayer> layers, double radius, double lean,
+                                             Point origin);
+
+}  // namespace weft::infill

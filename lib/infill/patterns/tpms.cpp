@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Triply periodic minimal surfaces, cut at a height: the curves where a sum of products of sines is zero.
+#include "infill/gyroid.h"
+#include "infill/level_set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace weft::infill {
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+
+/// Sines and cosines of one coordinate.
+struct Wave {
+  double s = 0, c = 0, c2 = 0;
+  explicit Wave(double t) : s(std::sin(t)), c(std::cos(t)), c2(std::cos(2 * t)) {}
+};
+
+struct Diamond {
+  /// cos(x + y) cos(z − π/4) + cos(x − y) cos(z + π/4), by the sums of angles, less the common root of a half
+  static double value(const Wave& x, const Wave& y, const Wave& z) {
+    const double sum = x.c * y.c - x.s * y.s, difference = x.c * y.c + x.s * y.s;
+    return sum * (z.c + z.s) + difference * (z.c - z.s);
+  }
+};
+struct FischerKoch {
+  static double value(const Wave& x, const Wave& y, const Wave& z) {
+    return x.c2 * y.s * z.c + y.c2 * z.s * x.c + z.c2 * x.s * y.c;
+  }
+};
+struct SchwarzP {
+  static double value(const Wave& x, const Wave& y, const Wave& z) { return x.c + y.c + z.c; }
+};
+
+/// @param period of the surface along each axis, in distances of lines
+template <class Surface>
+Drawing cut_at(const PatternPlace& p, double period) {
+  const double length = period * p.spacing(), unit = length / turn;
+  // chords of a curve with a radius of a sixth of the period stand off by 4 µm at most
+  constexpr double off = 4;
+  const double steps = std::clamp(std::ceil(std::sqrt(6 * length / (8 * off))), 16.0, 96.0);
+  const LevelGrid grid(p.area, length / steps);
+  const Wave z(p.z / unit);
+  std::vector<Wave> across;
+  for (std::size_t i = 0; i < grid.columns; ++i) across.emplace_back(grid.x(i) / unit);
+  std::vector<double> values;
+  values.reserve(grid.columns * grid.rows);
+  for (std::size_t j = 0; j < grid.rows; ++j) {
+    stop_if_asked();
+    const Wave y(grid.y(j) / unit);
+    for (std::size_t i = 0; i < grid.columns; ++i) values.push_back(Surface::value(across[i], y, z));
+  }
+  Drawing out{.curves = zero_curves(grid, values), .pitch = length / 2};
+  mend_zero_curves([&](double x, double y) { return Surface::value(Wave(x / unit), Wave(y / unit), z); }, grid.step,
+                   out.curves);
+  return out;
+}
+
+}  // namespace
+
+Drawing draw_gyroid(const PatternPlace& p) {
+  const double period = gyroid_period(p.band, p.density);
+  Drawing out{.pitch = period / 2, .longer = gyroid_length_ratio(period, p.z)};
+  for (std::vector<Turned>& curve : gyroid_curves(p.area, period, p.z)) out.curves.push_back({std::move(curve), false});
+  return out;
+}
+
+// Periods: the length of the curves in a cell, over all heights, integrated numerically.
+Drawing draw_diamond(const PatternPlace& p) {
+  return cut_at<Diamond>(p, 3.045);
+}
+Drawing draw_fischer_koch(const PatternPlace& p) {
+  return cut_at<FischerKoch>(p, 4.276);
+}
+Drawing draw_schwarz_p(const PatternPlace& p) {
+  return cut_at<SchwarzP>(p, 1.886);
+}
+
+}  // namespace weft::infill

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "infill/prepared.h"
+
+#include "core/stop.h"
+#include "geometry/boolean.h"
+#include "infill/lightning.h"
+#include "infill/mask.h"
+#include "infill/sparse.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft::infill {
+namespace {
+
+Regions sparse_of(const LayerAreas& layer) {
+  Regions out;
+  for (const PartAreas& part : layer) {
+    out.insert(out.end(), part.sparse.begin(), part.sparse.end());
+    out.insert(out.end(), part.combined.begin(), part.combined.end());
+  }
+  return out;
+}
+
+/// Distance of lines that have the density, by the layers that are most of the object.
+double spacing_of(const InfillSettings& infill, const ShellObject& object) {
+  const ShellLayer& layer = object.layers[std::min<std::size_t>(1, object.layers.size() - 1)];
+  const SparseStyle style = sparse_style(infill, {.height = layer.height, .nozzle = object.nozzle});
+  return style.band / std::max(style.density, 0.01);
+}
+
+/// The surface as the infill meets it: walls, tops and bottoms; or tops alone.
+CubeTree cubes_of(const InfillSettings& infill, const ShellObject& object, const std::vector<LayerAreas>& areas,
+                  Point origin, double spacing, bool tops_only) {
+  const double high = object.layers.back().z;
+  const double radius = std::hypot(std::hypot(object.box.size().x, object.box.size().y) / 2 +
+                                       std::hypot(infill.infill_offset_x, infill.infill_offset_y),
+                                   high);
+  CubeTree cubes(spacing, radius);
+  const double apart = cubes.least_edge() / 4;
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    stop_if_asked();
+    const Regions here = sparse_of(areas[i]);
+    if (here.empty()) continue;
+    const double z = object.layers[i].z;
+    const auto add = [&](double x, double y) { cubes.add(x - origin.x, y - origin.y, z); };
+    if (!tops_only)
+      for (const Ring& ring : geometry::rings_of(here))
+        for (std::size_t k = 0; k < ring.size(); ++k) {
+          const Point a = ring[k], b = ring[(k + 1) % ring.size()];
+          const int pieces = static_cast<int>(std::ceil(distance(a, b) / apart));
+          for (int t = 0; t < pieces; ++t)
+            add(std::lerp(a.x, b.x, static_cast<double>(t) / pieces),
+                std::lerp(a.y, b.y, static_cast<double>(t) / pieces));
+        }
+    const auto add_bare = [&](std::size_t beside) {
+      const Regions bare = beside < areas.size() ? geometry::subtract(here, sparse_of(areas[beside])) : here;
+      if (bare.empty()) return;
+      const Box box = box_of(bare);
+      const Um cell = std::max(1, rounded(apart));
+      const Grid grid{box.min, cell, box.size().x / cell + 1, box.size().y / cell + 1};
+      const Mask mask(grid, bare);
+      for (int r = 0; r < grid.rows; ++r)
+        for (int c = 0; c < grid.columns; ++c)
+          if (mask.at(c, r)) add(grid.origin.x + (c + 0.5) * cell, grid.origin.y + (r + 0.5) * cell);
+    };
+    add_bare(i + 1);
+    if (!tops_only) add_bare(i == 0 ? areas.size() : i - 1);
+  }
+  cubes.balance();
+  return cubes;
+}
+
+}  // namespace
+
+Prepared prepare(const InfillSettings& infill, const ShellObject& object, const std::vector<LayerAreas>& areas,
+                 Point origin, Point on_bed) {
+  Prepared out;
+  if (object.layers.empty() || infill.infill_sparse_density <= 0) return out;
+  const InfillPattern pattern = infill.infill_pattern;
+  const Point anchored = origin + Point{infill.infill_offset_x, infill.infill_offset_y};
+  if (pattern == InfillPattern::cubicsubdiv || pattern == InfillPattern::support_cubic)
+    out.cubes =
+        cubes_of(infill, object, areas, anchored, spacing_of(infill, object), pattern == InfillPattern::support_cubic);
+  if (pattern == InfillPattern::lightning) {
+    std::vector<LightningLayer> layers;
+    for (std::size_t i = 0; i < areas.size(); ++i) layers.push_back({object.layers[i].height, sparse_of(areas[i])});
+    constexpr double lean = 1;  // 45°
+    out.branches = lightning(layers, spacing_of(infill, object), lean, anchored);
+  }
+  if (Density::varies(infill)) out.density.emplace(infill, object, areas, on_bed);
+  return out;
+}
+
+}  // namespace weft::infill

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "infill/cube_tree.h"
+#include "infill/density.h"
+#include "infill/shells.h"
+
+#include <optional>
+#include <vector>
+
+namespace weft::infill {
+
+/// What sparse infill knows of the whole object: found once, read by all layers.
+struct Prepared {
+  std::optional<CubeTree> cubes;
+  std::vector<std::vector<Polyline>> branches;  ///< of lightning, by layer
+  std::optional<Density> density;
+};
+
+/// @param areas   of all layers
+/// @param origin  where patterns are anchored
+/// @param on_bed  what is added to the object's places to have those on the bed
+/// @throws as Density
+Prepared prepare(const InfillSettings& infill, const ShellObject& object, const std::vector<LayerAreas>& areas,
+                 Point origin, Point on_bed);
+
+}  // namespace weft::infill

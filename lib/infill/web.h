@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "core/polygon.h"
+#include "geometry/spatial_index.h"
+#include "infill/fit_sides.h"
+#include "infill/sparse.h"
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace weft::infill {
+
+/// A place in the layer, fractional microns from where patterns are anchored.
+struct Place {
+  double x = 0, y = 0;
+  friend Place operator+(Place a, Place b) { return {a.x + b.x, a.y + b.y}; }
+  friend Place operator-(Place a, Place b) { return {a.x - b.x, a.y - b.y}; }
+  friend Place operator*(double s, Place a) { return {s * a.x, s * a.y}; }
+};
+inline double norm(Place a) {
+  return std::hypot(a.x, a.y);
+}
+
+inline constexpr double least_narrowing = 0.75;  // of the band, so that a layer has its density; most is 1 / least
+
+/// Lines of a region and where they end, and how they are joined to paths beside the region's edge.
+class Web {
+ public:
+  Web(const Region& region, const SparseStyle& style);
+
+  /// Lines y = phase + k·spacing in a frame turned by that angle. Beside an edge along them they bend aside.
+  void add_lines(const Region& region, double angle_rad, double spacing, double phase);
+
+  /// A curve; what of it is inside.
+  struct Curve {
+    Polyline line;
+    bool closed = false;
+  };
+  void add_curves(const Region& region, const std::vector<Curve>& curves);
+
+  /// Joins the lines and writes them.
+  /// @param most  length of a joint along the edge
+  /// @param wanted  length of lines that the region needs; 0: as much as there is of them without joints
+  void emit(double most, Um band, double wanted, Beads& beads);
+
+ private:
+  /// A piece of the pattern; its ends are `2i` and `2i + 1`.
+  struct Line {
+    std::vector<Place> places;
+    double length = 0;
+  };
+  /// An end of a line, on the region's edge unless `edge` is nobody.
+  struct End {
+    std::uint32_t edge = nobody;
+    double along = 0;  ///< where on the edge, 0 … 1
+    double sine = 1;   ///< of the angle between line and edge
+  };
+  static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+
+  void give_way(const std::vector<Sides>& sides, const Interval& i, double y, double angle_rad,
+                std::vector<Place>& places) const;
+  void add_piece(std::vector<Place> piece, End from, End to);
+  Place place(std::uint32_t i) const { return {outline_.points()[i].x, outline_.points()[i].y}; }
+  Place relative(Point p) const {
+    return {static_cast<double>(p.x) - style_.origin.x, static_cast<double>(p.y) - style_.origin.y};
+  }
+  double length(std::uint32_t line) const { return lines_[line].length; }
+  std::vector<Place> walked_from(std::uint32_t end) const;
+  Place pulled(std::uint32_t end) const;
+  std::uint32_t set_of(std::uint32_t line) {
+    while (set_[line] != line) line = set_[line] = set_[set_[line]];
+    return line;
+  }
+  bool on_edge(std::uint32_t end) const { return ends_[end].edge != nobody; }
+  double free_pull(std::uint32_t end) const;
+  void join(double longest);
+  void join_the_rest(double longest);
+  bool shift_joints(const std::vector<std::uint32_t>& ends, double longest);
+  void anchor(double length);
+  bool try_join(std::uint32_t a, std::uint32_t b, double longest);
+  void part(std::uint32_t a);
+  std::optional<std::vector<Place>> arc_between(std::uint32_t a, std::uint32_t b, double inset, double longest) const;
+  double inside_of(Place p, std::uint32_t first, std::uint32_t last) const;
+  std::vector<std::vector<Place>> joined_paths() const;
+  void write(const std::vector<std::vector<Place>>& paths, Um width, Beads& beads) const;
+
+  const SparseStyle& style_;
+  Outline outline_;
+  std::vector<Place> normals_;
+  std::vector<Line> lines_;
+  std::vector<End> ends_;
+  std::vector<std::vector<Place>> loops_;                   // curves that meet no edge
+  std::vector<std::uint32_t> order_;                        // ends on the edge, around each ring
+  std::vector<std::pair<std::size_t, std::size_t>> rings_;  // of `order_`
+  std::vector<std::uint32_t> joint_, set_;
+  Um band_ = 0;
+  std::vector<double> pull_;              // how far each end is drawn back along its line
+  std::vector<std::vector<Place>> arc_;   // by end, of the one that the joint was made from
+  std::vector<std::vector<Place>> bent_;  // by end: along the edge, of one that is joined to none
+};
+
+}  // namespace weft::infill

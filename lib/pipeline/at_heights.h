@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "core/notice.h"
+#include "model/plan.h"
+#include "model/sequence.h"
+#include "settings/groups/tools.h"
+
+#include <span>
+#include <vector>
+
+/// What the user wants at heights: pauses and filament that is changed by hand.
+namespace weft::pipeline {
+
+/// What happens before layers begin, beside them; each mark once in every rise.
+/// @param notices told of marks above everything that is printed
+std::vector<std::vector<Pause>> pauses_of(const ToolSettings& settings, std::span<const TimelineLayer> layers,
+                                          Notices& notices);
+
+/// Puts steps before a layer's own, after which the nozzle may be elsewhere and filament drawn back: the way to the
+/// first bead and what pushes the filament forward again follow.
+void put_before(LayerPlan& layer, std::vector<Step> steps);
+
+/// Filament is drawn back, the printer waits.
+void pause_before(LayerPlan& layer, const std::vector<Pause>& pauses);
+
+}  // namespace weft::pipeline

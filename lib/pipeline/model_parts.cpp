@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/model_parts.h"
+
+#include "core/error.h"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+namespace weft::pipeline {
+namespace {
+
+bool is_file(const std::string& name) {
+  std::error_code unknown;
+  return std::filesystem::exists(name, unknown);
+}
+
+ModelPart part_of(const std::string& typed) {
+  const auto at = typed.rfind("@T");
+  if (at == std::string::npos || is_file(typed)) return {typed};
+  int tool = 0;
+  const char* const end = typed.data() + typed.size();
+  const auto [last, error] = std::from_chars(typed.data() + at + 2, end, tool);
+  if (error != std::errc{} || last != end || tool < 0 || tool > 31) return {typed};
+  return {typed.substr(0, at), tool};
+}
+
+}  // namespace
+
+std::vector<ModelPart> parts_of(const std::string& typed) {
+  if (is_file(typed) || typed.find('+') == std::string::npos) return {part_of(typed)};
+  std::vector<ModelPart> out;
+  for (std::size_t begin = 0; begin <= typed.size();) {
+    const auto plus = std::min(typed.find('+', begin), typed.size());
+    out.push_back(part_of(typed.substr(begin, plus - begin)));
+    if (out.back().file.empty())
+      throw Error{Error::Kind::usage, fmt::format("'{}': a part has no name", typed), {}, "as in body.stl+logo.stl@T1"};
+    begin = plus + 1;
+  }
+  return out;
+}
+
+}  // namespace weft::pipeline

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "prusaslicer/import_single.h"
+
+#include "core/error.h"
+#include "prusaslicer/text.h"
+#include "settings/value.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+namespace weft::prusaslicer {
+namespace {
+
+using value::number;
+
+/// Layouts of sparse infill whose lines cross each other within a layer.
+constexpr std::array crossing = {"grid", "triangles", "stars", "cubic", "adaptivecubic", "supportcubic"};
+
+/// A filament may bound the speed of sparse infill, and that of lines that cross lower still.
+void bound_infill(Lines& lines, double infill_mm_s, const Outlet& out) {
+  const auto *plain = lines.find("filament_infill_max_speed"),
+             *crossed = lines.find("filament_infill_max_crossing_speed");
+  const auto* pattern = lines.look("fill_pattern");
+  const bool crosses = pattern && std::find(crossing.begin(), crossing.end(), pattern->value) != crossing.end();
+  const auto* bound = crosses ? crossed : plain;
+  if (!bound) return;
+  const double most = lines.figure(*bound).v;
+  if (most > 0 && most < infill_mm_s) out.set("speed_infill", number(most), *bound);
+}
+
+void first_layer_infill(Lines& lines, double solid_mm_s, const Outlet& out) {
+  const auto* e = lines.find("first_layer_infill_speed");
+  if (!e) return;
+  const auto speed = lines.figure(*e);
+  out.set("speed_topbottom_layer_0", speed.v == 0 ? "auto" : number(speed.of(solid_mm_s)), *e);
+}
+
+/// A shield against draughts is a skirt as high as the print.
+void draft_shield(Lines& lines, const Outlet& out) {
+  const auto* e = lines.find("draft_shield");
+  if (!e) return;
+  if (e->value != "disabled" && e->value != "limited" && e->value != "enabled")
+    lines.refuse(*e, "one of disabled, limited, enabled");
+  if (e->value != "enabled") return;
+  constexpr int every_layer = 100'000;
+  out.set("skirt_height", number(every_layer), *e);
+  out.instead_of("skirt_height");
+}
+
+void scarfs(Lines& lines, const Outlet& out) {
+  const auto* whole = lines.find("scarf_seam_entire_loop");
+  const auto* smooth = lines.find("scarf_seam_only_on_smooth");
+  const auto* where = lines.look("scarf_seam_placement");
+  if (!where || where->value == "nowhere") return;
+  if (whole && lines.flag(*whole)) {
+    constexpr int longest_mm = 100;
+    out.set("scarf_joint_seam_length", number(longest_mm), *whole);
+    out.approximate(*whole, "a scarf is as long as half the loop, and no longer than 100 mm");
+  }
+  if (smooth && lines.flag(*smooth)) out.approximate(*smooth, "walls with corners get such seams too");
+}
+
+/// The character that no part of a substitution has, to stand between its parts.
+char slash_for(const std::string& parts) {
+  constexpr std::string_view slashes = "/|#~!@%,:;_+&";
+  for (const char c : slashes)
+    if (parts.find(c) == std::string::npos) return c;
+  return '\x01';
+}
+
+/// What stands for a group of the expression is `\1` or `$1` there.
+std::string groups_by_dollar(std::string text) {
+  for (std::size_t i = 0; i + 1 < text.size(); ++i)
+    if (text[i] == '\\' && text[i + 1] >= '0' && text[i + 1] <= '9')
+      text[i] = '$';
+    else if (text[i] == '\\')
+      ++i;
+    else if (text[i] == '$' && text[i + 1] == '&')
+      text[i + 1] = '0';
+  return text;
+}
+
+/// An element of a list of texts, on one line.
+std::string on_one_line(const std::string& element) {
+  std::string decoded, out;
+  value::parse(element, Unit::none, decoded);
+  for (const char c : decoded) out += c == '\n' ? "\\n" : std::string(1, c);
+  return out;
+}
+
+/// Four texts each: what is looked for, what stands there then, flags, and a note for people.
+void substitutions(Lines& lines, const Outlet& out) {
+  const auto* e = lines.find("gcode_substitutions");
+  if (!e) return;
+  const auto texts = texts_of(e->value);
+  std::string all;
+  for (std::size_t i = 0; i + 2 < texts.size(); i += 4) {
+    std::string flags;
+    for (const char c : texts[i + 2])
+      if (std::string_view("riws").find(c) != std::string_view::npos) flags += c;
+    const bool expression = flags.find('r') != std::string::npos;
+    const auto find = on_one_line(texts[i]), text = on_one_line(texts[i + 1]);
+    const auto replace = expression ? groups_by_dollar(text) : text;
+    const char slash = slash_for(find + replace);
+    all += fmt::format("{}s{}{}{}{}{}{}", all.empty() ? "" : "\n", slash, find, slash, replace, slash, flags);
+  }
+  std::string text;  // as weft's ini has texts of several lines
+  for (const char c : all) text += c == '\n' ? "\\n" : c == '\\' ? "\\\\" : std::string(1, c);
+  out.set("gcode_substitutions", text, *e);
+}
+
+/// A lift on the way instead of before it.
+void ramping_lift(Lines& lines, const Outlet& out) {
+  const auto *ramp = lines.find("travel_ramping_lift"), *lift = lines.find("travel_max_lift"),
+             *slope = lines.find("travel_slope");
+  if (!ramp || !lines.flag(*ramp)) return;
+  const double degrees = slope ? lines.figure(*slope).v : 0;
+  out.set("retraction_hop_type", degrees > 0 ? "slope" : "vertical", *ramp);
+  if (degrees > 0) out.set("travel_slope", number(std::clamp(degrees, 1.0, 89.0)), *slope);
+  if (!lift) return;
+  out.set("retraction_hop", number(lines.figure(*lift).v, 3), *lift);
+  out.instead_of("retract_lift");
+}
+
+/// Without `cooling` the fan does not depend on the time of a layer, and nothing is slowed down.
+void cooling(Lines& lines, const Outlet& out) {
+  const auto* e = lines.find("cooling");
+  if (!e || lines.flag(*e)) return;
+  for (const auto& [theirs, ours] : {std::pair{"slowdown_below_layer_time", "cool_min_layer_time"},
+                                     {"fan_below_layer_time", "cool_min_layer_time_fan_speed_max"}}) {
+    out.set(ours, "0", *e);
+    out.instead_of(theirs);
+  }
+}
+
+struct Remarked {
+  std::string_view key, neutral, why;
+};
+/// What weft does otherwise for a reason, and says so.
+constexpr std::array remarked = {
+    Remarked{"post_process", "",
+             "a profile starts no programs; weft batch --exec runs one on each finished file, weft slice leaves it to "
+             "the shell"},
+    Remarked{"binary_gcode", "0",
+             "the file is plain text, which printers of binary G-code read too; Prusa's bgcode packs it"},
+    Remarked{"extrusion_axis", "E", "E is written: every firmware of gcode_flavor's list reads it"},
+    Remarked{"travel_lift_before_obstacle", "0",
+             "a slope is as steep as travel_slope says; it begins above all that is printed"},
+};
+
+}  // namespace
+
+void automatic_widths(Lines& lines) {
+  if (!lines.flag("automatic_extrusion_widths", false)) return;
+  for (const auto* key :
+       {"extrusion_width", "first_layer_extrusion_width", "perimeter_extrusion_width",
+        "external_perimeter_extrusion_width", "infill_extrusion_width", "solid_infill_extrusion_width",
+        "top_infill_extrusion_width", "support_material_extrusion_width"})
+    lines.replace(key, "0");
+}
+
+void import_single_keys(Lines& lines, double infill_mm_s, double solid_mm_s, const Outlet& out) {
+  if (const auto* e = lines.find("printer_technology"); e && e->value != "FFF")
+    lines.refuse(*e, "FFF: a printer that cures resin takes pictures of layers, no G-code");
+  bound_infill(lines, infill_mm_s, out);
+  first_layer_infill(lines, solid_mm_s, out);
+  draft_shield(lines, out);
+  scarfs(lines, out);
+  ramping_lift(lines, out);
+  cooling(lines, out);
+  substitutions(lines, out);
+  for (const auto& row : remarked)
+    if (const auto* e = lines.find(row.key); e && !says_one_of(row.neutral, e->key, e->value))
+      out.approximate(*e, std::string(row.why));
+}
+
+}  // namespace weft::prusaslicer

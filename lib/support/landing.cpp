@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/landing.h"
+
+#include "core/stop.h"
+#include "geometry/boolean.h"
+#include "support/lengths.h"
+#include "support/room.h"
+#include "tasks/parallel.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <utility>
+
+namespace weft::support {
+namespace {
+
+constexpr std::array kinds{&SupportLayer::columns, &SupportLayer::branches, &SupportLayer::roof, &SupportLayer::bottom};
+
+Regions all_of(const SupportLayer& layer) {
+  Regions out;
+  for (const auto kind : kinds) append(out, layer.*kind);
+  return out.empty() ? out : geometry::unite(out);
+}
+
+/// A part of a layer that stands on the part, and how high it is to be.
+struct Landing {
+  Regions area;  ///< what of it is wide enough to be printed apart
+  Um height = 0;
+  double mm2 = 0;  ///< all of it
+};
+
+std::vector<Landing> landings_of(const SupportSettings& s, const Object& object, const SupportLayer& layer,
+                                 const SupportLayer& below) {
+  const Um gap = bottom_gap(s), line = line_width(s, object.nozzle), bottom = layer.z - layer.height;
+  const auto run = layers_between(object, bottom - gap - below.height, bottom - gap);
+  std::vector<Landing> out;
+  if (run.from == run.to) return out;
+  Regions standing = all_of(layer);
+  if (standing.empty()) return out;
+  standing = geometry::subtract(standing, grown(all_of(below), line));
+  for (std::size_t i = run.to; i-- > run.from && !standing.empty();) {  // the highest is what it stands on
+    const Um free = bottom - object.layers[i]->z - gap;
+    if (free < 0 || object.layers[i]->regions.empty()) continue;
+    const Regions here = geometry::intersect(standing, object.layers[i]->regions);
+    if (here.empty()) continue;
+    standing = geometry::subtract(standing, here);
+    Regions wide = free > 1 && !s.support_synchronize_layers ? geometry::opening(here, line) : Regions{};
+    out.push_back({std::move(wide), layer.height + free, area_mm2(here)});
+  }
+  return out;
+}
+
+/// Takes an area out of a layer, kind by kind.
+SupportLayer taken(SupportLayer& layer, const Regions& area) {
+  SupportLayer out{layer.z, layer.height, {}, {}, {}, {}, layer.first};
+  for (const auto kind : kinds) {
+    if ((layer.*kind).empty()) continue;
+    out.*kind = geometry::intersect(layer.*kind, area);
+    if (!(out.*kind).empty()) layer.*kind = geometry::subtract(layer.*kind, area);
+  }
+  return out;
+}
+
+}  // namespace
+
+double land(const SupportSettings& settings, const Object& object, std::vector<SupportLayer>& layers) {
+  if (settings.support_type == SupportType::buildplate || layers.empty()) return 0;
+  const Um most = object.nozzle * 3 / 4;
+  const auto landings = tasks::parallel_map(layers.size(), [&](std::size_t k) {
+    stop_if_asked();
+    return k == 0 ? std::vector<Landing>{} : landings_of(settings, object, layers[k], layers[k - 1]);
+  });
+  std::vector<SupportLayer> lowest;
+  double on_part_mm2 = 0;
+  for (std::size_t k = 1; k < layers.size(); ++k)
+    for (const auto& landing : landings[k]) {
+      on_part_mm2 += landing.mm2;
+      if (landing.area.empty()) continue;
+      auto own = taken(layers[k], landing.area);
+      own.height = landing.height;
+      if (landing.height > most) {
+        own.height = landing.height - landing.height / 2;
+        auto under = own;
+        under.z -= own.height, under.height = landing.height / 2;
+        lowest.push_back(std::move(under));
+      }
+      lowest.push_back(std::move(own));
+    }
+  if (lowest.empty()) return on_part_mm2;
+  std::move(lowest.begin(), lowest.end(), std::back_inserter(layers));
+  std::stable_sort(layers.begin(), layers.end(),
+                   [](const SupportLayer& a, const SupportLayer& b) { return a.z < b.z; });
+  return on_part_mm2;
+}
+
+}  // namespace weft::support

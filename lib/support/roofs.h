@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "support/room.h"
+
+#include <vector>
+
+namespace weft::support {
+
+/// Interfaces that lie on branches: few thick branches under a roof hold what many thin ones would, and the part lies
+/// on strands side by side. What is too narrow for a roof is held by tips themselves.
+class Roofs {
+ public:
+  Roofs(const SupportSettings& settings, const Object& object, const Stack& stack,
+        const std::vector<Regions>& contacts);
+
+  /// What tips that end on this level hold by themselves.
+  const Regions& bare(std::size_t level) const { return bare_[level]; }
+  /// The underside of what lies right above this level.
+  const Regions& begins_above(std::size_t level) const { return begins_[level]; }
+
+  /// Lays the roofs that begin above that level where they rest: no further than `spans` from these branches.
+  void rest(std::size_t level, const std::vector<Point>& branches, Um spans);
+
+  /// By level, within the room.
+  std::vector<Regions> areas(const std::vector<KeepOut>& keep_out) &&;
+
+ private:
+  const SupportSettings& s_;
+  const Object& o_;
+  const Stack& stack_;
+  const std::vector<Regions>& contacts_;
+  std::vector<Regions> bare_, begins_, laid_;
+  std::vector<std::vector<std::size_t>> held_from_;  ///< of each level: the contacts whose roofs begin above it
+  std::vector<Regions> wide_;                        ///< of each contact, what gets a roof
+};
+
+}  // namespace weft::support

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/tower.h"
+
+#include "geometry/boolean.h"
+#include "geometry/offset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace weft::tools {
+namespace {
+
+/// Lines of a tower are a quarter wider than the nozzle: they hold together without being neat.
+constexpr double lines_by_nozzle = 1.25;
+/// The least side of a tower that stands by itself: a fifth of its height, and not less than this.
+constexpr Um least_side = 10'000;
+constexpr double side_by_height = 0.2;
+
+/// What is filled lies within the wall's middle line.
+Um inner(Um side, Um line) {
+  return side - 2 * line;
+}
+
+/// Lines of a strip, when each is so long.
+Um lines_of(double mm3, Um line, Um height, Um length) {
+  const double each = to_mm(line) * to_mm(height) * to_mm(length);
+  return static_cast<Um>(std::ceil(mm3 / each - 1e-6));
+}
+
+/// Do the layer's strips fit when lines are `along` long and lie side by side over `across`?
+bool fits(const TowerLayer& layer, Um line, Um along, Um across) {
+  Um sum = 0;
+  for (const auto& strip : layer.strips) sum += lines_of(strip.mm3, line, layer.height, along) * line;
+  return sum <= across;
+}
+
+Point turned(Point p, double degrees, Point corner) {
+  const double a = degrees * std::numbers::pi / 180;
+  return {corner.x + rounded(p.x * std::cos(a) - p.y * std::sin(a)),
+          corner.y + rounded(p.x * std::sin(a) + p.y * std::cos(a))};
+}
+
+Ring rectangle(Um from, Um width, Um depth) {
+  return {{from, from}, {width - from, from}, {width - from, depth - from}, {from, depth - from}};
+}
+
+Ring laid(Ring ring, double degrees, Point corner) {
+  for (auto& p : ring) p = turned(p, degrees, corner);
+  return ring;
+}
+
+Bead bead_of(std::vector<Point> points, Um line, bool closed) {
+  Bead bead;
+  for (const Point p : points) bead.path.push_back({p, line, 1.F});
+  bead.role = Role::wipe_tower;
+  bead.closed = closed;
+  return bead;
+}
+
+/// Lines side by side from `at` on, joined at alternating ends.
+/// @param turned_side whether they run along Y
+std::vector<Point> zigzag(Um at, Um pitch, Um count, Um begin, Um end, bool along_y) {
+  std::vector<Point> out;
+  for (Um i = 0; i < count; ++i) {
+    const Um across = at + i * pitch;
+    const Um from = i % 2 == 0 ? begin : end, to = i % 2 == 0 ? end : begin;
+    out.push_back(along_y ? Point{across, from} : Point{from, across});
+    out.push_back(along_y ? Point{across, to} : Point{to, across});
+  }
+  return out;
+}
+
+}  // namespace
+
+TowerSize tower_size(const ToolSettings& settings, std::span<const TowerLayer> layers, Um nozzle) {
+  TowerSize out;
+  out.line = rounded(lines_by_nozzle * nozzle);
+  double most_mm2 = 0;
+  Um top = 0;
+  for (const auto& layer : layers) {
+    double mm3 = 0;
+    for (const auto& strip : layer.strips) mm3 += strip.mm3;
+    most_mm2 = std::max(most_mm2, mm3 / to_mm(std::max(layer.height, Um{1})));
+    top = std::max(top, layer.z);
+  }
+  const Um least = std::max(least_side, rounded(side_by_height * top));
+  const Um square = rounded(1000 * std::sqrt(most_mm2)) + 2 * out.line;
+  out.width = settings.prime_tower_width.value_or(std::max(least, square));
+  out.depth = settings.prime_tower_width ? least : out.width;
+  const auto all_fit = [&] {
+    const Um w = inner(out.width, out.line), d = inner(out.depth, out.line);
+    return std::all_of(layers.begin(), layers.end(), [&](const TowerLayer& layer) {
+      return fits(layer, out.line, w, d) && fits(layer, out.line, d, w);
+    });
+  };
+  while (!all_fit()) {
+    out.depth += out.line;
+    if (!settings.prime_tower_width) out.width += out.line;
+  }
+  return out;
+}
+
+std::vector<TowerBeads> tower_beads(const ToolSettings& settings, const TowerSize& size, const TowerLayer& layer,
+                                    std::size_t index, Point corner) {
+  const Um line = size.line;
+  const bool along_y = index % 2 != 0;
+  const Um along = along_y ? size.depth : size.width, across = along_y ? size.width : size.depth;
+  const Um begin = line + line / 2, end = along - line - line / 2;  // the ends of lines are round
+  std::vector<TowerBeads> out;
+  const auto add = [&](std::size_t pass, Bead bead) {
+    auto at = std::find_if(out.begin(), out.end(), [&](const TowerBeads& b) { return b.pass == pass; });
+    if (at == out.end()) at = out.insert(out.end(), TowerBeads{pass, {}});
+    for (auto& junction : bead.path) junction.at = turned(junction.at, settings.prime_tower_angle, corner);
+    at->beads.push_back(std::move(bead));
+  };
+  Um at = line + line / 2;
+  for (const auto& strip : layer.strips) {
+    if (strip.mm3 <= 0) continue;
+    const Um count = lines_of(strip.mm3, line, layer.height, inner(along, line));
+    add(strip.pass, bead_of(zigzag(at, line, count, begin, end, along_y), line, false));
+    at += count * line;
+  }
+  const Um pitch = index == 0 ? line : std::max(line, settings.prime_tower_max_bridging_distance);
+  const Um room = across - line - line / 2 - at;
+  if (room >= 0) {
+    const Um first = index == 0 ? at : at + std::min(room, pitch / 2);
+    const Um count = (across - line - line / 2 - first) / pitch + 1;
+    add(layer.first_pass, bead_of(zigzag(first, pitch, count, begin, end, along_y), line, false));
+  }
+  Bead wall = bead_of(rectangle(line / 2, size.width, size.depth), line, true);
+  // The seam goes round, so that it is no edge that the tower breaks along.
+  std::rotate(wall.path.begin(), wall.path.begin() + static_cast<std::ptrdiff_t>(index % 4), wall.path.end());
+  add(layer.first_pass, std::move(wall));
+  if (index == 0)
+    for (Um out_by = line; out_by <= settings.prime_tower_brim_width; out_by += line)
+      add(layer.first_pass, bead_of(rectangle(line / 2 - out_by, size.width, size.depth), line, true));
+  return out;
+}
+
+Ring tower_outline(const ToolSettings& settings, const TowerSize& size, Point corner) {
+  const Um brim = settings.prime_tower_brim_width / size.line * size.line;
+  return laid(rectangle(-brim, size.width, size.depth), settings.prime_tower_angle, corner);
+}
+
+std::optional<Point> place_for_tower(const ToolSettings& settings, const TowerSize& size, const Ring& surface,
+                                     std::span<const Ring> forbidden, std::span<const Box> standing, Um gap) {
+  const Ring own = tower_outline(settings, size, {0, 0});
+  const Box own_box = box_of(own), bed = box_of(surface);
+  Point middle = bed.centre();
+  Box all;
+  for (const Box& box : standing) all.add(box);
+  if (!all.empty()) middle = all.centre();
+  const Regions on{{surface, {}}};
+  Regions off;
+  for (const Ring& ring : forbidden) off.push_back({ring, {}});
+  constexpr Um step = 1000;
+  std::optional<Point> best;
+  double nearest = 0;
+  for (Um y = bed.min.y - own_box.min.y; y + own_box.max.y <= bed.max.y; y += step)
+    for (Um x = bed.min.x - own_box.min.x; x + own_box.max.x <= bed.max.x; x += step) {
+      const Box here{{x + own_box.min.x, y + own_box.min.y}, {x + own_box.max.x, y + own_box.max.y}};
+      const double away = distance(here.centre(), middle);
+      if (best && away >= nearest) continue;
+      const Box kept = here.grown(gap);
+      if (std::any_of(standing.begin(), standing.end(), [&](const Box& box) { return box.overlaps(kept); })) continue;
+      Ring moved = own;
+      for (auto& p : moved) p = p + Point{x, y};
+      const Regions area{{moved, {}}};
+      if (!geometry::subtract(area, on).empty() || (!off.empty() && !geometry::intersect(area, off).empty())) continue;
+      best = Point{x, y}, nearest = away;
+    }
+  return best;
+}
+
+Outside outside_of(const Ring& outline, const Ring& surface) {
+  Outside out;
+  const Regions beyond = geometry::subtract(Regions{{outline, {}}}, Regions{{surface, {}}});
+  for (const auto& region : beyond)
+    for (const Point p : region.outer) {
+      double least = 1e18;
+      for (std::size_t i = 0; i < surface.size(); ++i) {
+        const Point a = surface[i], b = surface[(i + 1) % surface.size()];
+        const double dx = b.x - a.x, dy = b.y - a.y, sq = dx * dx + dy * dy;
+        const double t = sq > 0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / sq, 0.0, 1.0) : 0.0;
+        least = std::min(least, std::hypot(p.x - a.x - t * dx, p.y - a.y - t * dy));
+      }
+      if (rounded(least) > out.by) out = {rounded(least), p};
+    }
+  return out;
+}
+
+}  // namespace weft::tools

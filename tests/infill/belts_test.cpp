@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "infill/belts.h"
+
+#include "areas.h"
+#include "geometry/offset.h"
+#include "geometry/spatial_index.h"
+#include "infill/infill.h"
+#include "infill/shells.h"
+#include "model/flow.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+using namespace weft;
+using namespace weft::test;
+using infill::LayerAreas;
+using infill::PartAreas;
+
+namespace {
+
+constexpr Um wall = 1350;
+
+Region circle(Point centre, double radius, int corners = 180) {
+  Region region;
+  for (int i = 0; i < corners; ++i) {
+    const double a = 2 * std::numbers::pi * i / corners;
+    region.outer.push_back({centre.x + rounded(radius * std::cos(a)), centre.y + rounded(radius * std::sin(a))});
+  }
+  return region;
+}
+
+/// A hill whose outline recedes by `step` a layer, cut in layers of 0.2 mm.
+struct Hill {
+  std::vector<Regions> outlines, insides;
+  std::vector<infill::ShellLayer> layers;
+  std::vector<LayerAreas> areas;
+  ShellSettings shells;
+
+  Hill(const Region& base, Um step, int count) {
+    for (int i = 0; i < count; ++i) {
+      outlines.push_back(geometry::offset({base}, {.by = -i * step}));
+      insides.push_back(geometry::offset(outlines.back(), {.by = -wall}));
+    }
+    for (std::size_t i = 0; i < outlines.size(); ++i)
+      layers.push_back({static_cast<Um>(200 * (i + 1)), 200, &outlines[i], &insides[i]});
+    shells.skin_line_width = 450;
+    areas = infill::find_areas(shells, {}, {layers, infill::box_of(layers), 400}, 0, layers.size());
+  }
+  Beads solid_of(std::size_t layer) const {
+    Beads beads = infill::fill({}, shells, {.areas = areas[layer], .index = layer, .height = 200, .nozzle = 400}).beads;
+    std::erase_if(beads, [](const Bead& bead) { return bead.role == Role::infill; });
+    return beads;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("belts: under a slope lines run along the wall, side by side, all as wide as any line", "[infill]") {
+  const Um step = GENERATE(150, 250, 300);  // four solid layers: belts of 0.6 to 1.2 mm
+  const Hill hill(circle({}, 20000), step, 24);
+  const Um band = flow::band(450, 200);
+  const std::size_t lines = static_cast<std::size_t>(std::lround(4.0 * step / band));
+  for (std::size_t i = 6; i < 18; ++i) {
+    CAPTURE(step, i);
+    const Beads beads = hill.solid_of(i);
+    REQUIRE(beads.size() == lines);
+    const geometry::SegmentIndex edge(hill.insides[i]);
+    std::vector<double> depths;
+    for (const Bead& bead : beads) {
+      CHECK(bead.closed);
+      for (const Junction& j : bead.path) CHECK(j.width == band);
+      depths.push_back(edge.nearest(bead.path.front().at)->distance_um);
+      for (const Junction& j : bead.path) CHECK(edge.nearest(j.at)->distance_um == Approx(depths.back()).margin(40));
+    }
+    std::sort(depths.begin(), depths.end());
+    for (std::size_t k = 0; k < depths.size(); ++k)
+      CHECK(depths[k] == Approx((static_cast<double>(k) + 0.5) * band).margin(40));
+  }
+}
+
+TEST_CASE("belts: one below half a line is left to the walls of the next layer", "[infill]") {
+  const Hill hill(circle({}, 20000), 40, 24);  // four solid layers: 0.16 mm
+  for (std::size_t i = 6; i < 18; ++i) CHECK(hill.solid_of(i).empty());
+}
+
+TEST_CASE("belts: the lines of a symmetric part's halves are mirror images", "[infill][law]") {
+  Region base;  // a lens, whose slopes give belts of changing width
+  for (int i = -60; i <= 60; ++i)
+    base.outer.push_back({i * 400, -rounded(9000 * std::cos(i * std::numbers::pi / 140))});
+  for (int i = 60; i >= -60; --i) base.outer.push_back({i * 400, rounded(9000 * std::cos(i * std::numbers::pi / 140))});
+  const Hill hill(base, 230, 20);
+  for (std::size_t i = 5; i < 14; ++i) {
+    Regions belts;
+    for (const PartAreas& part : hill.areas[i]) belts.insert(belts.end(), part.belted.begin(), part.belted.end());
+    REQUIRE_FALSE(belts.empty());
+    std::size_t places = 0, unlike = 0;
+    for (Um x = 50; x < 24000; x += 170)
+      for (Um y = 70; y < 9000; y += 90) {
+        const bool here = holds(belts, {x, y});
+        places += here;
+        unlike += here != holds(belts, {-x, y}), unlike += here != holds(belts, {x, -y});
+      }
+    CAPTURE(i, places);
+    CHECK(static_cast<double>(unlike) <
+          0.04 * 2 * static_cast<double>(places));  // a line ends a cell of the grid later
+  }
+}
+
+TEST_CASE("belts: what lies in a line of a belt is not sparse as well", "[infill][law]") {
+  const Hill hill(circle({5000, -3000}, 15000), 200, 20);
+  for (std::size_t i = 5; i < 14; ++i)
+    for (const PartAreas& part : hill.areas[i])
+      for (const infill::BeltLine& line : part.belts)
+        for (const Point p : line.path) {
+          CHECK(holds(part.belted, p));
+          CHECK_FALSE(holds(part.sparse, p));
+        }
+}

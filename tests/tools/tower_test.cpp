@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/tower.h"
+
+#include "tools/purge.h"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+using namespace weft;
+using namespace weft::literals;
+using tools::TowerLayer;
+
+namespace {
+
+constexpr Rgb black{0, 0, 0}, white{255, 255, 255}, red{255, 0, 0};
+
+double purge(Rgb from, Rgb to) {
+  return tools::purge_volume_mm3(from, to, 2, 55.6);
+}
+
+std::vector<TowerLayer> two_changes(int layers) {
+  std::vector<TowerLayer> out;
+  for (int i = 0; i < layers; ++i) {
+    const auto pass = static_cast<std::size_t>(3 * i);
+    out.push_back({200 * (i + 1), 200, {{pass + 1, 140}, {pass + 2, 60}}, pass});
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("tools: white after black takes several times what black after white does", "[tools]") {
+  CHECK(purge(black, white) == Approx(462).margin(25));
+  CHECK(purge(white, black) == Approx(97).margin(25));
+  CHECK(purge(red, white) == Approx(449).margin(40));
+  CHECK(purge(white, red) == Approx(93).margin(25));
+  CHECK(purge(red, red) == 0);
+}
+
+TEST_CASE("tools: in a nozzle of its own a tool purges its least volume, whatever the colours", "[tools]") {
+  Settings own;
+  own.tools.filament_colour = black;
+  Settings other = own;
+  other.tools.filament_colour = white;
+  other.tools.prime_tower_min_volume = 20;
+  CHECK(tools::purge_volumes({own, other})[0][1] == 20);
+  own.tools.tool_nozzles = other.tools.tool_nozzles = 0;
+  CHECK(tools::purge_volumes({own, other})[0][1] == Approx(462).margin(25));
+  own.tools.purge_volumes = Numbers{0, 100, 200, 0};
+  CHECK(tools::purge_volumes({own, other})[0][1] == 100);
+  CHECK(tools::purge_volumes({own, other})[1][0] == 200);
+  own.tools.filament_colour.reset();
+  own.tools.purge_volumes.reset();
+  CHECK(tools::purge_volumes({own, other})[0][1] == 140);
+}
+
+TEST_CASE("tools: every strip of a tower is at least what is to be purged, and lies within its walls", "[tools]") {
+  const ToolSettings settings;
+  const auto layers = two_changes(20);
+  const auto size = tools::tower_size(settings, layers, 400);
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    const auto beads = tools::tower_beads(settings, size, layers[i], i, {50_mm, 60_mm});
+    for (const auto& strip : layers[i].strips) {
+      double mm3 = 0;
+      for (const auto& [pass, own] : beads)
+        if (pass == strip.pass)
+          for (const auto& bead : own) mm3 += volume_mm3(bead, layers[i].height);
+      CHECK(mm3 >= strip.mm3);
+      CHECK(mm3 < strip.mm3 + 12);  // no more than to the end of the line
+    }
+    for (const auto& [pass, own] : beads)
+      for (const auto& bead : own) {
+        CHECK(bead.role == Role::wipe_tower);
+        const Um brim = i == 0 ? settings.prime_tower_brim_width : 0;
+        const Box room{{50_mm - brim, 60_mm - brim}, {50_mm + size.width + brim, 60_mm + size.depth + brim}};
+        for (const auto& junction : bead.path) CHECK(room.contains(junction.at));
+      }
+  }
+}
+
+TEST_CASE("tools: lines of a tower run across in the next layer", "[tools]") {
+  const auto layers = two_changes(2);
+  const auto size = tools::tower_size({}, layers, 400);
+  const auto along_y = [&](std::size_t i) {
+    const auto beads = tools::tower_beads({}, size, layers[i], i, {});
+    const auto& path = beads.front().beads.front().path;
+    return path[0].at.x == path[1].at.x;
+  };
+  CHECK_FALSE(along_y(0));
+  CHECK(along_y(1));
+}
+
+TEST_CASE("tools: a tower stands where there is room, as near to what is printed as it may", "[tools]") {
+  const ToolSettings settings;
+  const auto layers = two_changes(10);
+  const auto size = tools::tower_size(settings, layers, 400);
+  const Ring bed{{0, 0}, {140_mm, 0}, {140_mm, 140_mm}, {0, 140_mm}};
+  const std::vector<Box> standing{{{40_mm, 40_mm}, {60_mm, 60_mm}}};
+  const auto place = tools::place_for_tower(settings, size, bed, {}, standing, 3_mm);
+  REQUIRE(place);
+  const auto outline = tools::tower_outline(settings, size, *place);
+  CHECK(tools::outside_of(outline, bed).by == 0);
+  CHECK_FALSE(box_of(outline).grown(2_mm).overlaps(standing.front()));
+  const std::vector<Box> full{{{5_mm, 5_mm}, {135_mm, 135_mm}}};
+  CHECK_FALSE(tools::place_for_tower(settings, size, bed, {}, full, 3_mm));
+}
+
+TEST_CASE("tools: how far a tower leaves the bed is told to the micron", "[tools]") {
+  const Ring bed{{0, 0}, {100_mm, 0}, {100_mm, 100_mm}, {0, 100_mm}};
+  const Ring inside{{10_mm, 10_mm}, {20_mm, 10_mm}, {20_mm, 20_mm}, {10_mm, 20_mm}};
+  CHECK(tools::outside_of(inside, bed).by == 0);
+  const Ring beyond{{90_mm, 10_mm}, {107_mm, 10_mm}, {107_mm, 20_mm}, {90_mm, 20_mm}};
+  CHECK(tools::outside_of(beyond, bed).by == 7_mm);
+}
