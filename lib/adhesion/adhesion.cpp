@@ -22,7 +22,7 @@ constexpr Um shortest_piece = 1_mm;  // what is left of a cut loop and shorter d
 constexpr int most_loops = 10000;    // of a skirt that grows to its minimal length
 
 Um band_of(const AdhesionSettings& settings, Um nozzle, Um height) {
-  return flow::band(settings.skirt_brim_line_width.value_or(flow::automatic_width(nozzle, height)), height);
+  return flow::band(length_or(settings.skirt_brim_line_width, nozzle, flow::automatic_width(nozzle, height)), height);
 }
 
 Bead bead_of(const BrimLoop& loop, Um width, Role role, std::uint32_t sequence) {

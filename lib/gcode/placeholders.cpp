@@ -32,6 +32,15 @@ Variable variable(const CatalogueEntry& entry, const std::string& text) {
   return out;
 }
 
+/// Line widths in mm: what a share is of is not known in G-code.
+std::string in_mm(const CatalogueEntry& entry, const std::string& text, Um nozzle) {
+  if (!entry.key.ends_with("line_width") && !entry.key.starts_with("wall_line_width_")) return text;
+  if (!text.ends_with('%')) return text;
+  LengthOrShare width;
+  value::parse(text, Unit::mm, width);
+  return value::print(width.of(nozzle), Unit::mm);
+}
+
 /// The same value in PrusaSlicer's words.
 Variable in_their_words(const prusaslicer::Key& row, const Variable& ours, const std::string& text) {
   using prusaslicer::Form;
@@ -73,7 +82,7 @@ Variable in_their_words(const prusaslicer::Key& row, const Variable& ours, const
 Variables variables_of(const Settings& settings) {
   Variables out;
   for (const auto& entry : catalogue()) {
-    const std::string text = entry.print(settings);
+    const std::string text = in_mm(entry, entry.print(settings), settings.machine.nozzle_diameter);
     auto ours = variable(entry, text);
     for (const auto& row : prusaslicer::keys())
       if (row.ours == entry.key) out.emplace(std::string(row.name), in_their_words(row, ours, text));

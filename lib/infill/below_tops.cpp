@@ -38,7 +38,7 @@ Regions hanging(const Regions& shell, const Regions& below, double carries_um) {
 void keep_below_tops(const InfillSettings& infill, const ShellObject& object, std::vector<LayerAreas>& areas) {
   if (!infill.infill_support_enabled || infill.infill_sparse_density <= 0 || areas.empty()) return;
   const double lean = std::tan(infill.infill_support_angle * std::numbers::pi / 180);
-  const Um line = infill.infill_line_width.value_or(object.nozzle);
+  const Um line = length_or(infill.infill_line_width, object.nozzle, object.nozzle);
   Regions shell, wanted;  // of the layer above: all but its sparse inside, and what of that must be filled
   for (std::size_t i = areas.size(); i-- > 0;) {
     stop_if_asked();

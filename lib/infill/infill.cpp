@@ -186,7 +186,7 @@ Styles styles_of(const InfillSettings& infill, const ShellSettings& shells, cons
   const auto band = [&](Um width) { return flow::spacing(width, input.height, input.overlap_factor); };
   Styles out;
   out.solid = {.role = Role::solid_infill,
-               .band = band(shells.skin_line_width.value_or(automatic)),
+               .band = band(length_or(shells.skin_line_width, input.nozzle, automatic)),
                .angle_rad = 0,
                .overlap_um = overlap,
                .connect = infill.infill_connect_lines,
@@ -197,7 +197,7 @@ Styles styles_of(const InfillSettings& infill, const ShellSettings& shells, cons
                .part = 0,
                .sequence = 0};
   out.top = out.bridge = out.solid;
-  out.top.role = Role::top_skin, out.top.band = band(shells.top_skin_line_width.value_or(input.nozzle));
+  out.top.role = Role::top_skin, out.top.band = band(length_or(shells.top_skin_line_width, input.nozzle, input.nozzle));
   apply(shells.bottom_pattern, out.solid);
   apply(shells.top_pattern, out.top);
   out.bridge.role = Role::bridge, out.bridge.band = input.nozzle, out.bridge.fixed_strand = out.bridge.gaps = true;

@@ -269,10 +269,11 @@ Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, cons
   }
   const Um height = object.layers[index].height;
   if (kinds.sparse)
-    lay_belts(*object.layers[index].inside, line,
-              flow::spacing(settings.skin_line_width.value_or(flow::automatic_width(object.nozzle, height)), height,
-                            object.overlap_factor),
-              kinds);
+    lay_belts(
+        *object.layers[index].inside, line,
+        flow::spacing(length_or(settings.skin_line_width, object.nozzle, flow::automatic_width(object.nozzle, height)),
+                      height, object.overlap_factor),
+        kinds);
   if (kinds.sparse && !kinds.sparse->any()) kinds.sparse.reset();
   return kinds;
 }

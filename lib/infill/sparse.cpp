@@ -149,7 +149,7 @@ void fill_one(const Region& region, const SparseStyle& style, Beads& beads) {
 }  // namespace
 
 Um width_of_sparse(const InfillSettings& infill, Um nozzle, Um height) {
-  return infill.infill_line_width.value_or(flow::automatic_width(nozzle, height, false));
+  return length_or(infill.infill_line_width, nozzle, flow::automatic_width(nozzle, height, false));
 }
 
 SparseStyle sparse_style(const InfillSettings& infill, const SparseLayer& layer) {

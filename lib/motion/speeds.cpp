@@ -24,8 +24,8 @@ double area_mm2(const Junction& j, double height_mm) {
 double nominal_area_mm2(const Rules& rules, Role role, Um height) {
   const Um nozzle = rules.machine.nozzle_diameter;
   const Um width = role == Role::outer_wall
-                       ? rules.walls.wall_line_width_0.value_or(flow::automatic_outer_width(nozzle))
-                       : rules.walls.wall_line_width_x.value_or(flow::automatic_width(nozzle, height));
+                       ? length_or(rules.walls.wall_line_width_0, nozzle, flow::automatic_outer_width(nozzle))
+                       : length_or(rules.walls.wall_line_width_x, nozzle, flow::automatic_width(nozzle, height));
   return flow::area_mm2(to_mm(width), to_mm(height));
 }
 

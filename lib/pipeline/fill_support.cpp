@@ -41,7 +41,9 @@ class Filler {
       : s_(settings.support),
         layer_(layer),
         origin_(origin),
-        band_(flow::band(s_.support_line_width.value_or(settings.machine.nozzle_diameter), layer.height)) {}
+        band_(flow::band(
+            length_or(s_.support_line_width, settings.machine.nozzle_diameter, settings.machine.nozzle_diameter),
+            layer.height)) {}
 
   Beads beads() && {
     columns();

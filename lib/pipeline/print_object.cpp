@@ -147,8 +147,8 @@ Regions inside_of(const WallHands& handed, const Areas& areas, const SlicedLayer
   const int lines = walls.wall_line_count + (walls.alternate_extra_wall && index % 2 == 1 ? 1 : 0);
   if (lines == 0) return layer.regions;
   const auto band = [&](Um width) { return flow::spacing(width, layer.height, walls.overlap_factor); };
-  const Um outer = band(walls.wall_line_width_0.value_or(flow::automatic_outer_width(nozzle)));
-  const Um inner = band(walls.wall_line_width_x.value_or(flow::automatic_width(nozzle, layer.height)));
+  const Um outer = band(length_or(walls.wall_line_width_0, nozzle, flow::automatic_outer_width(nozzle)));
+  const Um inner = band(length_or(walls.wall_line_width_x, nozzle, flow::automatic_width(nozzle, layer.height)));
   return geometry::offset(layer.regions, {.by = -outer - (lines - 1) * inner});
 }
 
@@ -351,7 +351,7 @@ Fills fill_object(const FillHands& handed, const WallHands& walled, const Scopes
     const auto& layer = cuts[i].layer;
     const auto fill = [&](ScopeId scope, const infill::LayerAreas& own) {
       const auto& [shells, infill, nozzle, wall_line_width, overlap_factor] = handed[tools.infill_of(scope, scopes)];
-      const auto& [own_walls, same_nozzle] = walled[scope];
+      const auto& [own_walls, own_nozzle] = walled[scope];
       return infill::fill(infill, shells,
                           {.areas = own,
                            .index = i,
@@ -359,8 +359,8 @@ Fills fill_object(const FillHands& handed, const WallHands& walled, const Scopes
                            .height = layer.height,
                            .nozzle = nozzle,
                            .overlap_factor = overlap_factor,
-                           .wall_line_width = wall_line_width.value_or(0),
-                           .outer_wall_line_width = own_walls.wall_line_width_0.value_or(0),
+                           .wall_line_width = length_or(wall_line_width, nozzle, 0),
+                           .outer_wall_line_width = length_or(own_walls.wall_line_width_0, own_nozzle, 0),
                            .wall_count = own_walls.wall_line_count,
                            .origin = origin,
                            .reach = box.empty() ? 0 : std::max(box.size().x, box.size().y) / 2,

@@ -41,9 +41,10 @@ Regions surface_for(const Settings& settings, const Object& object, Um half_bead
 Regions barred_for(const Settings& settings, const std::vector<Object>& objects, std::size_t of, Um half_bead) {
   Regions out;
   const auto& own = objects[of].copies;
-  const Um apart = settings.support.support_xy_distance.of(
-                       settings.walls.wall_line_width_0.value_or(settings.machine.nozzle_diameter)) +
-                   half_bead;
+  const Um apart =
+      settings.support.support_xy_distance.of(length_or(
+          settings.walls.wall_line_width_0, settings.machine.nozzle_diameter, settings.machine.nozzle_diameter)) +
+      half_bead;
   for (const Point by : own) {
     for (const Ring& ring : settings.machine.bed_exclude_areas)
       for (auto& region : geometry::offset(moved_ring(ring, -by), {.by = half_bead})) out.push_back(std::move(region));
@@ -121,7 +122,7 @@ Outlines outlines_of(const Settings& settings, const std::vector<slice::Cut>& cu
   const Um nozzle = settings.machine.nozzle_diameter;
   out.object = {.layers = out.layers,
                 .nozzle = nozzle,
-                .outer_line = settings.walls.wall_line_width_0.value_or(flow::automatic_outer_width(nozzle))};
+                .outer_line = length_or(settings.walls.wall_line_width_0, nozzle, flow::automatic_outer_width(nozzle))};
   return out;
 }
 
@@ -170,7 +171,8 @@ std::vector<SupportOf> rooms_of(const Scopes& scopes, const Plate& plate) {
   bool any = false;
   for (std::size_t i = 0; i < scopes.size(); ++i) any = any || supports(scopes[static_cast<ScopeId>(i)]);
   if (!any) return out;
-  const Um width = settings.support.support_line_width.value_or(settings.machine.nozzle_diameter);
+  const Um width = length_or(settings.support.support_line_width, settings.machine.nozzle_diameter,
+                             settings.machine.nozzle_diameter);
   const Um half_bead = (width + 1) / 2 + 10;  // and what the audit takes for rounding
   for (std::size_t i = 0; i < objects.size(); ++i) {
     out[i].on_raft = settings.adhesion.adhesion_type == AdhesionType::raft;

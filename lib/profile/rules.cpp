@@ -68,18 +68,19 @@ class Doubts {
         doubt("profile_high_layers", key,
               fmt::format("{} mm is more than 80 % of nozzle_diameter, {} mm: layers hardly bond", to_mm(height),
                           to_mm(nozzle)));
-    const auto width = [&](const char* key, std::optional<Um> w, Um height) {
-      if (!w) return;
-      if (*w <= height)
+    const auto width = [&](const char* key, const std::optional<LengthOrShare>& set, Um height) {
+      if (!set) return;
+      const Um w = set->of(nozzle);
+      if (w <= height)
         doubt("profile_width", key,
-              fmt::format("{} mm is not more than the height, {} mm: a bead is wider than high", to_mm(*w),
+              fmt::format("{} mm is not more than the height, {} mm: a bead is wider than high", to_mm(w),
                           to_mm(height)));
-      else if (*w > 3 * nozzle)
+      else if (w > 3 * nozzle)
         doubt("profile_width", key,
-              fmt::format("{} mm is more than three nozzle diameters ({} mm)", to_mm(*w), to_mm(nozzle)));
-      else if (*w * 10 < nozzle * 6)
+              fmt::format("{} mm is more than three nozzle diameters ({} mm)", to_mm(w), to_mm(nozzle)));
+      else if (w * 10 < nozzle * 6)
         doubt("profile_width", key,
-              fmt::format("{} mm is less than 60 % of nozzle_diameter, {} mm", to_mm(*w), to_mm(nozzle)));
+              fmt::format("{} mm is less than 60 % of nozzle_diameter, {} mm", to_mm(w), to_mm(nozzle)));
     };
     const Um height = s_.layers.layer_height;
     width("wall_line_width_0", s_.walls.wall_line_width_0, height);

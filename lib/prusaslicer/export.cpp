@@ -84,6 +84,14 @@ class Exporter {
     if (!ours.empty()) said_.insert(std::string(ours));
   }
   std::string print(std::string_view key) const { return find_setting(key)->print(s_); }
+  /// A line width, mm; nothing where it is automatic. Their shares are of the layer height, so none is handed over.
+  std::optional<double> width_of(std::string_view key) const {
+    const auto text = print(key);
+    if (text == "auto") return {};
+    LengthOrShare width;
+    value::parse(text, Unit::mm, width);
+    return to_mm(width.of(s_.machine.nozzle_diameter));
+  }
   static double number_of(std::string text) {
     if (!text.empty() && text.back() == '%') text.pop_back();
     double v = 0;
@@ -152,8 +160,7 @@ class Exporter {
     const double d = to_mm(s_.machine.nozzle_diameter), h = to_mm(s_.layers.layer_height);
     const double strand = std::numbers::pi / 4 * (d * d - h * h) / h + h;  // model/flow.h
     const auto width = [&](std::string_view theirs, std::string_view ours, double automatic) {
-      const auto text = print(ours);
-      say(theirs, text == "auto" ? number(automatic, 3) : text, ours);
+      say(theirs, number(width_of(ours).value_or(automatic), 3), ours);
     };
     width("external_perimeter_extrusion_width", "wall_line_width_0", 1.05 * d);
     width("perimeter_extrusion_width", "wall_line_width_x", std::clamp(strand, d, 1.7 * d));
@@ -161,15 +168,15 @@ class Exporter {
     width("solid_infill_extrusion_width", "skin_line_width", std::clamp(strand, d, 1.7 * d));
     width("top_infill_extrusion_width", "top_skin_line_width", d);
     say("extrusion_width", "0");
-    const auto first = print("initial_layer_line_width");
-    say("first_layer_extrusion_width", first == "auto" ? "0" : first, "initial_layer_line_width");
+    const auto first = width_of("initial_layer_line_width");
+    say("first_layer_extrusion_width", number(first.value_or(0), 3), "initial_layer_line_width");
     say("first_layer_height", number(to_mm(s_.layers.initial_layer_height.value_or(s_.layers.layer_height))),
         "initial_layer_height");
     said_.insert("skirt_brim_line_width");
     // There the least skirt is measured in filament.
     const double height = to_mm(s_.layers.initial_layer_height.value_or(s_.layers.layer_height));
-    double skirt = 0, filament = to_mm(s_.material.filament_diameter);
-    value::parse(first == "auto" ? lines_["perimeter_extrusion_width"] : first, Unit::none, skirt);
+    double skirt = first.value_or(0), filament = to_mm(s_.material.filament_diameter);
+    if (!first) value::parse(lines_["perimeter_extrusion_width"], Unit::none, skirt);
     const double area = height * (skirt - height * (1 - std::numbers::pi / 4));
     say("min_skirt_length",
         number(to_mm(s_.adhesion.skirt_brim_minimal_length) * area / (std::numbers::pi / 4 * filament * filament)),
@@ -253,7 +260,7 @@ class Exporter {
     say("dont_support_bridges", p.support_bridges ? "0" : "1", "support_bridges");
     say("support_material_closing_radius", number(to_mm(p.support_join_distance) / 2), "support_join_distance");
     const double height = to_mm(s_.layers.layer_height);
-    const double width = to_mm(p.support_line_width.value_or(s_.machine.nozzle_diameter));
+    const double width = to_mm(length_or(p.support_line_width, s_.machine.nozzle_diameter, s_.machine.nozzle_diameter));
     const double band = width - height * (1 - std::numbers::pi / 4);
     const auto gap = [&](double share) { return number(share <= 0 ? 0 : std::max(0.0, band * (100 / share - 1)), 3); };
     say("support_material_extrusion_width", number(width), "support_line_width");

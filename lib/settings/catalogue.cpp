@@ -107,13 +107,16 @@ constexpr Unit bare(Unit unit) {
   return unit == Unit::percent ? Unit::none : unit;
 }
 
-/// Throws unless `v` lies in the row's range. A share is not ranged: its base is not known here.
+/// Throws unless `v` lies in the row's range. Of a share only the sign is known here, not its base.
 template <class T, class Bound>
 void check_range(const T& v, const Bound& least, const Bound& most, Unit unit) {
   if constexpr (OptionalOf<T>::value) {
     if (v) check_range(*v, least, most, unit);
   } else if constexpr (std::is_same_v<T, LengthOrShare>) {
-    if (!v.is_share) check_range(v.length, least, most, unit);
+    if (!v.is_share) return check_range(v.length, least, most, unit);
+    if (least >= 0 && (v.percent < 0 || (least > 0 && v.percent == 0)))
+      throw std::invalid_argument(
+          fmt::format("{} % is not {}", print_value(v.percent, Unit::none), least > 0 ? "above 0" : "0 or more"));
   } else if constexpr (std::is_same_v<T, SpeedOrShare>) {
     if (!v.is_share) check_range(v.value, least, most, unit);
   } else if constexpr (std::is_same_v<T, Numbers>) {

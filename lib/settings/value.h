@@ -19,6 +19,9 @@ struct LengthOrShare {
   Um length = 0;
   double percent = 0;
   bool is_share = false;
+  constexpr LengthOrShare() = default;
+  constexpr LengthOrShare(Um um) : length(um) {}  // NOLINT(google-explicit-constructor): a length is one
+  constexpr LengthOrShare(Um um, double of_base, bool share) : length(um), percent(of_base), is_share(share) {}
   Um of(Um base) const { return is_share ? rounded(base * percent / 100.0) : length; }
   friend bool operator==(const LengthOrShare&, const LengthOrShare&) = default;
 };
@@ -26,7 +29,11 @@ constexpr LengthOrShare share(double percent) {
   return {0, percent, true};
 }
 constexpr LengthOrShare length(Um um) {
-  return {um, 0, false};
+  return um;
+}
+/// What is set, as a share of `base` where it is one; else what the program chooses.
+inline Um length_or(const std::optional<LengthOrShare>& set, Um base, Um automatic) {
+  return set ? set->of(base) : automatic;
 }
 
 /// A speed that may be given as a share of another.

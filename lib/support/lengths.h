@@ -23,7 +23,7 @@ inline Um bottom_gap(const SupportSettings& s) {
   return s.support_bottom_distance.value_or(s.support_z_distance);
 }
 inline Um line_width(const SupportSettings& s, Um nozzle) {
-  return s.support_line_width.value_or(nozzle);
+  return length_or(s.support_line_width, nozzle, nozzle);
 }
 
 /// Diameters of branches, where the settings leave them to the style.

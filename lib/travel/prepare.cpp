@@ -5,6 +5,7 @@
 #include "travel/blocks.h"
 #include "travel/box_columns.h"
 #include "travel/comb_base.h"
+#include "travel/off_surfaces.h"
 
 #include <algorithm>
 
@@ -12,69 +13,6 @@ namespace weft::travel {
 namespace {
 
 constexpr std::size_t corners_kept = 12;
-
-bool begins_a_seam_line(const Bead& bead) {
-  return bead.closed && bead.inset == 0 && bead.path.size() > 2 && row_of(bead.role).outside;
-}
-
-Ring ring_of(const Bead& bead) {
-  Ring ring;
-  ring.reserve(bead.path.size());
-  for (const auto& j : bead.path) ring.push_back(j.at);
-  return ring;
-}
-
-std::vector<Ring> outer_wall_rings(const LayerInput& input) {
-  std::vector<Ring> rings;
-  for (const auto& object : input.objects)
-    for (const auto& bead : object.beads)
-      if (begins_a_seam_line(bead)) rings.push_back(ring_of(bead));
-  return rings;
-}
-
-Regions gathered(const LayerInput& input, Regions ObjectLayer::*which) {
-  Regions all;
-  for (const auto& object : input.objects) all.insert(all.end(), (object.*which).begin(), (object.*which).end());
-  return all;
-}
-
-/// The walls next to the outer ones: a bead's distance from them.
-std::vector<Ring> second_wall_rings(const LayerInput& input) {
-  std::vector<Ring> rings;
-  for (const auto& object : input.objects)
-    for (const auto& bead : object.beads)
-      if (bead.closed && bead.inset == 1 && bead.path.size() > 2 && bead.role == Role::inner_wall)
-        rings.push_back(ring_of(bead));
-  return rings;
-}
-
-/// A line's width, for keeping clear of the outer wall.
-Um outer_wall_width(const LayerInput& input) {
-  for (const auto& object : input.objects)
-    for (const auto& bead : object.beads)
-      if (begins_a_seam_line(bead)) return bead.path[0].width;
-  return 0;
-}
-
-/// What rings enclose (even-odd), less an area.
-Comb less(std::vector<Ring> rings, const Regions& area) {
-  if (area.empty()) return Comb(std::move(rings));
-  return Comb(geometry::subtract(geometry::regions_from_rings(rings, geometry::WindingRule::even_odd), area));
-}
-
-/// Off what will be seen: within the second walls where there are any, and off top skin. Where that has no way, necks
-/// of two beads for instance, one along the outer wall is better than another end of it.
-void keep_off_outer_surfaces(Prepared& layer, const Regions& outline) {
-  const auto top = gathered(layer.input, &ObjectLayer::top);
-  auto outer = outer_wall_rings(layer.input), second = second_wall_rings(layer.input);
-  if (second.empty()) {
-    const auto base = outer.empty() ? outline : geometry::regions_from_rings(outer, geometry::WindingRule::even_odd);
-    layer.comb = Comb(geometry::subtract(geometry::offset(base, {.by = -outer_wall_width(layer.input)}), top));
-  } else {
-    layer.comb = less(std::move(second), top);
-  }
-  layer.narrows = less(std::move(outer), top);
-}
 
 Comb comb_boundary(const TravelSettings& settings, const LayerInput& input) {
   if (settings.retraction_combing == Combing::off) return {};
@@ -194,10 +132,12 @@ Prepared prepare_order(const TravelSettings& settings, LayerInput input) {
 
 void prepare_ways(const TravelSettings& settings, Prepared& layer) {
   const auto outline = gathered(layer.input, &ObjectLayer::outline);
-  if (settings.retraction_combing == Combing::no_outer_surfaces)
-    keep_off_outer_surfaces(layer, outline);
-  else
+  if (settings.retraction_combing == Combing::no_outer_surfaces) {
+    layer.comb = within_second_walls(layer.input, outline);
+    layer.narrows = within_outer_walls(layer.input);
+  } else {
     layer.comb = comb_boundary(settings, layer.input);
+  }
   const auto free = free_area(layer.input.room);
   layer.free = Comb(free);
   layer.around = Comb(area_around(settings, obstacles_of(settings, layer.input), layer.input.room, free));

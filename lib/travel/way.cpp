@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "travel/way.h"
 
+#include "travel/off_surfaces.h"
+
 namespace weft::travel {
 namespace {
 
@@ -17,7 +19,10 @@ double length_from(Point p, const Polyline& way) {
 
 Way Router::way(Point p, Point q) const {
   auto inside = combed(layer_.comb, p, q);
-  if (!inside && !layer_.narrows.empty()) inside = combed(layer_.narrows, p, q);
+  if (!inside && !layer_.narrows.empty()) {
+    inside = combed(half_a_bead_in(), p, q);
+    if (!inside) inside = combed(layer_.narrows, p, q);
+  }
   if (!inside || leaves_room(p, *inside)) return direct(p, q);
   const double length = length_from(p, *inside);
   if (too_long(length, distance(p, q))) return direct(p, q);
@@ -26,6 +31,11 @@ Way Router::way(Point p, Point q) const {
   // Checked all the same: the boundary may be moved outwards, and an outer wall may leave the outline where it is thin.
   const bool crosses = leaves_outline(p, *inside);
   return {std::move(*inside), far || strict || crosses, crosses, false};
+}
+
+const Comb& Router::half_a_bead_in() const {
+  if (!half_a_bead_in_) half_a_bead_in_ = half_a_bead_within(layer_.input);
+  return *half_a_bead_in_;
 }
 
 /// A detour is worth a retraction's time and the strings it saves, and not more. Without retractions nothing else is

@@ -14,7 +14,7 @@ struct Way {
   bool outside = false;  ///< it leaves the room: none that stays inside was found
 };
 
-/// Ways between the beads of one layer, combed where they can be.
+/// Ways between the beads of one layer, combed where they can be. For one thread.
 class Router {
  public:
   /// The arguments must outlive the router.
@@ -28,6 +28,7 @@ class Router {
   bool leaves_room(Point p, const Polyline& way) const;
   std::optional<Point> gate(const Comb& comb, Point p) const;
   std::optional<Polyline> combed(const Comb& comb, Point p, Point q) const;
+  const Comb& half_a_bead_in() const;
   bool too_long(double combed_um, double straight_um) const;
   Way direct(Point p, Point q) const;
 
@@ -35,6 +36,7 @@ class Router {
   const RetractionSettings& retraction_;
   const Prepared& layer_;
   const Comb& outline_;
+  mutable std::optional<Comb> half_a_bead_in_;  ///< made when a way asks for it: in most layers none does
 };
 
 double length_from(Point p, const Polyline& way);

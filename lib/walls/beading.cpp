@@ -25,11 +25,11 @@ constexpr double least_volume_um3 = 1e7;  // 0.01 mm³: a nozzle that travels oo
 
 Widths widths_of(const WallSettings& s, Um nozzle, Um height, std::size_t layer) {
   Widths w;
-  const Um outermost = s.wall_line_width_0.value_or(flow::automatic_outer_width(nozzle));
+  const Um outermost = length_or(s.wall_line_width_0, nozzle, flow::automatic_outer_width(nozzle));
   w.outer = flow::spacing(outermost, height, s.overlap_factor);
   if (s.wall_outline == WallOutline::widest) w.bulge = rounded(flow::bulge_um(outermost, height, s.overlap_factor));
-  w.inner =
-      flow::spacing(s.wall_line_width_x.value_or(flow::automatic_width(nozzle, height)), height, s.overlap_factor);
+  w.inner = flow::spacing(length_or(s.wall_line_width_x, nozzle, flow::automatic_width(nozzle, height)), height,
+                          s.overlap_factor);
   const auto band_of = [&](const LengthOrShare& width) {
     return flow::spacing(width.of(nozzle), height, s.overlap_factor);
   };

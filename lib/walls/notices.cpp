@@ -10,8 +10,9 @@ namespace weft::walls {
 
 Notices check(const WallSettings& settings, Um nozzle_diameter, Um height) {
   constexpr double least_share = 0.2;  // of a line: a strand so thin breaks off
-  const Um line = std::min(settings.wall_line_width_0.value_or(flow::automatic_outer_width(nozzle_diameter)),
-                           settings.wall_line_width_x.value_or(flow::automatic_width(nozzle_diameter, height)));
+  const Um line =
+      std::min(length_or(settings.wall_line_width_0, nozzle_diameter, flow::automatic_outer_width(nozzle_diameter)),
+               length_or(settings.wall_line_width_x, nozzle_diameter, flow::automatic_width(nozzle_diameter, height)));
   Notices notices;
   const auto judge = [&](const char* key, const LengthOrShare& value) {
     const Um width = value.of(nozzle_diameter);

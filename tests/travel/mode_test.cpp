@@ -131,6 +131,40 @@ TEST_CASE("travel: with no_outer_surfaces a neck of two walls is gone through al
   CHECK_FALSE(way.crosses);
 }
 
+TEST_CASE("travel: with no_outer_surfaces a neck of three walls is gone through along its middle", "[travel]") {
+  // As above, a bead wider. Its outer walls' centrelines lie two widths apart.
+  const Um half = 3 * sample::width / 2;
+  const Region rooms{{{0, 0},
+                      {10000, 0},
+                      {10000, 5000 - half},
+                      {20000, 5000 - half},
+                      {20000, 0},
+                      {30000, 0},
+                      {30000, 10000},
+                      {20000, 10000},
+                      {20000, 5000 + half},
+                      {10000, 5000 + half},
+                      {10000, 10000},
+                      {0, 10000}},
+                     {}};
+  const auto settings = combing(Combing::no_outer_surfaces);
+  auto layer = sample::layer({rooms});
+  const auto prepared = prepare(settings, layer);
+  REQUIRE(prepared.comb.part_of({5000, 5000}) != prepared.comb.part_of({25000, 5000}));
+  const RetractionSettings retraction;
+  const auto way = Router(settings, retraction, prepared).way({5000, 2000}, {25000, 2000});
+  CHECK_FALSE(way.retract);
+  CHECK(way.points.size() > 2);
+  const Um wall = half - sample::width / 2;  // from the middle of the neck to the centrelines
+  Point last{5000, 2000};
+  for (const Point p : way.points) {
+    for (int k = 0; k <= 100; ++k)
+      if (const Point at = lerp(last, p, k / 100.0); at.x > 10000 && at.x < 20000)
+        CHECK(std::abs(at.y - 5000) <= wall - sample::width / 2 + static_cast<Um>(2 * Comb::slack_um));
+    last = p;
+  }
+}
+
 TEST_CASE("travel: the way to the next layer goes up before it goes anywhere", "[travel]") {
   std::optional<Point3> at;
   int ways_up = 0;

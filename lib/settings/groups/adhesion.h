@@ -41,7 +41,7 @@ struct AdhesionSettings {
   Um brim_width = 0_mm;
   Um brim_gap = 0_mm;
   BrimLocation brim_location = BrimLocation::outside;
-  std::optional<Um> skirt_brim_line_width;
+  std::optional<LengthOrShare> skirt_brim_line_width;
   AdhesionOutside adhesion_outside = AdhesionOutside::keep;
 };
 
@@ -63,7 +63,7 @@ inline constexpr Rows adhesion_schema{
             "Distance between the part and its brim, to make it easier to take off."),
     setting("brim_location", Scope::object, &AdhesionSettings::brim_location, "Outlines that the brim follows."),
     setting("skirt_brim_line_width", Scope::plate, &AdhesionSettings::skirt_brim_line_width, Unit::mm, 0.05_mm, 5_mm,
-            "Line width of skirt and brim; auto keeps the cross-section of the nozzle."),
+            "Line width of skirt and brim; auto keeps the cross-section of the nozzle; a share is of nozzle_diameter."),
     setting("adhesion_outside", Scope::plate, &AdhesionSettings::adhesion_outside,
             "Skirt and brim that leave the print surface: keep leaves them to the audit, clip cuts them off."),
 };

@@ -103,7 +103,7 @@ constexpr auto choices_of(DensityUnit) {
 struct InfillSettings {
   double infill_sparse_density = 20;
   InfillPattern infill_pattern = InfillPattern::grid;
-  std::optional<Um> infill_line_width;
+  std::optional<LengthOrShare> infill_line_width;
   double infill_angle = 45;
   Numbers infill_angles;
   Um infill_offset_x = 0;
@@ -135,7 +135,7 @@ inline constexpr Rows infill_schema{
             "Share of the inside that is plastic; 100 % is solid."),
     setting("infill_pattern", Scope::region, &InfillSettings::infill_pattern, "Layout of sparse infill."),
     setting("infill_line_width", Scope::region, &InfillSettings::infill_line_width, Unit::mm, 0.05_mm, 10_mm,
-            "Line width of sparse infill; auto keeps the cross-section of the nozzle."),
+            "Line width of sparse infill; auto keeps the cross-section of the nozzle; a share is of nozzle_diameter."),
     setting("infill_angle", Scope::region, &InfillSettings::infill_angle, Unit::degrees, -360, 360,
             "Direction of sparse lines, against X; the pattern lines is turned by 90° on every second layer."),
     setting("infill_angles", Scope::region, &InfillSettings::infill_angles, Unit::degrees, -360, 360,

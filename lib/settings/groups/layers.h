@@ -22,8 +22,8 @@ constexpr auto choices_of(SlicingMode) {
 /// How the model is cut.
 struct LayerSettings {
   Um layer_height = 0.2_mm;
-  std::optional<Um> initial_layer_height;      ///< auto: layer_height
-  std::optional<Um> initial_layer_line_width;  ///< auto: as in the other layers
+  std::optional<Um> initial_layer_height;                 ///< auto: layer_height
+  std::optional<LengthOrShare> initial_layer_line_width;  ///< auto: as in the other layers
   Um resolution = 0.0125_mm;
   SlicingMode slicing_mode = SlicingMode::regular;
 };
@@ -33,7 +33,9 @@ inline constexpr Rows layer_schema{
     setting("initial_layer_height", Scope::object, &LayerSettings::initial_layer_height, Unit::mm, 0.02_mm, 2_mm,
             "Height of the first layer; auto is layer_height."),
     setting("initial_layer_line_width", Scope::region, &LayerSettings::initial_layer_line_width, Unit::mm, 0.05_mm,
-            5_mm, "Line width of everything in the first layer; auto is that of the other layers."),
+            5_mm,
+            "Line width of everything in the first layer; auto is that of the other layers; a share is of "
+            "nozzle_diameter."),
     setting("resolution", Scope::object, &LayerSettings::resolution, Unit::mm, 0_mm, 1_mm,
             "How far a simplified outline may stand off the model's."),
     setting("slicing_mode", Scope::object, &LayerSettings::slicing_mode,

@@ -37,8 +37,8 @@ struct ShellSettings {
   int bottom_layers = 4;
   Um top_thickness = 0.7_mm;
   Um bottom_thickness = 0.5_mm;
-  std::optional<Um> skin_line_width;
-  std::optional<Um> top_skin_line_width;
+  std::optional<LengthOrShare> skin_line_width;
+  std::optional<LengthOrShare> top_skin_line_width;
   std::optional<double> skin_angle;
   SkinPattern top_pattern = SkinPattern::monotonic;
   SkinPattern bottom_pattern = SkinPattern::monotonic;
@@ -62,9 +62,11 @@ inline constexpr Rows shell_schema{
     setting("bottom_thickness", Scope::region, &ShellSettings::bottom_thickness, Unit::mm, 0_mm, 1000_mm,
             "Least thickness of what is solid over a bottom surface."),
     setting("skin_line_width", Scope::region, &ShellSettings::skin_line_width, Unit::mm, 0.05_mm, 5_mm,
-            "Line width of bottoms and of solid infill; auto keeps the cross-section of the nozzle."),
+            "Line width of bottoms and of solid infill; auto keeps the cross-section of the nozzle; a share is of "
+            "nozzle_diameter."),
     setting("top_skin_line_width", Scope::region, &ShellSettings::top_skin_line_width, Unit::mm, 0.05_mm, 5_mm,
-            "Line width of top surfaces; auto is nozzle_diameter, narrow for an even surface."),
+            "Line width of top surfaces; auto is nozzle_diameter, narrow for an even surface; a share is of "
+            "nozzle_diameter."),
     setting("skin_angle", Scope::region, &ShellSettings::skin_angle, Unit::degrees, -360, 360,
             "Direction of the lines of solid layers, against X; every second layer is turned by 90°. auto runs along "
             "straight "

@@ -77,7 +77,7 @@ struct SupportSettings {
   Um support_bottom_stair_step_width = 5_mm;
   bool support_synchronize_layers = false;
   std::optional<Um> support_infill_sparse_thickness;
-  std::optional<Um> support_line_width;
+  std::optional<LengthOrShare> support_line_width;
   std::optional<int> support_wall_count;
   SupportPattern support_pattern = SupportPattern::zigzag;
   double support_infill_rate = 15;
@@ -166,7 +166,7 @@ inline constexpr Rows support_schema{
             "Height of support's layers where nothing that it holds asks for others; auto is three quarters of "
             "nozzle_diameter."),
     setting("support_line_width", Scope::object, &SupportSettings::support_line_width, Unit::mm, 0.05_mm, 10_mm,
-            "Line width of support; auto is nozzle_diameter."),
+            "Line width of support; auto is nozzle_diameter; a share is of nozzle_diameter."),
     setting("support_wall_count", Scope::object, &SupportSettings::support_wall_count, Unit::none, 0, 20,
             "Loops around support; auto: one around branches, none around columns."),
     setting("support_pattern", Scope::object, &SupportSettings::support_pattern, "Layout of the inside of support."),

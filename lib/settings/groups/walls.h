@@ -29,8 +29,8 @@ constexpr auto choices_of(WallOutline) {
 /// Beads along the outlines.
 struct WallSettings {
   int wall_line_count = 3;
-  std::optional<Um> wall_line_width_0;
-  std::optional<Um> wall_line_width_x;
+  std::optional<LengthOrShare> wall_line_width_0;
+  std::optional<LengthOrShare> wall_line_width_x;
   LengthOrShare min_wall_line_width = share(85);
   std::optional<LengthOrShare> min_even_wall_line_width;
   std::optional<LengthOrShare> min_odd_wall_line_width;
@@ -60,9 +60,10 @@ inline constexpr Rows wall_schema{
     setting("wall_line_count", Scope::region, &WallSettings::wall_line_count, Unit::none, 0, 1000,
             "Walls on each side of the part."),
     setting("wall_line_width_0", Scope::region, &WallSettings::wall_line_width_0, Unit::mm, 0.05_mm, 5_mm,
-            "Line width of the outermost wall; auto is 1.05 × nozzle_diameter."),
-    setting("wall_line_width_x", Scope::region, &WallSettings::wall_line_width_x, Unit::mm, 0.05_mm, 5_mm,
-            "Line width of the other walls; auto keeps the cross-section of the nozzle."),
+            "Line width of the outermost wall; auto is 1.05 × nozzle_diameter; a share is of nozzle_diameter."),
+    setting(
+        "wall_line_width_x", Scope::region, &WallSettings::wall_line_width_x, Unit::mm, 0.05_mm, 5_mm,
+        "Line width of the other walls; auto keeps the cross-section of the nozzle; a share is of nozzle_diameter."),
     setting("min_wall_line_width", Scope::region, &WallSettings::min_wall_line_width, Unit::mm, 0.001_mm, 5_mm,
             "Narrowest wall where there is room for another choice; a share is of nozzle_diameter."),
     setting("min_even_wall_line_width", Scope::region, &WallSettings::min_even_wall_line_width, Unit::mm, 0.001_mm,
