@@ -137,7 +137,6 @@ class Tools {
     waiting();
     load_time();
     offsets();
-    paint();
     filament_code();
   }
 
@@ -233,12 +232,6 @@ class Tools {
     std::string list;
     for (std::size_t i = 0; i < count_; ++i) list += (i == 0 ? "" : ", ") + elements[i < elements.size() ? i : 0];
     out_.set("nozzle_offsets", list, *all);
-  }
-
-  /// 0 is any depth there.
-  void paint() {
-    const auto* e = lines_.find("mmu_segmented_region_max_width");
-    if (e && lines_.figure(*e).v > 0) out_.set("paint_depth", number(lines_.figure(*e).v, 3), *e);
   }
 
   /// It goes with its filament, not with the printer's own.

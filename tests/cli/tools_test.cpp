@@ -365,6 +365,7 @@ TEST_CASE("cli: a filament that the file draws out of a shared nozzle is shaped,
                                   "-s",       "filament_cooling_moves=1",
                                   "-s",       "filament_ramming_parameters=120 100 6.6 6.8 7.2",
                                   "-s",       "retraction_amount=0",
+                                  "-s",       "relative_extrusion=true",
                                   "--report", "out.json"});
   // 15 mm, then 70, 20 and 10 % of the 20 mm to the end of the tube, once to and fro, then on to 85 mm.
   CHECK_THAT(gcode, Contains("G1 E-15 F6000\nG1 E-14 F5400\nG1 E-4 F2700\nG1 E-2 F1620\nG1 E10 F132\nG1 E-10 F204\n"

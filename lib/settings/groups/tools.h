@@ -101,7 +101,6 @@ struct ToolSettings {
   GradientMode gradient_mode = GradientMode::lines;
   bool ooze_shield_enabled = false;
   Um ooze_shield_dist = 2_mm;
-  Um paint_depth = 3_mm;
   HeightMarks pause_at_heights;
   HeightMarks color_change_at_heights;
   HeightMarks tool_change_at_heights;
@@ -243,8 +242,6 @@ inline constexpr Rows tool_schema{
         "A wall around all objects, up to the last change of the tool, takes off what oozes from nozzles that wait."),
     setting("ooze_shield_dist", Scope::plate, &ToolSettings::ooze_shield_dist, Unit::mm, 0.5_mm, 30_mm,
             "Between that wall and the objects."),
-    setting("paint_depth", Scope::object, &ToolSettings::paint_depth, Unit::mm, 0.1_mm, 100_mm,
-            "How deep what is painted on a surface reaches into the part."),
     setting("pause_at_heights", Scope::plate, &ToolSettings::pause_at_heights,
             "Z at which the printer waits for somebody, with what to do: `5.2 = lay the nuts in; 10`. The layer that "
             "reaches above it is the first after."),
