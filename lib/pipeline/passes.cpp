@@ -209,29 +209,41 @@ std::vector<Box> standing_on(const Settings& plate, std::span<const travel::Laye
   return out;
 }
 
+/// @throws Error{audit} where a tower of that size, standing where it is told to, leaves the print surface
+void refuse_outside(const Settings& plate, const tools::TowerSize& size, Point corner) {
+  const Ring surface = print_surface(plate.machine);
+  const auto outline = tools::tower_outline(plate.tools, size, corner);
+  const auto outside = tools::outside_of(outline, surface);
+  if (outside.by <= plate.audit.audit_tolerance) return;
+  const Box bed = box_of(surface);
+  const auto side = outside.at.x > bed.max.x   ? "+x"
+                    : outside.at.x < bed.min.x ? "-x"
+                    : outside.at.y > bed.max.y ? "+y"
+                    : outside.at.y < bed.min.y ? "-y"
+                                               : "the edge";
+  throw Error{Error::Kind::audit,
+              fmt::format("prime_tower_position_x: the tower with its brim, {:.1f} × {:.1f} mm at ({:g}, {:g}), leaves "
+                          "the print surface by {:.1f} mm at {}",
+                          to_mm(box_of(outline).size().x), to_mm(box_of(outline).size().y), to_mm(corner.x),
+                          to_mm(corner.y), to_mm(outside.by), side),
+              {},
+              "auto puts it where there is room"};
+}
+
+std::optional<Point> told_corner(const ToolSettings& t) {
+  if (!t.prime_tower_position_x || !t.prime_tower_position_y) return std::nullopt;
+  return Point{*t.prime_tower_position_x, *t.prime_tower_position_y};
+}
+
+bool wants_tower(const Settings& plate, const ToolScopes& tools) {
+  return plate.tools.prime_tower_enable.value_or(shares_nozzle(tools.tools()));
+}
+
 void place_tower(const Settings& plate, std::span<const travel::LayerInput> layers, Passes& passes) {
   const auto& t = plate.tools;
-  const Ring surface = print_surface(plate.machine);
   const auto& size = passes.size;
-  if (t.prime_tower_position_x && t.prime_tower_position_y) {
-    passes.corner = {*t.prime_tower_position_x, *t.prime_tower_position_y};
-    const auto outline = tools::tower_outline(t, size, passes.corner);
-    const auto outside = tools::outside_of(outline, surface);
-    if (outside.by <= plate.audit.audit_tolerance) return;
-    const Box bed = box_of(surface);
-    const auto side = outside.at.x > bed.max.x   ? "+x"
-                      : outside.at.x < bed.min.x ? "-x"
-                      : outside.at.y > bed.max.y ? "+y"
-                      : outside.at.y < bed.min.y ? "-y"
-                                                 : "the edge";
-    throw Error{Error::Kind::audit,
-                fmt::format("prime_tower_position_x: the tower with its brim, {:.1f} × {:.1f} mm at ({:g}, {:g}), "
-                            "leaves the print surface by {:.1f} mm at {}",
-                            to_mm(box_of(outline).size().x), to_mm(box_of(outline).size().y), to_mm(passes.corner.x),
-                            to_mm(passes.corner.y), to_mm(outside.by), side),
-                {},
-                "auto puts it where there is room"};
-  }
+  if (const auto told = told_corner(t)) return refuse_outside(plate, size, passes.corner = *told);
+  const Ring surface = print_surface(plate.machine);
   auto standing = standing_on(plate, layers);
   for (const auto& region : passes.shield) standing.push_back(box_of(region.outer));
   const auto place = tools::place_for_tower(t, size, surface, plate.machine.bed_exclude_areas, standing, beside_tower);
@@ -269,6 +281,12 @@ std::vector<tools::ToolInUse> in_use(const tools::ToolSets& sets, std::span<trav
 
 }  // namespace
 
+void refuse_tower_outside(const Settings& plate, const ToolScopes& tools) {
+  const auto told = told_corner(plate.tools);
+  if (!told || !wants_tower(plate, tools) || tools.used() < 2) return;
+  refuse_outside(plate, tools::tower_size(plate.tools, {}, plate.machine.nozzle_diameter), *told);
+}
+
 Passes passes_of(const Settings& plate, ToolScopes& tools, Scopes& scopes, std::span<travel::LayerInput> layers,
                  Notices& notices) {
   Passes out;
@@ -288,8 +306,7 @@ Passes passes_of(const Settings& plate, ToolScopes& tools, Scopes& scopes, std::
   out.shield = ooze_shield(plate, layers, out);
   const bool changes =
       std::any_of(out.passes.begin(), out.passes.end(), [](const ToolPass& p) { return p.changes && p.from; });
-  const bool wanted = plate.tools.prime_tower_enable.value_or(shares_nozzle(tools.tools()));
-  if (!changes || !wanted) return out;
+  if (!changes || !wants_tower(plate, tools)) return out;
   want_purging(tools.tools(), out);
   purge_into(tools, scopes, layers, out);
   if (std::any_of(layers.begin(), layers.end(), [](const auto& layer) { return layer.time.comes_down; })) {

@@ -42,6 +42,10 @@ struct Passes {
   bool has_tower() const { return !tower.empty(); }
 };
 
+/// What is known before anything is sliced: a tower that is told to stand where not even the smallest has room.
+/// @throws Error{audit}
+void refuse_tower_outside(const Settings& plate, const ToolScopes& tools);
+
 /// Which tools print when. Beads of any tool go with the first of their layer; those above a height of
 /// tool_change_at_heights with its tool.
 /// @param layers their beads are given their tools

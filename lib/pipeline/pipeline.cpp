@@ -12,6 +12,7 @@
 #include "pipeline/estimate.h"
 #include "pipeline/give_back.h"
 #include "pipeline/model_parts.h"
+#include "pipeline/passes.h"
 #include "pipeline/place_heat.h"
 #include "pipeline/plate.h"
 #include "pipeline/provenance.h"
@@ -207,6 +208,7 @@ Planned plan(const Job& job, Printing& what, const Running& running, PlanFor use
   ToolScopes tools(job.settings);
   std::vector<ObjectScopes> of_object;
   for (const auto& object : plate.objects) of_object.push_back(scopes_of(object, tools, scopes));
+  refuse_tower_outside(job.settings, tools);
   Planned out;
   // Pictures are drawn while the model is sliced.
   const bool of_models = use == PlanFor::writing && job.settings.gcode.thumbnail_content == ThumbnailContent::model;

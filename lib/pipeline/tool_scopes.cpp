@@ -89,6 +89,12 @@ ScopeId ToolScopes::lowest(ScopeId area, const std::function<ScopeId(ScopeId)>& 
   return first;
 }
 
+std::size_t ToolScopes::used() const {
+  std::set<ToolId> out;
+  for (const auto& [area, scope] : by_tool_) out.insert(area.second);
+  return out.size();
+}
+
 ScopeId ToolScopes::of(ScopeId area, ToolId tool) const {
   const auto known = by_tool_.find({area, tool});
   return known == by_tool_.end() ? area : known->second;

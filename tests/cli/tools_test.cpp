@@ -154,6 +154,18 @@ TEST_CASE("cli: a tower that is told to stand outside the bed is refused with ho
   CHECK_FALSE(boxes.scratch.has("out.gcode"));
 }
 
+TEST_CASE("cli: the last place where the tower fits passes, and the next one is refused") {
+  const Boxes boxes;
+  const auto at = [&](const std::string& x, int status) {
+    return boxes.slice({"a.stl", "b.stl@T1", "-s", "tool_nozzles=0,0", "-s", "prime_tower_position_x=" + x, "-s",
+                        "prime_tower_position_y=20", "-s", "prime_tower_width=40", "-s", "machine_width=200"},
+                       status);
+  };
+  // 40 mm and a brim of four lines of 0.5 mm.
+  CHECK_THAT(at("158", 0), Contains(";TYPE:Wipe tower"));
+  CHECK_THAT(at("158.5", 5), Contains("leaves the print surface by 0.5 mm at +x"));
+}
+
 TEST_CASE("cli: a tool that there is not is refused by name") {
   const Boxes boxes;
   CHECK_THAT(boxes.slice({"a.stl@T4", "-p", "two.ini"}, 3),
