@@ -246,7 +246,7 @@ TEST_CASE("cli: filaments that do not go together are told, or refused") {
   CHECK_THAT(run.err, Contains("T1 (PLA) is printed at 240 °C") && Contains("stands 230 °C"));
   CHECK_THAT(boxes.slice({"a.stl", "b.stl@T1", "-s", "tool_nozzles=0,0", "-s", "filament_diameter=1.75,2.85"}, 3),
              Contains("share a nozzle, and are 1.75 and 2.85 mm thick"));
-  CHECK_THAT(boxes.slice({"a.stl", "b.stl@T1", "-s", "nozzle_diameter=0.4,0.15", "-s", "line_width=0.4"}, 3),
+  CHECK_THAT(boxes.slice({"a.stl", "b.stl@T1", "-s", "nozzle_diameter=0.4,0.15"}, 3),
              Contains("its nozzle is 0.15 mm wide"));
 }
 
