@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/passes.h"
 
+#include "adhesion/adhesion.h"
 #include "core/error.h"
+#include "pipeline/add_raft.h"
 #include "pipeline/at_heights.h"
 #include "pipeline/gradients.h"
 #include "pipeline/ooze_shield.h"
@@ -57,11 +59,13 @@ tools::ToolSets sets_of(const Settings& plate, ToolScopes& tools, Scopes& scopes
                         std::span<travel::LayerInput> layers) {
   tools::ToolSets out(layers.size());
   const auto adhesion = plate.tools.adhesion_extruder_nr;
+  const std::size_t lies_in = adhesion ? adhesion::layers_needed(adhesion_of(plate.adhesion)) : 0;
   for (std::size_t i = 0; i < layers.size(); ++i) {
     const auto only = only_tool_at(plate.tools, layers[i].z);
     if (adhesion)
       for (auto& bead : layers[i].adhesion) give(bead, static_cast<ToolId>(*adhesion), tools, scopes);
     std::set<ToolId> found;
+    if (layers[i].time.number < lies_in) found.insert(static_cast<ToolId>(*adhesion));  // it is not made yet
     for_each_bead(layers[i], [&](Bead& bead) {
       if (only && bead.tool != any_tool) give(bead, *only, tools, scopes);
       if (bead.tool != any_tool) found.insert(bead.tool);
@@ -317,6 +321,14 @@ Passes passes_of(const Settings& plate, ToolScopes& tools, Scopes& scopes, std::
   plan_tower(tools.tools(), layers, out);
   if (out.has_tower()) place_tower(plate, layers, out);
   return out;
+}
+
+void give_adhesion(const Settings& plate, ToolScopes& tools, Scopes& scopes, std::span<travel::LayerInput> layers) {
+  const auto& tool = plate.tools.adhesion_extruder_nr;
+  if (!tools.several() || !tool) return;
+  for (auto& layer : layers)
+    for (auto& bead : layer.adhesion)
+      if (bead.tool == any_tool) give(bead, static_cast<ToolId>(*tool), tools, scopes);
 }
 
 std::vector<travel::LayerInput> split(Passes& passes, const Settings& plate, ToolScopes& tools, Scopes& scopes,

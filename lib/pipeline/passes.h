@@ -55,6 +55,9 @@ void refuse_tower_outside(const Settings& plate, const ToolScopes& tools);
 Passes passes_of(const Settings& plate, ToolScopes& tools, Scopes& scopes, std::span<travel::LayerInput> layers,
                  Notices& notices);
 
+/// Skirt and brim, once they are made, are printed with adhesion_extruder_nr.
+void give_adhesion(const Settings& plate, ToolScopes& tools, Scopes& scopes, std::span<travel::LayerInput> layers);
+
 /// The layers as they are printed: one input a pass, what is purged before the others.
 /// Post: `passes.into` is empty, `passes.ram` is full.
 std::vector<travel::LayerInput> split(Passes& passes, const Settings& plate, ToolScopes& tools, Scopes& scopes,

@@ -412,6 +412,7 @@ PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, c
       passes.has_tower() ? Regions{{tools::tower_outline(settings.tools, passes.size, passes.corner), {}}} : Regions{};
   beside.insert(beside.end(), passes.shield.begin(), passes.shield.end());
   add_adhesion_to_rises(settings, inputs, beside, plan.notices);
+  give_adhesion(settings, tools, scopes, inputs);
   add_ooze_shield(settings, passes.shield, passes, inputs);
   const double filament_mm = to_mm(settings.material.filament_diameter);
   for (auto& input : inputs) {

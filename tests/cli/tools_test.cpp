@@ -386,3 +386,13 @@ TEST_CASE("cli: a filament that the file draws out of a shared nozzle is shaped,
   const auto report = json::parse(boxes.scratch.read("out.json"));
   CHECK(report["audit"]["verdict"] == "pass");
 }
+
+TEST_CASE("cli: skirt and brim have a tool of their own where one is named") {
+  const Boxes boxes;
+  boxes.slice(
+      {"a.stl", "-p", "two.ini", "-s", "adhesion_type=brim", "-s", "adhesion_extruder_nr=1", "--report", "out.json"});
+  const auto report = json::parse(boxes.scratch.read("out.json"));
+  REQUIRE(report["tools"].size() == 2);
+  CHECK(report["tools"][1]["filament"]["mm3"].get<double>() ==
+        Approx(report["features"]["brim"]["mm3"].get<double>()).epsilon(0.02));
+}
