@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command.h"
 
+#include "pipeline/model_parts.h"
 #include "pipeline/profile_file.h"
 #include "pipeline/write_file.h"
 #include "profile/tool_values.h"
@@ -184,7 +185,7 @@ std::filesystem::path checked_folder(const std::string& typed) {
 
 /// What is read is known before anything that is written is looked at.
 void check_files(Command& command, Result result) {
-  for (const auto& input : command.inputs) command.files.reads(input);
+  for (const auto& input : pipeline::files_of(command.inputs)) command.files.reads(input);
   for (const auto& mark : command.marks)
     if (!mark.source.starts_with("box:")) command.files.reads(mark.source);
   for (const auto& profile : command.profiles) command.files.reads(profile.string());

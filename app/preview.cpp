@@ -25,8 +25,8 @@ po::options_description preview_options() {
   out.add_options()("layer", po::value<int>()->value_name("N"),
                     "the layer to show, from 0; -1 is the last (default: the middle one; of a page: the last)")(
       "colour,color", po::value<std::string>()->value_name("WHAT")->default_value("feature"),
-      "what colours tell: feature, width, speed or flow")("travels", po::bool_switch(),
-                                                          "show moves that do not extrude")(
+      "what colours tell: feature, tool, width, speed or flow")("travels", po::bool_switch(),
+                                                                "show moves that do not extrude")(
       "window", po::value<std::string>()->value_name("X1xY1,X2xY2"),
       "two opposite corners, in mm, of what a picture shows (default: all of the layer)")(
       "size", po::value<int>()->value_name("PIXELS")->default_value(1600),
@@ -45,12 +45,9 @@ po::options_description preview_options() {
 namespace {
 
 preview::Colour colour_of(const std::string& name) {
-  using preview::Colour;
-  constexpr std::pair<std::string_view, Colour> colours[] = {
-      {"feature", Colour::feature}, {"width", Colour::width}, {"speed", Colour::speed}, {"flow", Colour::flow}};
-  for (const auto& [known, colour] : colours)
-    if (name == known) return colour;
-  throw Error{Error::Kind::usage, fmt::format("'{}' is not one of feature, width, speed, flow", name), "--colour"};
+  if (const auto known = preview::colour_named(name)) return *known;
+  throw Error{Error::Kind::usage, fmt::format("'{}' is not one of feature, tool, width, speed, flow", name),
+              "--colour"};
 }
 
 /// The layer that --layer means. Pre: the file has layers.

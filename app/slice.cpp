@@ -5,6 +5,7 @@
 #include "core/hash.h"
 #include "gcode/file_name.h"
 #include "limits.h"
+#include "pipeline/model_parts.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/write_file.h"
 #include "preview_file.h"
@@ -173,7 +174,7 @@ std::string destination_of(const Command& command, const Profile& profile, const
   Statistics made;
   made.print_time_s = report.print_time_s;
   made.filament_mm = report.filament_mm, made.filament_mm3 = report.filament_mm3, made.filament_g = report.filament_g;
-  const std::filesystem::path model(command.inputs.front());
+  const std::filesystem::path model(pipeline::parts_of(command.inputs.front()).front().file);
   const PrintPlan plan;
   const auto name = gcode::file_name({profile.settings, plan, made, model.stem().string(), {}});
   const auto path = (model.parent_path() / name).string();

@@ -20,7 +20,7 @@ namespace weft::app {
 namespace {
 
 /// The model of that name and content: among those the user names, else beside the G-code, else in the folder at hand.
-std::string find_model(const Provenance::Model& wanted, const std::vector<std::string>& named,
+std::string find_model(const Provenance::File& wanted, const std::vector<std::string>& named,
                        const std::filesystem::path& gcode) {
   auto candidates = named;
   if (candidates.empty()) candidates = {(gcode.parent_path() / wanted.name).string(), wanted.name};
@@ -62,13 +62,17 @@ void compare(const Command& command, Console& console) {
                 "another version may lay other paths: verify it with its own"};
 
   Job job;
-  for (const auto& model : made_of.models)
-    job.models.push_back(find_model(model, {command.inputs.begin() + 1, command.inputs.end()}, path));
+  const std::vector<std::string> named(command.inputs.begin() + 1, command.inputs.end());
+  const auto typed = [&](const Provenance::File& file) {
+    return find_model(file, named, path) + (file.tool ? fmt::format("@T{}", *file.tool) : std::string());
+  };
+  for (const auto& model : made_of.models) {
+    job.models.push_back(typed(model));
+    for (const auto& part : model.further) job.models.back() += "+" + typed(part);
+  }
   for (const auto& mark : made_of.marks)
-    job.marks.push_back({mark.model, mark.kind,
-                         mark.sha256.empty() ? mark.name
-                                             : find_model({mark.sha256, mark.name},
-                                                          {command.inputs.begin() + 1, command.inputs.end()}, path)});
+    job.marks.push_back(
+        {mark.model, mark.kind, mark.sha256.empty() ? mark.name : find_model({mark.sha256, mark.name}, named, path)});
   job.settings = std::move(made_of.settings);
   job.placement = made_of.placement;
   job.audit = made_of.audit;

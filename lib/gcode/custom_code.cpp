@@ -90,7 +90,7 @@ void add_figures(const Job& job, Variables& out) {
   }
   out["total_cost"] = rounded_to(t.filament_g / 1000 * cost_per_kg, 2);
   out["total_toolchanges"] = count(tool_changes(job));
-  out["has_wipe_tower"] = macro::variable(false);
+  out["has_wipe_tower"] = macro::variable(t.features[static_cast<std::size_t>(Role::wipe_tower)].mm3 > 0);
   out["has_single_extruder_multi_material_priming"] = macro::variable(false);
 }
 

@@ -114,8 +114,17 @@ void Dialect::temperature(Text& out, const SetTemperature& heat) const {
       break;
   }
   if (firmware != Firmware::reprapfirmware || heat.tool == any_tool) return set("M104", "M109");
-  out << "G10 P" << std::int64_t{heat.tool} << " S" << std::int64_t{heat.celsius} << '\n';
+  // R is what it has while another tool is loaded: a nozzle that waits is at that.
+  out << "G10 P" << std::int64_t{heat.tool} << " S" << std::int64_t{heat.celsius} << " R" << std::int64_t{heat.celsius}
+      << '\n';
   if (heat.wait) out << "M116 P" << std::int64_t{heat.tool} << '\n';
+}
+
+void Dialect::mix(Text& out, double share) const {
+  if (firmware == Firmware::reprapfirmware)
+    out << fmt::format("M567 P0 E{:.3f}:{:.3f}\n", 1 - share, share);
+  else
+    out << fmt::format("M163 S0 P{:.3f}\nM163 S1 P{:.3f}\nM164 S0\n", 1 - share, share);
 }
 
 void Dialect::pause(Text& out, const std::string& text) const {

@@ -36,6 +36,8 @@ struct Dialect {
   /// Loads a tool.
   void select(Text& out, ToolId tool) const;
   void temperature(Text& out, const SetTemperature& heat) const;
+  /// What a mixing nozzle makes of two filaments. @param share of the second, 0 … 1
+  void mix(Text& out, double share) const;
   /// Waits for the user; what firmwares call this they do in ways of their own.
   void pause(Text& out, const std::string& text) const;
   /// Waits until the user has put other filament in: M600 where the firmware knows it, else a pause.

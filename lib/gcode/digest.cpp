@@ -70,6 +70,12 @@ LayerDigest digest_of(const Settings& settings, const LayerPlan& layer) {
                           out.changes.push_back({change.tool, {}});
                           lose_place();
                         },
+                        [&](const Feed& feed) {
+                          if (!feed.moves) return;
+                          out.extents.add({feed.to.x, feed.to.y, layer.z});
+                          out.at = Point3{feed.to.x, feed.to.y, layer.z};
+                          out.wiped_to.reset();
+                        },
                         [&](const Pause& pause) {
                           out.bytes += pause.text.size();
                           out.pauses.push_back(pause);

@@ -48,7 +48,8 @@ Size size_of(const Extrude& bead, const Junction& a, const Junction& b) {
     const Um diameter = rounded(std::sqrt(4 / std::numbers::pi * band * flow * bead.height));
     return {diameter, diameter};
   }
-  const Um height = bead.role == Role::infill && flow > 1 ? rounded(bead.height * flow) : bead.height;
+  const bool higher = bead.role == Role::infill || bead.role == Role::wipe_tower;
+  const Um height = higher && flow > 1 ? rounded(bead.height * flow) : bead.height;
   return {flow::line_width(rounded(band * flow * bead.height / height), height), height};
 }
 
@@ -316,6 +317,26 @@ class LayerText {
     e_wanted_ = 0, e_written_ = 0;
   }
   void print(const SetTemperature& heat) { job_.dialect.temperature(out_, heat); }
+  void print(const Feed& step) {
+    if (step.mm == 0) {
+      out_ << "G4 P" << static_cast<std::int64_t>(std::llround(1000 * step.seconds)) << '\n';
+      return;
+    }
+    if (!step.moves || !state_.at) return extruder_only(step.mm * e_per_mm_, std::abs(step.mm) / step.seconds);
+    if (role_ != static_cast<int>(Role::wipe_tower)) {
+      role_ = static_cast<int>(Role::wipe_tower);
+      job_.comments.feature(out_, Role::wipe_tower);
+    }
+    if (job_.comments.says_sizes()) sizes({step.width, height_});
+    const Point3 to{step.to.x, step.to.y, state_.at->z};
+    const double um = distance(flat(*state_.at), step.to);
+    out_ << "G1";
+    axes(to);
+    filament(step.mm * e_per_mm_);
+    feed(std::max(um / 1000, 1e-3) / step.seconds);
+    out_ << '\n';
+    state_.at = to;
+  }
   void print(const Pause& pause) {
     const auto index = pauses_++;
     const std::string_view code = index < job_.pauses.size() ? std::string_view(job_.pauses[index]) : "";

@@ -59,6 +59,7 @@ Writer::Writer(const Job& job, bool lenient)
     for (std::size_t i = 0; i < layers.size(); ++i)
       for (const auto& change : digest_of(job, i).changes)
         if (std::find(used_.begin(), used_.end(), change.tool) == used_.end()) used_.push_back(change.tool);
+  if (!used_.empty()) first_ = on_first_layer(job.tools[used_.front()]).material;
   expand_custom_code();
   begin_where_start_ends();
 }
@@ -87,7 +88,8 @@ void Writer::expand_custom_code() {
   }
   start_ = expanded(code.start) + (used_.empty() ? expanded(code.load) : std::string());
   start_selects_ = !used_.empty() && has_command(start_, fmt::format("T{}", used_.front()));
-  const auto heating = heating_in(start_, code.start, job_.settings.material);
+  const auto& material = used_.empty() ? job_.settings.material : job_.tools[used_.front()].material;
+  const auto heating = heating_in(start_, code.start, material);
   start_sets_nozzle_ = heating.nozzle, start_sets_bed_ = heating.bed, start_sets_chamber_ = heating.chamber;
   const auto& g = job_.settings.gcode;
   const auto& layers = job_.plan.layers;
@@ -182,11 +184,12 @@ void Writer::heat_at_start(Text& out, bool wait) const {
   };
   if (!start_sets_nozzle_) heat(used_.front());
   if (wait || shares_nozzle(job_.tools)) return;
+  const auto& cold = job_.cold_at_start;
   for (const ToolId tool : used_)
-    if (tool != used_.front()) heat(tool);
+    if (tool != used_.front() && std::find(cold.begin(), cold.end(), tool) == cold.end()) heat(tool);
 }
 
-/// The nozzles' temperatures when the first layer is over, or another begins.
+/// The nozzle's temperature when the first layer is over, or another begins; others get theirs when they are loaded.
 std::string Writer::heat_after_first_layer(std::size_t index, bool first) const {
   Text out;
   const auto heat = [&](ToolId tool, ToolId named) {
@@ -196,15 +199,26 @@ std::string Writer::heat_after_first_layer(std::size_t index, bool first) const 
       dialect_.temperature(
           out, {SetTemperature::Heater::nozzle, named, (first ? low : usual).material_print_temperature, false});
   };
-  if (shares_nozzle(job_.tools))
-    heat(entries_[index].tool, any_tool);
-  else
-    for (const ToolId tool : used_) heat(tool, tool);
+  const ToolId loaded = entries_[index].tool;
+  heat(loaded, shares_nozzle(job_.tools) ? any_tool : loaded);
   return std::move(out).take();
 }
 
+/// What a mixing nozzle is told when its share changes.
+std::string Writer::mixing(std::size_t index) const {
+  const auto& t = job_.settings.tools;
+  if (!t.gradient_tools || t.gradient_mode != GradientMode::mix) return {};
+  const auto told = [&](std::size_t i) {
+    Text out;
+    dialect_.mix(out, share_at(t.gradient_stops, to_mm(job_.plan.layers[i].z - job_.settings.machine.z_offset)));
+    return std::move(out).take();
+  };
+  auto now = told(index);
+  return index > 0 && told(index - 1) == now ? std::string() : now;
+}
+
 std::string Writer::layer(std::size_t index) const {
-  const auto& m = job_.settings.material;
+  const auto& m = used_.empty() ? job_.settings.material : job_.tools[used_.front()].material;
   std::string preamble;
   const bool first = job_.plan.layers[index].time.first();
   if (index > 0 && job_.plan.layers[index - 1].time.first() != first) {  // the first layer is over, or another begins
@@ -220,6 +234,7 @@ std::string Writer::layer(std::size_t index) const {
     const auto now = progress(elapsed_s_[index], elapsed_s_.back());
     if (now != progress(elapsed_s_[index - 1], elapsed_s_.back())) preamble += dialect_.progress(now);
   }
+  preamble += mixing(index);
   auto text = layer_text({.settings = job_.settings,
                           .tools = job_.tools,
                           .dialect = dialect_,

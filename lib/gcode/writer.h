@@ -29,7 +29,8 @@ struct Job {
   std::string provenance{};  ///< comment lines for the end of the file: what it was made of
   /// Of the plan's layers, whose steps then may be missing but while `Writer::layer` writes them. Empty: they are made.
   std::vector<LayerDigest> digests{};
-  std::vector<Settings> tools{};  ///< of each; empty: there is one
+  std::vector<Settings> tools{};        ///< of each; empty: there is one
+  std::vector<ToolId> cold_at_start{};  ///< their nozzles are heated later
 };
 
 /// The file in pieces, which put together in order are the whole: head, each layer, tail. Layers do not depend on each
@@ -54,11 +55,12 @@ class Writer {
   std::string code_at_heights(std::size_t index, const macro::Variables& variables, macro::Scope& scope) const;
   void begin_where_start_ends();
   void heat_at_start(Text& out, bool wait) const;
+  std::string mixing(std::size_t index) const;
   std::string heat_after_first_layer(std::size_t index, bool first) const;
 
   const Job& job_;
   bool lenient_;            // a trial: the figures of the print are not the real ones
-  MaterialSettings first_;  // on the first layer
+  MaterialSettings first_;  // on the first layer; of the bed that of the first tool
   Dialect dialect_;
   Substitutions substitutions_;
   std::vector<MachineState> entries_;                    // when each layer begins

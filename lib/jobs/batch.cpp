@@ -7,6 +7,7 @@
 #include "jobs/memory.h"
 #include "jobs/memory_gate.h"
 #include "jobs/workplace.h"
+#include "pipeline/model_parts.h"
 #include "tasks/crew.h"
 
 #include <algorithm>
@@ -40,7 +41,7 @@ struct Running {
 /// the file's size is the only cheap sign. What is measured corrects it.
 std::uint64_t estimate_of(const Job& job) {
   std::uint64_t bytes = 0;
-  for (const auto& model : job.models) {
+  for (const auto& model : pipeline::files_of(job.models)) {
     std::error_code ignored;
     const auto size = fs::file_size(model, ignored);
     if (!ignored) bytes += size;
@@ -163,7 +164,7 @@ class Run {
     if (record && !options_.check_full)
       for (const auto& file : record->files) files_.trust(file);
     outcome.inputs_sha256 = inputs_hash(job.job, files_);
-    outcome.files = files_.known(job.job.models);
+    outcome.files = files_.known(pipeline::files_of(job.job.models));
     if (!record || record->inputs_sha256 != outcome.inputs_sha256 || record->build != build_id() || !stands(*record))
       return std::nullopt;
     outcome.exit_status = record->exit_status, outcome.error = record->error;
@@ -211,7 +212,7 @@ class Run {
 
   /// A mesh takes no less memory than its file: what is larger than all of it need not be read for minutes first.
   void refuse_what_never_fits(std::size_t i) {
-    for (const auto& model : jobs_[i].job.models) {
+    for (const auto& model : pipeline::files_of(jobs_[i].job.models)) {
       std::error_code unknown;
       if (const auto size = fs::file_size(model, unknown); unknown || gate_.limit() == 0 || size <= gate_.limit())
         continue;

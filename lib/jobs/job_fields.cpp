@@ -56,6 +56,20 @@ std::string placed(const std::string& path, const std::filesystem::path& folder)
   return p.is_absolute() || folder.empty() ? path : (folder / p).string();
 }
 
+/// A model: a file, or several between `+`, each in the folder.
+std::string placed_model(const std::string& typed, const std::filesystem::path& folder) {
+  auto whole = placed(typed, folder);
+  std::error_code unknown;
+  if (typed.find('+') == std::string::npos || std::filesystem::exists(whole, unknown)) return whole;
+  std::string out;
+  for (std::size_t begin = 0; begin <= typed.size();) {
+    const auto end = std::min(typed.find('+', begin), typed.size());
+    out += (begin == 0 ? "" : "+") + placed(typed.substr(begin, end - begin), folder);
+    begin = end + 1;
+  }
+  return out;
+}
+
 struct Field {
   std::string_view name;
   bool list;
@@ -63,7 +77,7 @@ struct Field {
 };
 using Folder = const std::filesystem::path&;
 void add_models(JobLine& j, const Values& v, Folder folder) {
-  for (const auto& path : v) j.models.push_back(placed(path, folder));
+  for (const auto& typed : v) j.models.push_back(placed_model(typed, folder));
 }
 void add_profiles(JobLine& j, const Values& v, Folder folder) {
   j.folder = folder;

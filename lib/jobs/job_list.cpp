@@ -2,6 +2,7 @@
 #include "jobs/job_list.h"
 
 #include "core/file_bytes.h"
+#include "pipeline/model_parts.h"
 #include "settings/value.h"
 
 #include <algorithm>
@@ -120,7 +121,7 @@ JobList read_jobs(const std::vector<std::string>& inputs, const std::string& nam
       append(list, jobs_of_models(models_in(input)));
     else if (input != "-" && !fs::exists(input, ignored) && input.find_first_of("*?[{") != std::string::npos)
       append(list, jobs_of_models(matches_of(input)));
-    else if (named_like_a_model(input))
+    else if (named_like_a_model(pipeline::parts_of(input).front().file))
       append(list, jobs_of_models({input}));
     else
       append(list, read_list(input));
@@ -141,7 +142,7 @@ void complete(JobList& list) {
       continue;
     }
     if (job.id.empty())
-      job.id = job.output.empty() ? fs::path(job.models.front()).stem().string()
+      job.id = job.output.empty() ? fs::path(pipeline::parts_of(job.models.front()).front().file).stem().string()
                                   : fs::path(job.output).replace_extension().string();
     if (job.output.empty()) {
       job.output = job.id + ".gcode";

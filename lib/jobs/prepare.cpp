@@ -2,6 +2,7 @@
 #include "jobs/prepare.h"
 
 #include "gcode/writer.h"
+#include "pipeline/model_parts.h"
 #include "pipeline/profile_file.h"
 
 #include <map>
@@ -45,7 +46,8 @@ class ProfileShelf {
 
 Prepared prepare_one(JobLine line, const Common& common, ProfileShelf& shelf) {
   if (!common.keep_going)
-    for (const auto& model : line.models) check_model(model);
+    for (const auto& model : line.models)
+      for (const auto& part : pipeline::parts_of(model)) check_model(part.file);
   auto files = common.profiles;
   for (const auto& typed : line.profiles) files.push_back(profile_file(typed, line.folder, common.import.folders));
   Profile profile = shelf.of(files, common.import);
@@ -60,7 +62,8 @@ Prepared prepare_one(JobLine line, const Common& common, ProfileShelf& shelf) {
              .marks = line.marks,
              .audit = line.audit};
   out.notices = profile.notices;
-  out.read.assign(line.models.begin(), line.models.end());
+  for (const auto& model : line.models)
+    for (const auto& part : pipeline::parts_of(model)) out.read.push_back(part.file);
   out.read.insert(out.read.end(), files.begin(), files.end());
   out.read.insert(out.read.end(), profile.parents.begin(), profile.parents.end());
   out.line = std::move(line);

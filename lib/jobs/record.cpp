@@ -5,6 +5,7 @@
 #include "core/file_bytes.h"
 #include "core/hash.h"
 #include "core/json_text.h"
+#include "pipeline/model_parts.h"
 #include "pipeline/write_file.h"
 #include "settings/exact.h"
 
@@ -199,8 +200,12 @@ std::vector<KnownFile> FileHashes::known(const std::vector<std::string>& paths) 
 std::string inputs_hash(const Job& job, FileHashes& files) {
   std::string key;
   for (const auto& model : job.models) {
-    exact::add(key, fs::path(model).filename().string());  // stands in the G-code
-    exact::add(key, files.of(model));
+    const auto parts = pipeline::parts_of(model);
+    for (const auto& part : parts) {
+      exact::add(key, fs::path(part.file).filename().string());  // stands in the G-code
+      exact::add(key, files.of(part.file));
+      if (part.tool || parts.size() > 1) exact::add(key, part.tool), exact::add(key, std::uint64_t{parts.size()});
+    }
   }
   for (const auto& mark : job.marks) {
     exact::add(key, std::uint64_t{mark.model});

@@ -47,6 +47,8 @@ template <>
 inline constexpr auto fields<SetTemperature> = listed(&SetTemperature::heater, &SetTemperature::tool,
                                                       &SetTemperature::celsius, &SetTemperature::wait);
 template <>
+inline constexpr auto fields<Feed> = listed(&Feed::mm, &Feed::seconds, &Feed::moves, &Feed::to, &Feed::width);
+template <>
 inline constexpr auto fields<Pause> = listed(&Pause::text, &Pause::swaps_filament);
 template <>
 inline constexpr auto fields<Moment> = listed(&Moment::index, &Moment::pass, &Moment::number, &Moment::comes_down);

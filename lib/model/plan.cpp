@@ -26,6 +26,9 @@ Point3 end_of(const LayerPlan& layer, Point3 before) {
                           if (!retract.wipe.empty())
                             end = Point3{retract.wipe.back().x, retract.wipe.back().y, layer.z};
                         },
+                        [&](const Feed& feed) {
+                          if (feed.moves) end = Point3{feed.to.x, feed.to.y, layer.z};
+                        },
                         LeavesAlone<Prime, SetFan, ObjectStart, ObjectEnd, ToolChange, SetTemperature, Pause>{}};
   for (auto step = layer.steps.rbegin(); step != layer.steps.rend() && !end; ++step) std::visit(look, *step);
   return end.value_or(before);

@@ -89,6 +89,17 @@ struct SetTemperature {
   friend bool operator==(const SetTemperature&, const SetTemperature&) = default;
 };
 
+/// Moves filament at a pace of its own, in which a tool is changed: shapes its tip, draws it out, pushes it in.
+/// Nothing that was drawn back by a Retract is meant. Pre: the extruder follows; motion does not change it.
+struct Feed {
+  double mm = 0;       ///< of filament; below 0: out of the nozzle
+  double seconds = 0;  ///< that it takes; without filament the printer waits so long
+  bool moves = false;  ///< the nozzle goes on meanwhile
+  Point to{};          ///< … there
+  Um width = 0;        ///< … and lays a line as wide as this
+  friend bool operator==(const Feed&, const Feed&) = default;
+};
+
 /// The printer waits for somebody to let it go on. Firmware may park the nozzle meanwhile.
 struct Pause {
   std::string text;             ///< what to do, for the display; one line
@@ -96,8 +107,8 @@ struct Pause {
   friend bool operator==(const Pause&, const Pause&) = default;
 };
 
-using Step =
-    std::variant<Extrude, Travel, Retract, Prime, SetFan, ObjectStart, ObjectEnd, ToolChange, SetTemperature, Pause>;
+using Step = std::variant<Extrude, Travel, Retract, Prime, SetFan, ObjectStart, ObjectEnd, ToolChange, SetTemperature,
+                          Pause, Feed>;
 
 /// One layer of the whole plate, in the order it is printed.
 struct LayerPlan {

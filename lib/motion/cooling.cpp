@@ -38,7 +38,7 @@ void slow_down(LayerPlan& layer, const Slowdown& slowdown) {
         bead.speed_mm_s = slowdown.of(bead.speed_mm_s);
         for (auto& v : bead.segment_speed_mm_s) v = static_cast<float>(slowdown.of(static_cast<double>(v)));
       },
-      LeavesAlone<Travel, Retract, Prime, SetFan, ObjectStart, ObjectEnd, ToolChange, SetTemperature, Pause>{}};
+      LeavesAlone<Travel, Retract, Prime, SetFan, ObjectStart, ObjectEnd, ToolChange, SetTemperature, Feed, Pause>{}};
   for (auto& step : layer.steps) std::visit(slow, step);
 }
 
@@ -130,7 +130,7 @@ void set_fan(const CoolingSettings& cooling, LayerPlan& layer, double seconds) {
         const double fan = wanted[next++];
         if (fan != now) steps.emplace_back(SetFan{now = fan});
       },
-      LeavesAlone<Travel, Retract, Prime, SetFan, ObjectStart, ObjectEnd, ToolChange, SetTemperature, Pause>{}};
+      LeavesAlone<Travel, Retract, Prime, SetFan, ObjectStart, ObjectEnd, ToolChange, SetTemperature, Feed, Pause>{}};
   for (auto& step : layer.steps) {
     std::visit(before, step);
     steps.push_back(std::move(step));

@@ -175,7 +175,8 @@ std::vector<Move> moves_of(const AllRules& all, const LayerPlan& layer, std::opt
       [](const Retract& r) { return r.wipe.size(); },       [](const Prime&) { return std::size_t{0}; },
       [](const SetFan&) { return std::size_t{0}; },         [](const ObjectStart&) { return std::size_t{0}; },
       [](const ObjectEnd&) { return std::size_t{0}; },      [](const ToolChange&) { return std::size_t{0}; },
-      [](const SetTemperature&) { return std::size_t{0}; }, [](const Pause&) { return std::size_t{0}; }};
+      [](const SetTemperature&) { return std::size_t{0}; }, [](const Feed&) { return std::size_t{0}; },
+      [](const Pause&) { return std::size_t{0}; }};
   for (const auto& step : layer.steps) count += 1 + std::visit(points_of, step);
   std::vector<Move> moves;
   moves.reserve(count);
@@ -220,6 +221,11 @@ std::vector<Move> moves_of(const AllRules& all, const LayerPlan& layer, std::opt
       },
       [&](const SetTemperature& heat) {
         if (heat.wait) out.stand_still(i);
+      },
+      [&](const Feed& feed) {
+        out.stand_still(i);
+        out.pause(feed.seconds, i);
+        if (feed.moves) out.at = Point3{feed.to.x, feed.to.y, out.at ? out.at->z : layer.z};
       },
       [&](const Pause&) { out.stand_still(i); },
       LeavesAlone<SetFan, ObjectStart, ObjectEnd>{}};

@@ -63,6 +63,7 @@ void count_times(const LayerPlan& layer, ToolId loaded, const std::vector<Move>&
       [&](const Retract&) { return &s.travel.retraction_s; },
       [&](const Prime&) { return &s.travel.retraction_s; },
       [&](const ToolChange&) { return &s.travel.retraction_s; },
+      [&](const Feed&) { return &s.travel.retraction_s; },
       // These take no move, and what they wait for nobody knows.
       [&](const SetFan&) { return &of_the_user; },
       [&](const ObjectStart&) { return &of_the_user; },
@@ -80,6 +81,23 @@ void count_times(const LayerPlan& layer, ToolId loaded, const std::vector<Move>&
   }
   s.layer_s.push_back(total);
   s.print_time_s = total;
+}
+
+/// How long each step takes. Pre: no fan is set yet.
+std::vector<float> step_seconds(const LayerPlan& layer, const std::vector<Move>& moves,
+                                const std::vector<double>& seconds) {
+  std::vector<float> out(layer.steps.size());
+  for (std::size_t i = 0; i < moves.size(); ++i) out[moves[i].step] += static_cast<float>(seconds[i]);
+  return out;
+}
+
+/// Steps that set the fan have come between the others, and take no time.
+void add_fans(const LayerPlan& layer, std::vector<float>& step_s) {
+  std::vector<float> out;
+  out.reserve(layer.steps.size());
+  std::size_t next = 0;
+  for (const auto& step : layer.steps) out.push_back(std::holds_alternative<SetFan>(step) ? 0.F : step_s[next++]);
+  step_s = std::move(out);
 }
 
 double area_of(const Rules& rules) {
@@ -145,6 +163,14 @@ Statistics count(const AllRules& all, const Rules& rules, const LayerPlan& layer
                                 ++s.tool(loaded = change.tool).changes;
                                 changed = true;
                               },
+                              [&](const Feed& feed) {
+                                if (!feed.moves) return;
+                                const double mm3 = feed.mm * area_of(of_tool(all, loaded, rules));
+                                s.features[static_cast<std::size_t>(Role::wipe_tower)].mm3 += mm3;
+                                if (loaded != any_tool)
+                                  s.tool(loaded).filament_mm3 += mm3, s.tool(loaded).tower_mm3 += mm3;
+                                at = Point3{feed.to.x, feed.to.y, at ? at->z : layer.z};
+                              },
                               LeavesAlone<SetFan, ObjectStart, ObjectEnd, SetTemperature, Pause>{}};
   StopNowAndThen stop(64);
   for (const auto& step : layer.steps) {
@@ -196,7 +222,9 @@ PlannedLayer plan_layer(AllRules all, LayerPlan layer, std::optional<Point3> sta
   PlannedLayer out;
   out.statistics = count(all, rules, layer, start);
   count_times(layer, all.loaded, moves, seconds, out.statistics);
+  if (!all.tools.empty()) out.step_s = step_seconds(layer, moves, seconds);
   set_fan(rules.cooling, layer, out.statistics.print_time_s);
+  if (!out.step_s.empty()) add_fans(layer, out.step_s);
   out.plan = std::move(layer);
   return out;
 }

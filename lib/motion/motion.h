@@ -33,6 +33,8 @@ Rules rules_of(const Settings& settings, const Settings* above = nullptr);
 struct PlannedLayer {
   LayerPlan plan;
   Statistics statistics;  ///< of this layer alone: layer_s has one value
+  /// How long each step of the plan takes, s. Empty where there is one tool: nothing is placed in the plan afterwards.
+  std::vector<float> step_s{};
 };
 
 /// Rules by scope: of the layer (LayerPlan::scope) and of its beads. A scope that is not there has the first's.

@@ -232,6 +232,10 @@ void set_speeds(AllRules all, LayerPlan& layer, std::optional<Point3> start) {
         return true;
       },
       [](SetTemperature&) { return true; },
+      [&](Feed& feed) {
+        if (feed.moves) at = Point3{feed.to.x, feed.to.y, at ? at->z : layer.z};
+        return true;
+      },
       [](Pause&) { return true; },
   };
   StopNowAndThen stop(16);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -30,7 +31,8 @@ ModelPart part_of(const std::string& typed) {
 }  // namespace
 
 std::vector<ModelPart> parts_of(const std::string& typed) {
-  if (is_file(typed) || typed.find('+') == std::string::npos) return {part_of(typed)};
+  auto whole = part_of(typed);
+  if (is_file(whole.file) || typed.find('+') == std::string::npos) return {std::move(whole)};
   std::vector<ModelPart> out;
   for (std::size_t begin = 0; begin <= typed.size();) {
     const auto plus = std::min(typed.find('+', begin), typed.size());
@@ -39,6 +41,13 @@ std::vector<ModelPart> parts_of(const std::string& typed) {
       throw Error{Error::Kind::usage, fmt::format("'{}': a part has no name", typed), {}, "as in body.stl+logo.stl@T1"};
     begin = plus + 1;
   }
+  return out;
+}
+
+std::vector<std::string> files_of(const std::vector<std::string>& typed) {
+  std::vector<std::string> out;
+  for (const auto& model : typed)
+    for (auto& part : parts_of(model)) out.push_back(std::move(part.file));
   return out;
 }
 

@@ -16,4 +16,7 @@ struct ModelPart {
 /// or what stands before `@`, that is its name. @throws Error{usage} for a part without a name
 std::vector<ModelPart> parts_of(const std::string& typed);
 
+/// The files of models as they are typed. @throws Error{usage} as above
+std::vector<std::string> files_of(const std::vector<std::string>& typed);
+
 }  // namespace weft::pipeline

@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/passes.h"
 
+#include "adhesion/adhesion.h"
 #include "core/error.h"
+#include "pipeline/add_raft.h"
 #include "pipeline/at_heights.h"
+#include "pipeline/gradients.h"
+#include "pipeline/ooze_shield.h"
+#include "pipeline/purge_into.h"
+#include "pipeline/swap_filament.h"
 #include "settings/first_layer.h"
 #include "settings/tools.h"
+#include "tools/compatible.h"
 #include "tools/order.h"
 #include "tools/purge.h"
 
@@ -52,11 +59,13 @@ tools::ToolSets sets_of(const Settings& plate, ToolScopes& tools, Scopes& scopes
                         std::span<travel::LayerInput> layers) {
   tools::ToolSets out(layers.size());
   const auto adhesion = plate.tools.adhesion_extruder_nr;
+  const std::size_t lies_in = adhesion ? adhesion::layers_needed(adhesion_of(plate.adhesion)) : 0;
   for (std::size_t i = 0; i < layers.size(); ++i) {
     const auto only = only_tool_at(plate.tools, layers[i].z);
     if (adhesion)
       for (auto& bead : layers[i].adhesion) give(bead, static_cast<ToolId>(*adhesion), tools, scopes);
     std::set<ToolId> found;
+    if (layers[i].time.number < lies_in) found.insert(static_cast<ToolId>(*adhesion));  // it is not made yet
     for_each_bead(layers[i], [&](Bead& bead) {
       if (only && bead.tool != any_tool) give(bead, *only, tools, scopes);
       if (bead.tool != any_tool) found.insert(bead.tool);
@@ -90,40 +99,92 @@ Passes in_order(const tools::ToolSets& ordered) {
     auto set = ordered[i];
     if (set.empty()) set = {loaded.value_or(first)};
     for (const ToolId tool : set) {
-      out.passes.push_back({i, tool, loaded != tool, loaded, false});
+      out.passes.push_back({i, tool, loaded != tool, loaded, 0});
       loaded = tool;
     }
   }
   out.begin.push_back(out.passes.size());
-  for (std::size_t p = 0; p < out.passes.size(); ++p) {
-    auto& pass = out.passes[p];
-    if (!pass.changes || !pass.from) continue;
-    pass.last_of_from = std::none_of(out.passes.begin() + static_cast<std::ptrdiff_t>(p), out.passes.end(),
-                                     [&](const ToolPass& later) { return later.tool == *pass.from; });
+  return out;
+}
+
+/// Is filament drawn out of the nozzle, and other pushed in, by what the file says?
+bool swaps_filament(const std::vector<Settings>& tools, const ToolPass& pass) {
+  return pass.changes && pass.from && nozzle_of(tools, *pass.from) == nozzle_of(tools, pass.tool) &&
+         tools[*pass.from].tools.parking_pos_retraction > 0;
+}
+
+/// What each change is to purge.
+void want_purging(const std::vector<Settings>& tools, Passes& passes) {
+  const auto volumes = tools::purge_volumes(tools);
+  for (auto& pass : passes.passes)
+    if (pass.changes && pass.from) passes.purged.wanted_mm3 += pass.purge_mm3 = volumes[*pass.from][pass.tool];
+}
+
+/// What prints the tower's wall.
+struct WallTool {
+  bool purges = false;  ///< whichever purges most: filaments of one kind hold on each other
+  ToolId tool = 0;
+};
+WallTool wall_tool(const std::vector<Settings>& tools, const Passes& passes) {
+  if (const auto named = tools.front().tools.prime_tower_extruder_nr) return {false, static_cast<ToolId>(*named)};
+  std::vector<std::size_t> layers(tools.size());
+  for (const auto& pass : passes.passes) ++layers[pass.tool];
+  WallTool out{true, passes.passes.front().tool};
+  for (std::size_t i = 0; i < tools.size(); ++i) {
+    if (layers[i] == 0) continue;
+    const auto& own = tools[i];
+    const auto& best = tools[out.tool];
+    out.purges = out.purges && !own.tools.material_soluble && own.material.material_type == best.material.material_type;
+    const bool holds = best.tools.material_soluble && !own.tools.material_soluble;
+    if (holds || (layers[i] > layers[out.tool] && own.tools.material_soluble == best.tools.material_soluble))
+      out.tool = static_cast<ToolId>(i);
   }
   return out;
 }
 
+/// Which pass of a section's layer prints its wall.
+void choose_wall(const WallTool& wall, const Passes& passes, tools::TowerLayer& section, std::size_t layer) {
+  section.wall_pass = passes.begin[layer];
+  if (wall.purges) {
+    double most = 0;
+    for (const auto& strip : section.strips)
+      if (!strip.ram && strip.mm3 > most) most = strip.mm3, section.wall_pass = strip.pass, section.wall_purges = true;
+    return;
+  }
+  for (std::size_t p = passes.begin[layer]; p < passes.begin[layer + 1]; ++p)
+    if (passes.passes[p].tool == wall.tool) section.wall_pass = p;
+}
+
+/// What the tip of the filament before is shaped with.
+double rammed_mm3(const std::vector<Settings>& tools, const ToolPass& pass) {
+  if (!swaps_filament(tools, pass)) return 0;
+  double sum = 0;
+  for (const double mm3_s : ramming_flows(tools[*pass.from].tools.filament_ramming_parameters)) sum += mm3_s / 4;
+  return sum;
+}
+
+void add_strips(const std::vector<Settings>& tools, const ToolPass& pass, std::size_t p, tools::TowerLayer& section) {
+  if (const double mm3 = rammed_mm3(tools, pass); mm3 > 0) section.strips.push_back({p, mm3, true});
+  if (pass.purge_mm3 > 0) section.strips.push_back({p, pass.purge_mm3, false});
+}
+
 /// Sections up to the last change: one a layer that purges, and between them where a bead would be too high.
 void plan_tower(const std::vector<Settings>& tools, std::span<const travel::LayerInput> layers, Passes& passes) {
-  const auto volumes = tools::purge_volumes(tools);
   Um nozzle = max_coord;
   for (const auto& tool : tools) nozzle = std::min(nozzle, tool.machine.nozzle_diameter);
   const Um highest = rounded(highest_by_nozzle * nozzle);
   std::size_t last = 0;
-  const auto purged = [&](const ToolPass& pass) {
-    return pass.changes && pass.from ? volumes[*pass.from][pass.tool] : 0;
-  };
   for (const auto& pass : passes.passes)
-    if (purged(pass) > 0) last = pass.layer + 1;
+    if (pass.purge_mm3 > 0 || rammed_mm3(tools, pass) > 0) last = pass.layer + 1;
+  const auto wall = wall_tool(tools, passes);
   Um below = 0;
   for (std::size_t i = 0; i < last; ++i) {
-    tools::TowerLayer section{layers[i].z, layers[i].z - below, {}, passes.begin[i]};
-    for (std::size_t p = passes.begin[i]; p < passes.begin[i + 1]; ++p)
-      if (const double mm3 = purged(passes.passes[p]); mm3 > 0) section.strips.push_back({p, mm3});
+    tools::TowerLayer section{layers[i].z, layers[i].z - below, {}};
+    for (std::size_t p = passes.begin[i]; p < passes.begin[i + 1]; ++p) add_strips(tools, passes.passes[p], p, section);
     const bool too_high = i + 1 < last && layers[i + 1].z - below > highest;
     if (section.strips.empty() && !too_high && i != 0) continue;
     below = layers[i].z;
+    choose_wall(wall, passes, section, i);
     passes.tower.push_back(std::move(section));
     passes.section_of.push_back(i);
   }
@@ -152,31 +213,44 @@ std::vector<Box> standing_on(const Settings& plate, std::span<const travel::Laye
   return out;
 }
 
+/// @throws Error{audit} where a tower of that size, standing where it is told to, leaves the print surface
+void refuse_outside(const Settings& plate, const tools::TowerSize& size, Point corner) {
+  const Ring surface = print_surface(plate.machine);
+  const auto outline = tools::tower_outline(plate.tools, size, corner);
+  const auto outside = tools::outside_of(outline, surface);
+  if (outside.by <= plate.audit.audit_tolerance) return;
+  const Box bed = box_of(surface);
+  const auto side = outside.at.x > bed.max.x   ? "+x"
+                    : outside.at.x < bed.min.x ? "-x"
+                    : outside.at.y > bed.max.y ? "+y"
+                    : outside.at.y < bed.min.y ? "-y"
+                                               : "the edge";
+  throw Error{Error::Kind::audit,
+              fmt::format("prime_tower_position_x: the tower with its brim, {:.1f} × {:.1f} mm at ({:g}, {:g}), leaves "
+                          "the print surface by {:.1f} mm at {}",
+                          to_mm(box_of(outline).size().x), to_mm(box_of(outline).size().y), to_mm(corner.x),
+                          to_mm(corner.y), to_mm(outside.by), side),
+              {},
+              "auto puts it where there is room"};
+}
+
+std::optional<Point> told_corner(const ToolSettings& t) {
+  if (!t.prime_tower_position_x || !t.prime_tower_position_y) return std::nullopt;
+  return Point{*t.prime_tower_position_x, *t.prime_tower_position_y};
+}
+
+bool wants_tower(const Settings& plate, const ToolScopes& tools) {
+  return plate.tools.prime_tower_enable.value_or(shares_nozzle(tools.tools()));
+}
+
 void place_tower(const Settings& plate, std::span<const travel::LayerInput> layers, Passes& passes) {
   const auto& t = plate.tools;
-  const Ring surface = print_surface(plate.machine);
   const auto& size = passes.size;
-  if (t.prime_tower_position_x && t.prime_tower_position_y) {
-    passes.corner = {*t.prime_tower_position_x, *t.prime_tower_position_y};
-    const auto outline = tools::tower_outline(t, size, passes.corner);
-    const auto outside = tools::outside_of(outline, surface);
-    if (outside.by <= plate.audit.audit_tolerance) return;
-    const Box bed = box_of(surface);
-    const auto side = outside.at.x > bed.max.x   ? "+x"
-                      : outside.at.x < bed.min.x ? "-x"
-                      : outside.at.y > bed.max.y ? "+y"
-                      : outside.at.y < bed.min.y ? "-y"
-                                                 : "the edge";
-    throw Error{Error::Kind::audit,
-                fmt::format("prime_tower_position_x: the tower with its brim, {:.1f} × {:.1f} mm at ({:g}, {:g}), "
-                            "leaves the print surface by {:.1f} mm at {}",
-                            to_mm(box_of(outline).size().x), to_mm(box_of(outline).size().y), to_mm(passes.corner.x),
-                            to_mm(passes.corner.y), to_mm(outside.by), side),
-                {},
-                "auto puts it where there is room"};
-  }
-  const auto place = tools::place_for_tower(t, size, surface, plate.machine.bed_exclude_areas,
-                                            standing_on(plate, layers), beside_tower);
+  if (const auto told = told_corner(t)) return refuse_outside(plate, size, passes.corner = *told);
+  const Ring surface = print_surface(plate.machine);
+  auto standing = standing_on(plate, layers);
+  for (const auto& region : passes.shield) standing.push_back(box_of(region.outer));
+  const auto place = tools::place_for_tower(t, size, surface, plate.machine.bed_exclude_areas, standing, beside_tower);
   if (!place)
     throw Error{Error::Kind::audit,
                 fmt::format("prime_tower_enable: no room on the bed for the tower, {:.1f} × {:.1f} mm",
@@ -188,20 +262,57 @@ void place_tower(const Settings& plate, std::span<const travel::LayerInput> laye
 
 }  // namespace
 
+namespace {
+
+/// The tools that print something, and how high.
+std::vector<tools::ToolInUse> in_use(const tools::ToolSets& sets, std::span<travel::LayerInput> layers) {
+  std::vector<tools::ToolInUse> out;
+  const auto of = [&](ToolId tool) -> tools::ToolInUse& {
+    const auto at = std::find_if(out.begin(), out.end(), [&](const auto& use) { return use.tool >= tool; });
+    return at != out.end() && at->tool == tool ? *at : *out.insert(at, tools::ToolInUse{tool, 0});
+  };
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    for (const ToolId tool : sets[i]) of(tool);
+    for (const auto& object : layers[i].objects)
+      for (const auto& bead : object.beads)
+        if (bead.tool != any_tool) {
+          auto& highest = of(bead.tool).highest;
+          highest = std::max(highest, object.height != 0 ? object.height : layers[i].height);
+        }
+  }
+  return out;
+}
+
+}  // namespace
+
+void refuse_tower_outside(const Settings& plate, const ToolScopes& tools) {
+  const auto told = told_corner(plate.tools);
+  if (!told || !wants_tower(plate, tools) || tools.used() < 2) return;
+  refuse_outside(plate, tools::tower_size(plate.tools, {}, plate.machine.nozzle_diameter), *told);
+}
+
 Passes passes_of(const Settings& plate, ToolScopes& tools, Scopes& scopes, std::span<travel::LayerInput> layers,
                  Notices& notices) {
   Passes out;
+  const auto told = [&](const std::vector<tools::ToolInUse>& use) {
+    for (auto& notice : tools::compatibility(tools.tools(), use)) notices.push_back(std::move(notice));
+  };
   if (!tools.several()) {
+    told({{0, 0}});
     for (std::size_t i = 0; i <= layers.size(); ++i) out.begin.push_back(i);
-    for (std::size_t i = 0; i < layers.size(); ++i) out.passes.push_back({i, any_tool, false, {}, false});
+    for (std::size_t i = 0; i < layers.size(); ++i) out.passes.push_back({i, any_tool, false, {}, 0});
     return out;
   }
+  apply_gradients(tools, scopes, layers);
   const auto sets = sets_of(plate, tools, scopes, layers);
+  told(in_use(sets, layers));
   out = in_order(tools::ordered(sets, costs_of(tools.tools()), plate.tools.tool_order));
+  out.shield = ooze_shield(plate, layers, out);
   const bool changes =
       std::any_of(out.passes.begin(), out.passes.end(), [](const ToolPass& p) { return p.changes && p.from; });
-  const bool wanted = plate.tools.prime_tower_enable.value_or(shares_nozzle(tools.tools()));
-  if (!changes || !wanted) return out;
+  if (!changes || !wants_tower(plate, tools)) return out;
+  want_purging(tools.tools(), out);
+  purge_into(tools, scopes, layers, out);
   if (std::any_of(layers.begin(), layers.end(), [](const auto& layer) { return layer.time.comes_down; })) {
     notices.push_back(
         {"prime_tower_one_at_a_time", "prime_tower_enable: objects are printed one after the other, and no tower is"});
@@ -212,7 +323,15 @@ Passes passes_of(const Settings& plate, ToolScopes& tools, Scopes& scopes, std::
   return out;
 }
 
-std::vector<travel::LayerInput> split(const Passes& passes, const Settings& plate, ToolScopes& tools, Scopes& scopes,
+void give_adhesion(const Settings& plate, ToolScopes& tools, Scopes& scopes, std::span<travel::LayerInput> layers) {
+  const auto& tool = plate.tools.adhesion_extruder_nr;
+  if (!tools.several() || !tool) return;
+  for (auto& layer : layers)
+    for (auto& bead : layer.adhesion)
+      if (bead.tool == any_tool) give(bead, static_cast<ToolId>(*tool), tools, scopes);
+}
+
+std::vector<travel::LayerInput> split(Passes& passes, const Settings& plate, ToolScopes& tools, Scopes& scopes,
                                       std::vector<travel::LayerInput> layers) {
   if (!tools.several()) return layers;
   std::vector<travel::LayerInput> out;
@@ -244,25 +363,40 @@ std::vector<travel::LayerInput> split(const Passes& passes, const Settings& plat
       const double d = to_mm(own.material.filament_diameter);
       input.filament_area_mm2 = 3.14159265358979323846 / 4 * d * d;
       input.nozzle = own.machine.nozzle_diameter;
-      for (auto& [pass, beads] : tower) {
+      const auto put = [&](Beads& beads) {
+        input.adhesion.insert(first ? input.adhesion.end() : input.adhesion.begin(),
+                              std::make_move_iterator(beads.begin()), std::make_move_iterator(beads.end()));
+      };
+      if (const auto purged = passes.into.find(p); purged != passes.into.end()) put(purged->second);
+      for (auto& [pass, beads, ram] : tower) {
         if (pass != p) continue;
+        if (ram) {
+          passes.ram.emplace(p, std::move(beads.front()));
+          continue;
+        }
         for (auto& bead : beads) {
           bead.scope = layer.scope;
           give(bead, tool, tools, scopes);
+          // A section may be higher than its layer.
+          for (auto& junction : bead.path)
+            junction.flow *= static_cast<float>(passes.tower[section - 1].height) / static_cast<float>(layer.height);
         }
-        input.adhesion.insert(first ? input.adhesion.end() : input.adhesion.begin(),
-                              std::make_move_iterator(beads.begin()), std::make_move_iterator(beads.end()));
+        put(beads);
       }
       out.push_back(std::move(input));
     }
     layer = {};
   }
+  passes.into.clear();
   return out;
 }
 
-std::vector<Step> change_before(const ToolPass& pass, const ToolScopes& tools, bool first_layer) {
+std::vector<Step> change_before(const Passes& passes, std::size_t index, const ToolScopes& tools,
+                                const LayerPlan& layer) {
   using Heater = SetTemperature::Heater;
+  const auto& pass = passes.passes[index];
   const auto& all = tools.tools();
+  const bool first_layer = layer.time.first();
   const auto celsius = [&](ToolId tool) {
     const auto& m = first_layer ? on_first_layer(all[tool]).material : all[tool].material;
     return m.material_print_temperature;
@@ -270,9 +404,15 @@ std::vector<Step> change_before(const ToolPass& pass, const ToolScopes& tools, b
   std::vector<Step> out;
   if (!pass.changes) return out;
   if (!pass.from) return {ToolChange{pass.tool}};  // the start G-code has heated
-  out.emplace_back(Retract{.wipe = {}, .to_change = true});
+  const bool swaps = swaps_filament(all, pass);
+  if (swaps) {
+    const auto ram = passes.ram.find(index);
+    out = unload(all[*pass.from], ram == passes.ram.end() ? std::nullopt : std::optional(ram->second), layer.z,
+                 layer.height);
+  } else {
+    out.emplace_back(Retract{.wipe = {}, .to_change = true});
+  }
   const bool shared = nozzle_of(all, *pass.from) == nozzle_of(all, pass.tool);
-  if (!shared && pass.last_of_from) out.emplace_back(SetTemperature{Heater::nozzle, *pass.from, 0, false});
   out.emplace_back(ToolChange{pass.tool});
   if (shared) {
     if (celsius(*pass.from) != celsius(pass.tool))
@@ -280,6 +420,8 @@ std::vector<Step> change_before(const ToolPass& pass, const ToolScopes& tools, b
   } else {
     out.emplace_back(SetTemperature{Heater::nozzle, pass.tool, celsius(pass.tool), true});
   }
+  if (swaps)
+    for (auto& step : load(all[pass.tool])) out.push_back(std::move(step));
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include "tools/tower.h"
 #include "travel/travel.h"
 
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -17,7 +18,12 @@ struct ToolPass {
   ToolId tool = any_tool;
   bool changes = false;        ///< the tool is loaded before it
   std::optional<ToolId> from;  ///< … when this one is; none: the first of the print
-  bool last_of_from = false;   ///< which prints nothing after that
+  double purge_mm3 = 0;        ///< wanted at the change, less what goes into the print (purge_into.h)
+};
+
+/// What is purged in all: wanted, and of that into what.
+struct Purged {
+  double wanted_mm3 = 0, objects_mm3 = 0, support_mm3 = 0, infill_mm3 = 0;
 };
 
 /// All layers of a plate.
@@ -28,23 +34,39 @@ struct Passes {
   std::vector<std::size_t> section_of;   ///< layer of each section
   tools::TowerSize size;
   Point corner;
+  Regions shield;  ///< what the ooze shield encloses; empty: there is none
+  Purged purged;
+  std::map<std::size_t, Beads> into;  ///< by pass: beads that are printed with what is purged before it
+  std::map<std::size_t, Bead> ram;    ///< by pass: what the tip of the filament before is shaped along
 
   bool has_tower() const { return !tower.empty(); }
 };
 
+/// What is known before anything is sliced: a tower that is told to stand where not even the smallest has room.
+/// @throws Error{audit}
+void refuse_tower_outside(const Settings& plate, const ToolScopes& tools);
+
 /// Which tools print when. Beads of any tool go with the first of their layer; those above a height of
 /// tool_change_at_heights with its tool.
 /// @param layers their beads are given their tools
-/// @throws Error{audit} where the tower leaves the print surface or has no room on it
+/// @param notices told what does not go together (tools/compatible.h)
+/// @throws Error{settings} for tools that cannot print together, Error{audit} where the tower leaves the print surface
+/// or has no room on it
 Passes passes_of(const Settings& plate, ToolScopes& tools, Scopes& scopes, std::span<travel::LayerInput> layers,
                  Notices& notices);
 
-/// The layers as they are printed: one input a pass, the tower's beads before the others.
-std::vector<travel::LayerInput> split(const Passes& passes, const Settings& plate, ToolScopes& tools, Scopes& scopes,
+/// Skirt and brim, once they are made, are printed with adhesion_extruder_nr.
+void give_adhesion(const Settings& plate, ToolScopes& tools, Scopes& scopes, std::span<travel::LayerInput> layers);
+
+/// The layers as they are printed: one input a pass, what is purged before the others.
+/// Post: `passes.into` is empty, `passes.ram` is full.
+std::vector<travel::LayerInput> split(Passes& passes, const Settings& plate, ToolScopes& tools, Scopes& scopes,
                                       std::vector<travel::LayerInput> layers);
 
-/// What is done before a pass: the tool is changed, and its nozzle heated.
-/// @param first_layer of the print
-std::vector<Step> change_before(const ToolPass& pass, const ToolScopes& tools, bool first_layer);
+/// What is done before a pass: the tool is changed, and its nozzle waited for.
+/// @param index of the pass
+/// @param layer that it is of; its steps are not looked at
+std::vector<Step> change_before(const Passes& passes, std::size_t index, const ToolScopes& tools,
+                                const LayerPlan& layer);
 
 }  // namespace weft::pipeline

@@ -3,6 +3,7 @@
 
 #include "adhesion/adhesion.h"
 #include "core/error.h"
+#include "core/file_bytes.h"
 #include "core/hash.h"
 #include "core/stop.h"
 #include "gcode/digest.h"
@@ -10,6 +11,9 @@
 #include "pipeline/cached.h"
 #include "pipeline/estimate.h"
 #include "pipeline/give_back.h"
+#include "pipeline/model_parts.h"
+#include "pipeline/passes.h"
+#include "pipeline/place_heat.h"
 #include "pipeline/plate.h"
 #include "pipeline/provenance.h"
 #include "pipeline/stages.h"
@@ -39,10 +43,12 @@ std::size_t room_for(const std::vector<gcode::LayerDigest>& layers) {
   return bytes;
 }
 
+using Heat = decltype(PlannedPlate::heat);
+
 /// The text of the file, audited as it grows. Each layer's steps are unpacked to be written, and let go of: plan and
 /// text are never both there as a whole.
-void write_gcode(const gcode::Job& job, PrintPlan& plan, std::vector<std::string> packed, audit::Check& check,
-                 Report& report) {
+void write_gcode(const gcode::Job& job, PrintPlan& plan, std::vector<std::string> packed, const Heat& heat,
+                 audit::Check& check, Report& report) {
   const Stopwatch stopwatch(report.timings_ms[Stage::gcode]);
   const gcode::Writer writer(job);
   check.reserve(room_for(job.digests));
@@ -52,6 +58,7 @@ void write_gcode(const gcode::Job& job, PrintPlan& plan, std::vector<std::string
   const auto write = [&](std::size_t i) {
     decode(packed[i], plan.layers[i]);
     let_go(packed[i]);
+    if (i < heat.size()) add_heat(heat[i], plan.layers[i]);
     auto block = writer.layer(i);
     let_go(plan.layers[i].steps);
     return block;
@@ -64,6 +71,21 @@ void write_gcode(const gcode::Job& job, PrintPlan& plan, std::vector<std::string
   check.add(tail);
 }
 
+/// Each tool has a filament of its own, with a price of its own.
+void note_tools(const Settings& settings, const Statistics& s, Report& report) {
+  if (s.tools.empty()) return;
+  const auto tools = settings_of_tools(settings);
+  Cost cost{0, s.print_time_s / 3600 * settings.machine.machine_hourly_cost};
+  for (std::size_t i = 0; i < s.tools.size(); ++i) {
+    const auto& t = s.tools[i];
+    const double filament = i < tools.size() ? t.filament_g / 1000 * tools[i].material.filament_cost : 0;
+    cost.filament += filament;
+    report.tools.push_back(
+        {t.filament_mm, t.filament_mm3, t.filament_g, t.s, filament, t.tower_mm3, static_cast<std::size_t>(t.changes)});
+  }
+  report.cost = cost.total() > 0 ? std::optional(cost) : std::nullopt;
+}
+
 void note_statistics(const Settings& settings, const Statistics& s, Report& report) {
   report.print_time_s = s.print_time_s;
   report.filament_mm = s.filament_mm;
@@ -73,8 +95,7 @@ void note_statistics(const Settings& settings, const Statistics& s, Report& repo
   report.currency = settings.machine.currency;
   for (std::size_t i = 0; i < s.features.size(); ++i)
     report.features[i] = {s.features[i].mm, s.features[i].mm3, s.features[i].s};
-  for (const auto& t : s.tools)
-    report.tools.push_back({t.filament_mm, t.filament_mm3, t.filament_g, static_cast<std::size_t>(t.changes)});
+  note_tools(settings, s, report);
   report.walls = {static_cast<std::size_t>(s.walls.beads),
                   s.walls.variable_width_mm,
                   s.walls.flow_compensated_mm,
@@ -187,6 +208,7 @@ Planned plan(const Job& job, Printing& what, const Running& running, PlanFor use
   ToolScopes tools(job.settings);
   std::vector<ObjectScopes> of_object;
   for (const auto& object : plate.objects) of_object.push_back(scopes_of(object, tools, scopes));
+  refuse_tower_outside(job.settings, tools);
   Planned out;
   // Pictures are drawn while the model is sliced.
   const bool of_models = use == PlanFor::writing && job.settings.gcode.thumbnail_content == ThumbnailContent::model;
@@ -217,12 +239,24 @@ Planned plan(const Job& job, Printing& what, const Running& running, PlanFor use
   return out;
 }
 
+/// Files of models, where there are several of one or tools are named, so that the print can be made again.
+void note_parts(const Job& job, Report& report) {
+  for (std::size_t i = 0; i < job.models.size() && i < report.models.size(); ++i) {
+    const auto parts = parts_of(job.models[i]);
+    if (parts.size() == 1 && !parts.front().tool) continue;
+    for (const auto& part : parts)
+      report.models[i].parts.push_back(
+          {part.file, parts.size() == 1 ? report.models[i].sha256 : sha256(FileBytes(part.file).view()), part.tool});
+  }
+}
+
 /// From the plate on.
 std::optional<audit::Passed> print(const Job& job, Printing what, const Watch& watch, Report& report,
                                    StageCache* cache) {
   auto planned = plan(job, what, {watch, report, cache}, PlanFor::writing);
-  auto& [plan, packed, digests, statistics, layers] = planned.plate;
+  auto& [plan, packed, digests, statistics, layers, heat, cold_at_start, purge_wanted_mm3] = planned.plate;
   note_statistics(job.settings, statistics, report);
+  report.purge_wanted_mm3 = purge_wanted_mm3;
   begin<Stage::gcode>(watch);
   audit::Check check(job.settings.machine, job.settings.material, job.settings.audit, job.audit);
   name_custom_code(job.settings.gcode, check);
@@ -233,10 +267,11 @@ std::optional<audit::Passed> print(const Job& job, Printing what, const Watch& w
                   {},
                   provenance_lines(report.models, report.marks, job.placement) + overlay_lines(what.plate),
                   std::move(digests),
-                  tool_count(job.settings) > 1 ? settings_of_tools(job.settings) : std::vector<Settings>{}};
+                  tool_count(job.settings) > 1 ? settings_of_tools(job.settings) : std::vector<Settings>{},
+                  std::move(cold_at_start)};
   const bool of_models = job.settings.gcode.thumbnail_content == ThumbnailContent::model;
   text.thumbnails = of_models ? std::move(planned.thumbnails) : pictures_of_toolpaths(text, plan, packed);
-  write_gcode(text, plan, std::move(packed), check, report);
+  write_gcode(text, plan, std::move(packed), heat, check, report);
   begin<Stage::audit>(watch);
   auto passed = verdict_of(check, job, report);
   watch.progress("done", 1.0);
@@ -301,7 +336,9 @@ std::optional<audit::Passed> run(const Job& job, const Watch& watch, Report& rep
   return run_stages(
       job, watch, report,
       [&] {
-        return Printing{place_models(job, report, cache), {}, job.models.front()};
+        auto plate = place_models(job, report, cache);
+        note_parts(job, report);
+        return Printing{std::move(plate), {}, parts_of(job.models.front()).front().file};
       },
       [&](Printing what) { return print(job, std::move(what), watch, report, cache); });
 }
@@ -312,7 +349,7 @@ std::size_t estimate(const Job& job, const EstimateOptions& options, const Watch
   return run_stages(
       job, watch, report,
       [&] {
-        return Printing{place_models(job, report, cache), {}, job.models.front()};
+        return Printing{place_models(job, report, cache), {}, parts_of(job.models.front()).front().file};
       },
       [&](Printing what) { return figure(job, std::move(what), options, watch, report, cache); });
 }

@@ -9,7 +9,9 @@
 #include "pipeline/at_heights.h"
 #include "pipeline/check.h"
 #include "pipeline/codec.h"
+#include "pipeline/ooze_shield.h"
 #include "pipeline/passes.h"
+#include "pipeline/place_heat.h"
 #include "pipeline/sample.h"
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
@@ -235,6 +237,7 @@ struct PackedLayer {
   std::string packed;  ///< with them
   gcode::LayerDigest digest;
   Statistics statistics;
+  LayerTimes times{};
 };
 
 /// Where the start G-code leaves the nozzle, where the first travel must know it: round no-go areas and notches.
@@ -275,8 +278,8 @@ LayerPlan joined(const MovesOf& of, std::size_t layer, std::vector<LayerPlan> pa
   LayerPlan out = std::move(passes.front());
   for (std::size_t k = 0; k < passes.size(); ++k) {
     LayerPlan& own = k == 0 ? out : passes[k];
-    const auto& pass = of.passes.passes[of.passes.begin[layer] + k];
-    if (auto steps = change_before(pass, of.tools, out.time.first()); !steps.empty()) put_before(own, std::move(steps));
+    if (auto steps = change_before(of.passes, of.passes.begin[layer] + k, of.tools, out); !steps.empty())
+      put_before(own, std::move(steps));
     if (k > 0)
       out.steps.insert(out.steps.end(), std::make_move_iterator(own.steps.begin()),
                        std::make_move_iterator(own.steps.end()));
@@ -332,11 +335,15 @@ std::vector<PackedLayer> plan_moves(const MovesOf& of, std::vector<travel::Prepa
         return layer;
       },
       [&](std::size_t, Begun layer) {
-        const auto planned = motion::plan_layer({rules, of_tools, layer.loaded}, std::move(layer.plan), layer.start);
+        auto planned = motion::plan_layer({rules, of_tools, layer.loaded}, std::move(layer.plan), layer.start);
         const auto& plan = planned.plan;
         if (use == PlanFor::figures) return PackedLayer{{plan.z, plan.height, plan.time}, {}, {}, planned.statistics};
-        return PackedLayer{
-            {plan.z, plan.height, plan.time}, encode(plan), gcode::digest_of(settings, plan), planned.statistics};
+        auto times = of_tools.empty() ? LayerTimes{} : times_of(plan, std::move(planned.step_s));
+        return PackedLayer{{plan.z, plan.height, plan.time},
+                           encode(plan),
+                           gcode::digest_of(settings, plan),
+                           planned.statistics,
+                           std::move(times)};
       });
   for (auto& notice : travel::notices_of(departures)) notices.push_back(std::move(notice));
   return packed;
@@ -400,10 +407,13 @@ PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, c
   PlannedPlate out;
   auto& plan = out.plan;
   plan.objects = labels_of(plate);
-  const auto passes = passes_of(settings, tools, scopes, inputs, plan.notices);
-  const auto tower =
+  auto passes = passes_of(settings, tools, scopes, inputs, plan.notices);
+  auto beside =
       passes.has_tower() ? Regions{{tools::tower_outline(settings.tools, passes.size, passes.corner), {}}} : Regions{};
-  add_adhesion_to_rises(settings, inputs, tower, plan.notices);
+  beside.insert(beside.end(), passes.shield.begin(), passes.shield.end());
+  add_adhesion_to_rises(settings, inputs, beside, plan.notices);
+  give_adhesion(settings, tools, scopes, inputs);
+  add_ooze_shield(settings, passes.shield, passes, inputs);
   const double filament_mm = to_mm(settings.material.filament_diameter);
   for (auto& input : inputs) {
     input.z += settings.machine.z_offset;
@@ -423,14 +433,18 @@ PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, c
   const auto pauses = pauses_of(settings.tools, timeline, plan.notices);
   auto planned =
       plan_moves({scopes, tools, passes, pauses}, std::move(prepared), std::move(ordered), plan.notices, use);
+  out.purge_wanted_mm3 = passes.purged.wanted_mm3;
+  std::vector<LayerTimes> times;
   for (std::size_t i = 0; i < planned.size(); ++i) {
     auto& layer = planned[i];
+    if (tools.several()) times.push_back(std::move(layer.times));
     out.statistics.append(layer.statistics);
     if (use == PlanFor::figures) out.layers.push_back({layer.statistics, has_bottom(timeline[i], copies_on(plate))});
     plan.layers.push_back(std::move(layer.bare));
     out.digests.push_back(std::move(layer.digest));
     out.packed.push_back(std::move(layer.packed));
   }
+  if (tools.several() && use == PlanFor::writing) place_heat(tools.tools(), times, out);
   return out;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include "pipeline/pipeline.h"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,8 +11,13 @@
 namespace weft {
 
 struct Provenance {
-  struct Model {
-    std::string sha256, name;  ///< of the file, without its folder: G-code does not tell of the machine it was made on
+  /// A file, without its folder: G-code does not tell of the machine it was made on.
+  struct File {
+    std::string sha256, name;
+    std::optional<int> tool{};  ///< that was named behind it
+  };
+  struct Model : File {
+    std::vector<File> further{};  ///< parts of the same object
   };
   /// What marks something of a model for support.
   struct Mark {
@@ -27,9 +33,10 @@ struct Provenance {
   audit::Mode audit = audit::Mode::reject;
 };
 
-/// The lines that say it, each a comment: `; weft_model = SHA256 NAME`, and `; weft_placement = …` where it is not the
-/// default. Settings stand in a block of their own.
-/// Marks are `; weft_support_enforcer = NUMBER SHA256 NAME`, or `NUMBER box:…`; the number is that of the model.
+/// The lines that say it, each a comment: `; weft_model = SHA256 NAME`, with `; weft_part = SHA256 NAME` for each
+/// further part of the same object and `; weft_tool = N` after a file that names one; and `; weft_placement = …` where
+/// it is not the default. Settings stand in a block of their own. Marks are `; weft_support_enforcer = NUMBER SHA256
+/// NAME`, or `NUMBER box:…`; the number is that of the model.
 std::string provenance_lines(const std::vector<Report::Model>& models, const std::vector<Report::Mark>& marks,
                              const Placement& placement);
 

@@ -83,12 +83,23 @@ Json support_of(const Report& r) {
 
 Json tools_of(const Report& r) {
   Json out = Json::array();
-  for (const auto& t : r.tools)
-    out.push_back(
-        {{"filament",
-          {{"mm", rounded3(t.filament_mm)}, {"mm3", rounded3(t.filament_mm3)}, {"g", rounded3(t.filament_g)}}},
-         {"changes", t.changes}});
+  for (const auto& t : r.tools) {
+    Json tool{{"filament",
+               {{"mm", rounded3(t.filament_mm)}, {"mm3", rounded3(t.filament_mm3)}, {"g", rounded3(t.filament_g)}}},
+              {"s", rounded3(t.s)},
+              {"changes", t.changes},
+              {"tower_mm3", rounded3(t.tower_mm3)}};
+    if (r.cost) tool["cost"] = rounded3(t.cost);
+    out.push_back(std::move(tool));
+  }
   return out;
+}
+
+/// What was to be purged, and what of it went into the tower; the rest went into the print.
+Json purge_of(const Report& r) {
+  double tower_mm3 = 0;
+  for (const auto& t : r.tools) tower_mm3 += t.tower_mm3;
+  return {{"wanted_mm3", rounded3(r.purge_wanted_mm3)}, {"tower_mm3", rounded3(tower_mm3)}};
 }
 
 Json audit_of(const Report::Audit& a) {
@@ -140,6 +151,7 @@ std::string to_json(const Report& r) {
   out["print_time_s"] = rounded3(r.print_time_s);
   out["filament"] = {{"mm", rounded3(r.filament_mm)}, {"mm3", rounded3(r.filament_mm3)}, {"g", rounded3(r.filament_g)}};
   if (!r.tools.empty()) out["tools"] = tools_of(r);
+  if (r.purge_wanted_mm3 > 0) out["purge"] = purge_of(r);
   if (r.cost)
     out["cost"] = {{"filament", rounded3(r.cost->filament)},
                    {"machine", rounded3(r.cost->machine)},

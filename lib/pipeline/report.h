@@ -23,6 +23,12 @@ struct Report {
     std::size_t triangles = 0;
     double volume_mm3 = 0;
     std::vector<std::string> repairs;
+    /// One file of it, and the tool that is named behind it.
+    struct Part {
+      std::string file, sha256;
+      std::optional<int> tool;
+    };
+    std::vector<Part> parts{};  ///< empty: one file, of which no tool is named
   };
   /// What was laid beside a model for support.
   struct Mark {
@@ -42,6 +48,9 @@ struct Report {
   };
   struct Tool {
     double filament_mm = 0, filament_mm3 = 0, filament_g = 0;
+    double s = 0;             ///< while it is loaded
+    double cost = 0;          ///< of its filament, where there are prices
+    double tower_mm3 = 0;     ///< of that volume, what went into the tower
     std::size_t changes = 0;  ///< to it
   };
   struct Travel {
@@ -86,7 +95,8 @@ struct Report {
   std::optional<Cost> cost;  ///< when there are prices
   std::string currency;
   std::array<Feature, roles.size()> features{};
-  std::vector<Tool> tools;  ///< by number, T0 first; empty where the plan names none
+  std::vector<Tool> tools;      ///< by number, T0 first; empty where the plan names none
+  double purge_wanted_mm3 = 0;  ///< at changes of the tool: purge_volumes, or by colour
   Walls walls;
   /// The travels of a layer in their order, and a bound that no order could go below.
   struct Tour {

@@ -11,6 +11,7 @@
 #include "settings/scopes.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 /// The stages run over all layers of a plate, side by side.
@@ -48,6 +49,10 @@ struct PlannedPlate {
     bool bottom = false;  ///< of an object, whose lowest layers stand for themselves in an estimate
   };
   std::vector<Layer> layers;  ///< for figures only
+  /// Of each layer: what nozzles are told before the step of that number, ascending. Empty where there is one tool.
+  std::vector<std::vector<std::pair<std::size_t, SetTemperature>>> heat;
+  std::vector<ToolId> cold_at_start;  ///< nozzles that are heated later
+  double purge_wanted_mm3 = 0;        ///< at changes of the tool
 };
 
 /// What a plan is for: to be written, or for its figures only.

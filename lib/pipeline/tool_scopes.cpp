@@ -45,7 +45,18 @@ ToolId tool_of(const ToolSettings& t, Role role, std::uint16_t inset) {
   return any_tool;
 }
 
-ToolScopes::ToolScopes(const Settings& plate) : overlays_(tool_overlays(plate)), tools_(settings_of_tools(plate)) {}
+ToolScopes::ToolScopes(const Settings& plate) : overlays_(tool_overlays(plate)), tools_(settings_of_tools(plate)) {
+  // What any of them has otherwise every one says, so that it holds also over what another had laid before.
+  std::set<std::string_view> keys;
+  for (const auto& overlay : overlays_)
+    for (const auto& value : overlay.values) keys.insert(value.row->key);
+  for (std::size_t i = 0; i < overlays_.size(); ++i)
+    for (const auto key : keys) {
+      const auto says = [&](const auto& value) { return value.row->key == key; };
+      if (std::none_of(overlays_[i].values.begin(), overlays_[i].values.end(), says))
+        overlays_[i].add(std::string(key), find_setting(key)->print(tools_[i]), "tool_settings");
+    }
+}
 
 ScopeId ToolScopes::area(const Object& object, const std::vector<const Overlay*>& overlays, Scopes& scopes) {
   const ScopeId plain = scopes.with(0, overlays);
@@ -76,6 +87,12 @@ ScopeId ToolScopes::lowest(ScopeId area, const std::function<ScopeId(ScopeId)>& 
       by_tool_[{first, tool}] = lowest(known->second);
   }
   return first;
+}
+
+std::size_t ToolScopes::used() const {
+  std::set<ToolId> out;
+  for (const auto& [area, scope] : by_tool_) out.insert(area.second);
+  return out.size();
 }
 
 ScopeId ToolScopes::of(ScopeId area, ToolId tool) const {

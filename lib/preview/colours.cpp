@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "preview/colours.h"
 
+#include "core/table.h"
 #include "model/role.h"
 
 #include <algorithm>
@@ -30,6 +31,11 @@ Rgb colour_of(std::string_view feature) {
   return feature == "custom" ? custom : unknown;
 }
 
+Rgb colour_of(const Toolpaths& paths, const Stroke& stroke, Colour colour) {
+  return colour == Colour::tool ? tool_colours[stroke.tool % tool_colours.size()]
+                                : colour_of(paths.features[stroke.feature]);
+}
+
 Rgb ramp(double share) {
   const double at = std::clamp(share, 0.0, 1.0) * (viridis.size() - 1);
   const std::size_t i = std::min(static_cast<std::size_t>(at), viridis.size() - 2);
@@ -47,9 +53,23 @@ std::string css(Rgb c) {
   return fmt::format("#{:02x}{:02x}{:02x}", c.r, c.g, c.b);
 }
 
+namespace {
+
+struct ColourRow {
+  Colour colour;
+  std::string_view name, unit;
+};
+constexpr std::array colour_rows{ColourRow{Colour::feature, "feature", ""}, ColourRow{Colour::tool, "tool", ""},
+                                 ColourRow{Colour::width, "width", "mm"}, ColourRow{Colour::speed, "speed", "mm/s"},
+                                 ColourRow{Colour::flow, "flow", "mm3/s"}};
+static_assert(in_order(colour_rows, &ColourRow::colour), "row i of colour_rows is colour i");
+
+}  // namespace
+
 double measure(const Stroke& stroke, Colour colour) {
   switch (colour) {
     case Colour::feature:
+    case Colour::tool:
       return 0;
     case Colour::width:
       return to_mm(stroke.width);
@@ -62,31 +82,17 @@ double measure(const Stroke& stroke, Colour colour) {
 }
 
 std::string_view name_of(Colour colour) {
-  switch (colour) {
-    case Colour::feature:
-      return "feature";
-    case Colour::width:
-      return "width";
-    case Colour::speed:
-      return "speed";
-    case Colour::flow:
-      return "flow";
-  }
-  return "feature";
+  return row_of(colour_rows, colour).name;
+}
+
+std::optional<Colour> colour_named(std::string_view name) {
+  for (const auto& row : colour_rows)
+    if (row.name == name) return row.colour;
+  return std::nullopt;
 }
 
 std::string_view unit_of(Colour colour) {
-  switch (colour) {
-    case Colour::feature:
-      return "";
-    case Colour::width:
-      return "mm";
-    case Colour::speed:
-      return "mm/s";
-    case Colour::flow:
-      return "mm3/s";
-  }
-  return "";
+  return row_of(colour_rows, colour).unit;
 }
 
 Range range_of(const Toolpaths& paths, std::size_t first_layer, std::size_t last_layer, Colour colour) {

@@ -3,12 +3,32 @@
 #include "preview/image.h"
 #include "preview/preview.h"
 
+#include <array>
 #include <string_view>
 
 namespace weft::preview {
 
 /// The colour of a feature; grey for one that weft has no name for.
 Rgb colour_of(std::string_view feature);
+
+/// Of tools, apart also for the colour-blind; after the last the first again.
+/// Source: Okabe and Ito 2008, "Color universal design".
+inline constexpr std::array<Rgb, 8> tool_colours{{{230, 159, 0},
+                                                  {86, 180, 233},
+                                                  {0, 158, 115},
+                                                  {240, 228, 66},
+                                                  {0, 114, 178},
+                                                  {213, 94, 0},
+                                                  {204, 121, 167},
+                                                  {120, 120, 120}}};
+
+/// Does the colour name a kind, and tell no number?
+inline bool names_kinds(Colour colour) {
+  return colour == Colour::feature || colour == Colour::tool;
+}
+
+/// The colour of a bead by its kind. Pre: names_kinds(colour)
+Rgb colour_of(const Toolpaths& paths, const Stroke& stroke, Colour colour);
 
 /// From dark violet (0) over green to yellow (1), even to the eye and for the colour-blind. Source: the viridis map.
 Rgb ramp(double share);

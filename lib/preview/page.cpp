@@ -23,16 +23,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Of tools, apart also for the colour-blind. Source: Okabe and Ito 2008, "Color universal design".
-constexpr std::array<Rgb, 8> tool_colours{{{230, 159, 0},
-                                           {86, 180, 233},
-                                           {0, 158, 115},
-                                           {240, 228, 66},
-                                           {0, 114, 178},
-                                           {213, 94, 0},
-                                           {204, 121, 167},
-                                           {120, 120, 120}}};
-
 Json json_of(const Ring& ring) {
   Json out = Json::array();
   for (const Point p : ring) out.push_back({to_mm(p.x), to_mm(p.y)});

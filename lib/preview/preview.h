@@ -13,8 +13,9 @@
 namespace weft::preview {
 
 /// What the colour of a bead tells.
-enum class Colour : std::uint8_t { feature, width, speed, flow };
+enum class Colour : std::uint8_t { feature, tool, width, speed, flow };
 std::string_view name_of(Colour colour);
+std::optional<Colour> colour_named(std::string_view name);
 
 /// How toolpaths are shown.
 struct View {

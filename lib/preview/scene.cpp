@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <span>
 
 #include <fmt/format.h>
@@ -52,6 +53,14 @@ void add_legend(Scene& scene, const Toolpaths& paths, const View& view, std::spa
         std::replace(name.begin(), name.end(), '_', ' ');
         scene.legend.push_back({colour_of(paths.features[i]), std::move(name)});
       }
+  } else if (view.colour == Colour::tool) {
+    std::set<int> present;
+    for (const PathLayer& layer : layers)
+      for (const Stroke& stroke : layer.strokes)
+        if (stroke.extrudes()) present.insert(stroke.tool);
+    for (const int tool : present)
+      scene.legend.push_back(
+          {tool_colours[static_cast<std::size_t>(tool) % tool_colours.size()], fmt::format("tool {}", tool)});
   } else {
     constexpr int steps = 6;
     const int rows = range.most > range.least ? steps : 1;
@@ -90,9 +99,9 @@ Scene scene_of(const Toolpaths& paths, const View& view, const std::optional<Ove
       if (view.travels && stroke.from != stroke.to) append(scene.travels, stroke, 0, travel_colour);
       continue;
     }
-    const bool by_feature = view.colour == Colour::feature || custom(paths, stroke);
-    const Rgb colour =
-        by_feature ? colour_of(paths.features[stroke.feature]) : ramp(range.share(measure(stroke, view.colour)));
+    const Rgb colour = names_kinds(view.colour) ? colour_of(paths, stroke, view.colour)
+                       : custom(paths, stroke)  ? colour_of(paths.features[stroke.feature])
+                                                : ramp(range.share(measure(stroke, view.colour)));
     append(scene.beads, stroke, stroke.width, colour);
     // marks are nearly as red as what is outside, which is what a picture with an overlay is asked about
     if (stroke.compensated && !overlay) append(scene.marks, stroke, 0, compensated_colour);

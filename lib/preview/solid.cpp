@@ -121,8 +121,8 @@ class Beads {
   }
   Rgb colour(std::size_t layer, std::size_t k) const {
     const Stroke& s = paths_.layers[layer].strokes[k];
-    return view_.colour == Colour::feature ? colour_of(paths_.features[s.feature])
-                                           : ramp(range_.share(measure(s, view_.colour)));
+    return names_kinds(view_.colour) ? colour_of(paths_, s, view_.colour)
+                                     : ramp(range_.share(measure(s, view_.colour)));
   }
 
  private:

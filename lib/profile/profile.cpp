@@ -95,7 +95,7 @@ prusaslicer::Translation apply_foreign(Profile& profile, Foreign foreign, const 
           profile.origins[a.key].push_back(
               {fmt::format("{}:{}", path, e.line), e.value, fmt::format("[{}] {} = {}", e.section, e.key, e.value)});
     apply_value(profile, a.key, a.text, place_of(path, a.line, a.theirs));
-    profile.origins[a.key].back().source = a.source;
+    profile.origins[tool_key(a.key) ? "tool_settings" : a.key].back().source = a.source;
   }
   for (const auto& a : translated.assignments)
     if (a.key.starts_with("machine_reach")) take_reach(profile, a, path, bed);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <stdexcept>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -145,6 +146,30 @@ void check_heights(const Profile& profile, std::size_t count) {
   }
 }
 
+void check_gradient(const Profile& profile, std::size_t count) {
+  const auto& t = profile.settings.tools;
+  if (!t.gradient_tools) return;
+  const auto& tools = *t.gradient_tools;
+  if (tools.size() != 2)
+    refuse(profile, "gradient_tools", fmt::format("{} tools", tools.size()), "two of them, as in 0, 1");
+  for (const double tool : tools) {
+    if (!(tool >= 0 && tool <= 31) || tool != static_cast<int>(tool))
+      refuse(profile, "gradient_tools", fmt::format("'{}' is no tool", tool), "two numbers, as in 0, 1");
+    if (t.gradient_mode != GradientMode::mix && static_cast<std::size_t>(tool) >= count)
+      refuse_number(profile, "gradient_tools", static_cast<std::size_t>(tool), count);
+  }
+  if (t.gradient_stops.empty()) refuse(profile, "gradient_stops", "is empty", "shares at places, as in 0:0, 30:100");
+  for (const auto& stop : t.gradient_stops)
+    if (!(stop.value >= 0 && stop.value <= 100))
+      refuse(profile, "gradient_stops", fmt::format("{} is no share", stop.value), "0 … 100 % of the second tool");
+  if (t.gradient_mode != GradientMode::mix) return;
+  const auto firmware = profile.settings.machine.firmware;
+  if (firmware == Firmware::klipper || firmware == Firmware::smoothie)
+    refuse(profile, "gradient_mode", "the firmware has no command for a mixing nozzle", "lines, or layers");
+  if (t.gradient_axis != GradientAxis::z)
+    refuse(profile, "gradient_mode", "a nozzle mixes by layers", "gradient_axis = z, or gradient_mode = lines");
+}
+
 }  // namespace
 
 void check_tools(const Profile& profile) {
@@ -162,7 +187,12 @@ void check_tools(const Profile& profile) {
            fmt::format("give {}: a row for each tool that is unloaded", count * count));
   if (t.purge_volumes && std::any_of(t.purge_volumes->begin(), t.purge_volumes->end(), [](double v) { return v < 0; }))
     refuse(profile, "purge_volumes", "a volume is below 0", "mm³ from each tool to each");
-  (void)tool_overlays(profile.settings);
+  for (const auto& tool : settings_of_tools(profile.settings)) try {
+      (void)ramming_flows(tool.tools.filament_ramming_parameters);
+    } catch (const std::invalid_argument& error) {
+      refuse(profile, "filament_ramming_parameters", error.what(), "as in 120 100 6.6 6.8 7.2");
+    }
+  check_gradient(profile, count);
 }
 
 }  // namespace weft

@@ -6,6 +6,7 @@
 #include "prusaslicer/custom.h"
 #include "prusaslicer/import_single.h"
 #include "prusaslicer/import_support.h"
+#include "prusaslicer/import_tools.h"
 #include "prusaslicer/keys.h"
 #include "prusaslicer/lines.h"
 #include "prusaslicer/overhangs.h"
@@ -30,7 +31,10 @@ using value::number;
 /// The arithmetic between the lines of a configuration.
 class Translator {
  public:
-  explicit Translator(Lines lines) : lines_(std::move(lines)) {}
+  explicit Translator(Lines lines) : lines_(std::move(lines)), whole_(lines_) {}
+  /// Of one of several extruders. @param whole with all of their lists
+  Translator(Lines lines, Lines whole, std::size_t extruders)
+      : lines_(std::move(lines)), whole_(std::move(whole)), extruders_(extruders) {}
 
   Translation run() {
     machine();
@@ -44,7 +48,10 @@ class Translator {
     seams();
     singles();
     extrusion();
-    texts();
+    if (extruders_ > 1)
+      import_tools(lines_, whole_, extruders_, outlet());
+    else
+      texts();
     for (const auto& row : ported_keys()) copy(row);
     custom();
     for (const auto& e : lines_.commented()) approximate(e, "what stands behind the number is taken for a comment");
@@ -117,9 +124,6 @@ class Translator {
     for_each_reckoned(Form::limit, [&](const Key& row) {
       if (const auto* e = lines_.find(row.name)) limit(std::string(row.ours), *e);
     });
-    if (const auto* e = lines_.look("nozzle_diameter"); e && e->line != 0)
-      if (const auto n = elements_of(e->key, e->value).size(); n > 1)
-        approximate(*e, fmt::format("weft prints with the first of {} extruders", n));
     if (const auto* e = lines_.look("gcode_flavor"))
       set("write_extrusion", e->value == "no-extrusion" ? "false" : "true", *e);
   }
@@ -425,7 +429,7 @@ class Translator {
             reach.setting == "machine_reach_z_max" && height && height->line != 0 ? *height : *bed);
         out_.assignments.back().source += fmt::format(", and {} ({})", reach.why, reach.beyond);
       }
-    const auto variables = variables_of(lines_);
+    const auto variables = variables_of(extruders_ > 1 ? whole_ : lines_);
     for (const auto* key : {"start_gcode", "end_gcode", "before_layer_gcode", "layer_gcode"})
       if (const auto* e = lines_.look(key); e && !variables.empty()) {
         set("gcode_variables", variables, *e);
@@ -434,16 +438,16 @@ class Translator {
       }
   }
 
-  void singles() {
-    import_single_keys(
-        lines_, infill_mm_s_, solid_mm_s_,
-        {.set = [&](std::string_view key, std::string text, const IniEntry& e) { set(key, std::move(text), e); },
-         .approximate = [&](const IniEntry& e, std::string why) { approximate(e, std::move(why)); },
-         .instead_of =
-             [&](std::string_view key) {
-               lines_.find(key);
-               done_.insert(key);
-             }});
+  void singles() { import_single_keys(lines_, infill_mm_s_, solid_mm_s_, outlet()); }
+
+  Outlet outlet() {
+    return {.set = [&](std::string_view key, std::string text, const IniEntry& e) { set(key, std::move(text), e); },
+            .approximate = [&](const IniEntry& e, std::string why) { approximate(e, std::move(why)); },
+            .instead_of =
+                [&](std::string_view key) {
+                  lines_.find(key);
+                  done_.insert(key);
+                }};
   }
 
   void sort_out_the_rest() {
@@ -467,6 +471,8 @@ class Translator {
   }
 
   Lines lines_;
+  Lines whole_;  ///< with lists of all extruders
+  std::size_t extruders_ = 1;
   std::set<std::string_view> done_;  ///< keys whose setting was reckoned otherwise
   double nozzle_ = 0.4, height_ = 0.2, solid_width_ = 0.45, infill_mm_s_ = 80, solid_mm_s_ = 20;
   Translation out_;
@@ -482,7 +488,13 @@ Translation translate(std::vector<IniEntry> entries, const std::string& path, bo
     all.insert(all.end(), std::make_move_iterator(entries.begin()), std::make_move_iterator(entries.end()));
     entries = std::move(all);
   }
-  return Translator(Lines(std::move(entries), path)).run();
+  const auto extruders = extruders_in(entries);
+  if (extruders == 1) return Translator(Lines(std::move(entries), path)).run();
+  const Lines whole(entries, path);
+  auto out = Translator(Lines(of_extruder(entries, 0), path), whole, extruders).run();
+  for (std::size_t i = 1; i < extruders; ++i)
+    add_differences(i, Translator(Lines(of_extruder(entries, i), path), whole, extruders).run(), out);
+  return out;
 }
 
 }  // namespace weft::prusaslicer

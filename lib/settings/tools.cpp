@@ -2,8 +2,12 @@
 #include "settings/tools.h"
 
 #include "core/error.h"
+#include "settings/value.h"
 
 #include <algorithm>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -52,6 +56,29 @@ std::vector<Settings> settings_of_tools(const Settings& settings) {
     lay(out.back(), overlay);
   }
   return out;
+}
+
+std::vector<double> ramming_flows(const std::string& text) {
+  std::vector<double> out;
+  std::istringstream words(text.substr(0, text.find('|')));
+  for (std::string word; words >> word;) {
+    double v = 0;
+    value::parse(word, Unit::none, v);
+    if (!(v > 0 && v <= 1000)) throw std::invalid_argument("'" + word + "' is not a number above 0");
+    out.push_back(v);
+  }
+  if (out.empty()) return out;
+  if (out.size() < 3) throw std::invalid_argument("it has no flows behind width and spacing");
+  out.erase(out.begin(), out.begin() + 2);
+  return out;
+}
+
+double share_at(const ValuesAt& stops, double at) {
+  const auto after = std::find_if(stops.begin(), stops.end(), [&](const ValueAt& stop) { return stop.at > at; });
+  if (after == stops.begin()) return stops.front().value / 100;
+  const auto& below = *std::prev(after);
+  if (after == stops.end()) return below.value / 100;
+  return (below.value + (after->value - below.value) * (at - below.at) / (after->at - below.at)) / 100;
 }
 
 int nozzle_of(const std::vector<Settings>& tools, std::size_t tool) {

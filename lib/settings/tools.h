@@ -21,7 +21,8 @@ inline constexpr std::array tool_number_keys{"extruder_nr",
                                              "roofing_extruder_nr",
                                              "adhesion_extruder_nr",
                                              "support_infill_extruder_nr",
-                                             "support_interface_extruder_nr"};
+                                             "support_interface_extruder_nr",
+                                             "prime_tower_extruder_nr"};
 
 /// May it be given for each tool, as a list between commas: `0.4, 0.6`? Texts and points hold commas of their own.
 bool listed_by_tool(const CatalogueEntry& entry);
@@ -41,6 +42,13 @@ std::vector<Overlay> tool_overlays(const Settings& settings);
 
 /// The settings of each tool. As many as there are tools.
 std::vector<Settings> settings_of_tools(const Settings& settings);
+
+/// The flows of filament_ramming_parameters, mm³/s: what stands behind width and spacing, as far as a bar.
+/// @throws std::invalid_argument for what is no number, and flows that are not above 0
+std::vector<double> ramming_flows(const std::string& text);
+
+/// The share at a place, 0 … 1, straight between stops. Pre: there is one
+double share_at(const ValuesAt& stops, double at);
 
 /// The nozzle that a tool's filament is in: tools of equal numbers share it.
 int nozzle_of(const std::vector<Settings>& tools, std::size_t tool);

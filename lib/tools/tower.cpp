@@ -101,40 +101,85 @@ TowerSize tower_size(const ToolSettings& settings, std::span<const TowerLayer> l
   return out;
 }
 
-std::vector<TowerBeads> tower_beads(const ToolSettings& settings, const TowerSize& size, const TowerLayer& layer,
-                                    std::size_t index, Point corner) {
+namespace {
+
+/// Where a layer's lines run.
+struct Lines {
+  Um line = 0;
+  bool along_y = false;
+  Um begin = 0, end = 0;   ///< of each line; the ends are round
+  Um first = 0, last = 0;  ///< of their middles, across
+  Um height = 0;
+
+  double mm3(const Bead& bead) const { return volume_mm3(bead, height); }
+};
+
+/// What fills the room behind the strips: dense in the lowest layer.
+std::optional<Bead> grid(const ToolSettings& settings, const Lines& lines, std::size_t index, Um at) {
+  const Um pitch = index == 0 ? lines.line : std::max(lines.line, settings.prime_tower_max_bridging_distance);
+  const Um room = lines.last - at;
+  if (room < 0) return std::nullopt;
+  const Um first = index == 0 ? at : at + std::min(room, pitch / 2);
+  const Um count = (lines.last - first) / pitch + 1;
+  return bead_of(zigzag(first, pitch, count, lines.begin, lines.end, lines.along_y), lines.line, false);
+}
+
+/// The wall, and the brim of the lowest layer.
+Beads walls(const ToolSettings& settings, const TowerSize& size, std::size_t index) {
   const Um line = size.line;
-  const bool along_y = index % 2 != 0;
-  const Um along = along_y ? size.depth : size.width, across = along_y ? size.width : size.depth;
-  const Um begin = line + line / 2, end = along - line - line / 2;  // the ends of lines are round
-  std::vector<TowerBeads> out;
-  const auto add = [&](std::size_t pass, Bead bead) {
-    auto at = std::find_if(out.begin(), out.end(), [&](const TowerBeads& b) { return b.pass == pass; });
-    if (at == out.end()) at = out.insert(out.end(), TowerBeads{pass, {}});
-    for (auto& junction : bead.path) junction.at = turned(junction.at, settings.prime_tower_angle, corner);
-    at->beads.push_back(std::move(bead));
-  };
-  Um at = line + line / 2;
-  for (const auto& strip : layer.strips) {
-    if (strip.mm3 <= 0) continue;
-    const Um count = lines_of(strip.mm3, line, layer.height, inner(along, line));
-    add(strip.pass, bead_of(zigzag(at, line, count, begin, end, along_y), line, false));
-    at += count * line;
-  }
-  const Um pitch = index == 0 ? line : std::max(line, settings.prime_tower_max_bridging_distance);
-  const Um room = across - line - line / 2 - at;
-  if (room >= 0) {
-    const Um first = index == 0 ? at : at + std::min(room, pitch / 2);
-    const Um count = (across - line - line / 2 - first) / pitch + 1;
-    add(layer.first_pass, bead_of(zigzag(first, pitch, count, begin, end, along_y), line, false));
-  }
   Bead wall = bead_of(rectangle(line / 2, size.width, size.depth), line, true);
   // The seam goes round, so that it is no edge that the tower breaks along.
   std::rotate(wall.path.begin(), wall.path.begin() + static_cast<std::ptrdiff_t>(index % 4), wall.path.end());
-  add(layer.first_pass, std::move(wall));
+  Beads out{std::move(wall)};
   if (index == 0)
     for (Um out_by = line; out_by <= settings.prime_tower_brim_width; out_by += line)
-      add(layer.first_pass, bead_of(rectangle(line / 2 - out_by, size.width, size.depth), line, true));
+      out.push_back(bead_of(rectangle(line / 2 - out_by, size.width, size.depth), line, true));
+  return out;
+}
+
+}  // namespace
+
+std::vector<TowerBeads> tower_beads(const ToolSettings& settings, const TowerSize& size, const TowerLayer& layer,
+                                    std::size_t index, Point corner) {
+  const bool along_y = index % 2 != 0;
+  const Um line = size.line, half = line + line / 2;
+  const Um along = along_y ? size.depth : size.width, across = along_y ? size.width : size.depth;
+  const Lines lines{line, along_y, half, along - half, half, across - half, layer.height};
+  auto around = walls(settings, size, index);
+  double of_walls = 0;
+  for (const Bead& bead : around) of_walls += lines.mm3(bead);
+  std::vector<TowerBeads> out;
+  const auto add = [&](std::size_t pass, Bead bead, bool ram = false) {
+    auto at = std::find_if(out.begin(), out.end(), [&](const auto& b) { return b.pass == pass && b.ram == ram; });
+    if (at == out.end()) at = out.insert(out.end(), TowerBeads{pass, {}, ram});
+    for (auto& junction : bead.path) junction.at = turned(junction.at, settings.prime_tower_angle, corner);
+    at->beads.push_back(std::move(bead));
+  };
+  // The strip of what prints the wall comes last: it is as wide as wall and grid leave to be purged.
+  Um at = half;
+  const TowerLayer::Strip* last = nullptr;
+  for (const auto& strip : layer.strips) {
+    if (strip.mm3 <= 0) continue;
+    if (layer.wall_purges && strip.pass == layer.wall_pass && !strip.ram) {
+      last = &strip;
+      continue;
+    }
+    const Um count = lines_of(strip.mm3, line, layer.height, inner(along, line));
+    add(strip.pass, bead_of(zigzag(at, line, count, lines.begin, lines.end, along_y), line, false), strip.ram);
+    at += count * line;
+  }
+  for (Um count = 0; last != nullptr; ++count) {
+    std::optional<Bead> strip;
+    if (count > 0) strip = bead_of(zigzag(at, line, count, lines.begin, lines.end, along_y), line, false);
+    const auto rest = grid(settings, lines, index, at + count * line);
+    const double sum = of_walls + (strip ? lines.mm3(*strip) : 0) + (rest ? lines.mm3(*rest) : 0);
+    if (sum < last->mm3 && at + count * line <= lines.last) continue;
+    if (strip) add(last->pass, std::move(*strip));
+    at += count * line;
+    break;
+  }
+  if (auto rest = grid(settings, lines, index, at)) add(layer.wall_pass, std::move(*rest));
+  for (Bead& bead : around) add(layer.wall_pass, std::move(bead));
   return out;
 }
 

@@ -18,9 +18,11 @@ struct TowerLayer {
   struct Strip {
     std::size_t pass = 0;  ///< the caller's number of what it is purged before
     double mm3 = 0;
+    bool ram = false;  ///< what is left of the filament before is shaped there, before the change
   };
-  std::vector<Strip> strips;   ///< in the order they are printed
-  std::size_t first_pass = 0;  ///< what prints wall and grid
+  std::vector<Strip> strips;  ///< in the order they are printed
+  std::size_t wall_pass = 0;  ///< what prints wall and grid
+  bool wall_purges = false;   ///< … which count to what that pass is to purge
 };
 
 /// The upright box that all layers fit in, in coordinates of its own: from 0, 0.
@@ -38,13 +40,14 @@ TowerSize tower_size(const ToolSettings& settings, std::span<const TowerLayer> l
 struct TowerBeads {
   std::size_t pass = 0;
   Beads beads;
+  bool ram = false;  ///< of such a strip: one bead
 };
 
 /// Strips side by side, each crossing all of the tower, along X in even layers and along Y in odd ones, so that each
 /// crosses every filament below; then lines prime_tower_max_bridging_distance apart, and a wall around all.
 /// @param index of the layer, from 0; the lowest is dense, and has the brim
 /// @param corner where 0, 0 of the tower comes to lie; it is turned about that by prime_tower_angle
-/// Post: the volume of a strip's beads is what it is to purge, or more to the end of its line.
+/// Post: the volume of what a pass lays down is what it is to purge, or more to the end of its line.
 std::vector<TowerBeads> tower_beads(const ToolSettings& settings, const TowerSize& size, const TowerLayer& layer,
                                     std::size_t index, Point corner);
 

@@ -154,6 +154,18 @@ TEST_CASE("cli: a tower that is told to stand outside the bed is refused with ho
   CHECK_FALSE(boxes.scratch.has("out.gcode"));
 }
 
+TEST_CASE("cli: the last place where the tower fits passes, and the next one is refused") {
+  const Boxes boxes;
+  const auto at = [&](const std::string& x, int status) {
+    return boxes.slice({"a.stl", "b.stl@T1", "-s", "tool_nozzles=0,0", "-s", "prime_tower_position_x=" + x, "-s",
+                        "prime_tower_position_y=20", "-s", "prime_tower_width=40", "-s", "machine_width=200"},
+                       status);
+  };
+  // 40 mm and a brim of four lines of 0.5 mm.
+  CHECK_THAT(at("158", 0), Contains(";TYPE:Wipe tower"));
+  CHECK_THAT(at("158.5", 5), Contains("leaves the print surface by 0.5 mm at +x"));
+}
+
 TEST_CASE("cli: a tool that there is not is refused by name") {
   const Boxes boxes;
   CHECK_THAT(boxes.slice({"a.stl@T4", "-p", "two.ini"}, 3),
@@ -204,4 +216,183 @@ TEST_CASE(
   const double outer = report["tools"][0]["filament"]["mm3"], inner = report["tools"][1]["filament"]["mm3"];
   CHECK(inner == Approx(32).epsilon(0.15));
   CHECK(outer == Approx(200 - 32).epsilon(0.15));
+}
+
+TEST_CASE("cli: a nozzle that waits for long is cooled and heated again before its tool comes") {
+  const Boxes boxes;
+  boxes.scratch.write("high.stl", box_stl(40, 40, 2));
+  // T1 prints the first two layers and the last one.
+  const auto gcode = boxes.slice({"high.stl", "-p", "two.ini", "-s", "firmware=marlin2", "-s",
+                                  "tool_change_at_heights=0 = 1; 0.4 = 0; 1.8 = 1", "-s", "adhesion_type=none"});
+  const auto lines = lines_of(gcode);
+  const auto at = [&](const std::string& line) { return std::find(lines.begin(), lines.end(), line) - lines.begin(); };
+  const auto end = static_cast<std::ptrdiff_t>(lines.size());
+  CHECK(at("M104 T1 S190") < at("T0"));  // told before it is put away
+  const auto heated = at("M104 T1 S230");
+  REQUIRE(heated < end);
+  CHECK(heated > at("T0"));
+  const auto back = std::find(lines.begin() + heated, lines.end(), "T1") - lines.begin();
+  REQUIRE(back < end);
+  CHECK(std::find(lines.begin() + heated, lines.begin() + back, ";LAYER_CHANGE") != lines.begin() + back);
+  CHECK(std::find(lines.begin() + heated, lines.begin() + back, "M104 T0 S0") != lines.begin() + back);  // T0 is done
+}
+
+TEST_CASE("cli: filaments that do not go together are told, or refused") {
+  const Boxes boxes;
+  const auto run = weft({"slice", "a.stl", "b.stl@T1", "-o", "out.gcode", "-s", "tool_nozzles=0,0", "-s",
+                         "material_print_temperature=210,240", "-s", "material_print_temperature_max=230,auto"},
+                        boxes.scratch.path());
+  CHECK(run.status == 0);
+  CHECK_THAT(run.err, Contains("T1 (PLA) is printed at 240 °C") && Contains("stands 230 °C"));
+  CHECK_THAT(boxes.slice({"a.stl", "b.stl@T1", "-s", "tool_nozzles=0,0", "-s", "filament_diameter=1.75,2.85"}, 3),
+             Contains("share a nozzle, and are 1.75 and 2.85 mm thick"));
+  CHECK_THAT(boxes.slice({"a.stl", "b.stl@T1", "-s", "nozzle_diameter=0.4,0.15"}, 3),
+             Contains("its nozzle is 0.15 mm wide"));
+}
+
+TEST_CASE("cli: the bed is as the first tool of the print wants it") {
+  const Boxes boxes;
+  const auto gcode =
+      boxes.slice({"a.stl@T1", "-p", "two.ini", "-s", "material_bed_temperature=60,80", "-s", "firmware=marlin2"});
+  CHECK(count_of(gcode, "M190 S80") == 1);
+  CHECK(count_of(gcode, "M190 S60") == 0);
+}
+
+TEST_CASE("cli: tools are reported with their cost, time and share of the tower") {
+  const Boxes boxes;
+  boxes.slice({"a.stl", "b.stl@T1", "-s", "tool_nozzles=0,0", "-s", "filament_cost=20,50", "--report", "out.json"});
+  const auto report = json::parse(boxes.scratch.read("out.json"));
+  const auto& tools = report["tools"];
+  REQUIRE(tools.size() == 2);
+  CHECK(tools[1]["cost"].get<double>() / tools[1]["filament"]["g"].get<double>() == Approx(0.05).epsilon(0.01));
+  CHECK(tools[0]["cost"].get<double>() + tools[1]["cost"].get<double>() ==
+        Approx(report["cost"]["filament"].get<double>()).margin(0.002));
+  CHECK(tools[0]["s"].get<double>() + tools[1]["s"].get<double>() ==
+        Approx(report["print_time_s"].get<double>()).epsilon(0.01));
+  const double tower = tools[0]["tower_mm3"].get<double>() + tools[1]["tower_mm3"].get<double>();
+  CHECK(tower == Approx(report["features"]["wipe_tower"]["mm3"].get<double>()).epsilon(0.001));
+  CHECK(report["purge"]["wanted_mm3"].get<double>() == Approx(10 * 140));
+  CHECK(report["purge"]["tower_mm3"].get<double>() >= 10 * 140);
+}
+
+TEST_CASE("cli: what is purged goes into infill first, and less of it into the tower") {
+  const Boxes boxes;
+  boxes.scratch.write("block.stl", box_stl(30, 30, 2));
+  const std::vector<std::string> words{"block.stl", "b.stl@T1", "-s", "tool_nozzles=0,0", "--report", "out.json"};
+  boxes.slice(words);
+  const auto plain = json::parse(boxes.scratch.read("out.json"));
+  auto into = words;
+  into.insert(into.end(), {"-s", "purge_into_infill=true"});
+  boxes.slice(into);
+  const auto report = json::parse(boxes.scratch.read("out.json"));
+  CHECK(report["purge"]["tower_mm3"].get<double>() < plain["purge"]["tower_mm3"].get<double>());
+  CHECK(report["features"]["infill"]["mm3"].get<double>() ==
+        Approx(plain["features"]["infill"]["mm3"].get<double>()).epsilon(0.001));
+  CHECK(report["tools"][1]["filament"]["mm3"].get<double>() - report["tools"][1]["tower_mm3"].get<double>() >
+        plain["tools"][1]["filament"]["mm3"].get<double>() - plain["tools"][1]["tower_mm3"].get<double>());
+  CHECK(report["audit"]["verdict"] == "pass");
+}
+
+TEST_CASE("cli: a print with a tool behind a model, or of parts, is made again byte for byte") {
+  const Boxes boxes;
+  boxes.scratch.write("inner.stl", box_stl(4, 4, 2));
+  boxes.slice({"a.stl+inner.stl@T1", "b.stl@T1", "-p", "two.ini"});
+  const auto run = weft({"verify", "out.gcode"}, boxes.scratch.path());
+  INFO(run.err);
+  CHECK(run.status == 0);
+}
+
+TEST_CASE("cli: batch and sweep know tools and parts") {
+  const Boxes boxes;
+  boxes.scratch.write("inner.stl", box_stl(4, 4, 2));
+  boxes.scratch.write("jobs.jsonl", R"({"id":"one","models":["a.stl+inner.stl@T1"]}
+{"id":"two","models":["b.stl@T1"]}
+)");
+  const auto batch = weft({"batch", "jobs.jsonl", "-o", "done", "-p", "two.ini"}, boxes.scratch.path());
+  INFO(batch.err);
+  REQUIRE(batch.status == 0);
+  const auto sweep = weft({"sweep", "b.stl@T1", "-p", "two.ini", "--vary", "layer_height=0.2,0.3", "-o", "swept"},
+                          boxes.scratch.path());
+  INFO(sweep.err);
+  CHECK(sweep.status == 0);
+}
+
+TEST_CASE("cli: pictures of a layer by tool") {
+  const Boxes boxes;
+  boxes.slice({"a.stl", "b.stl@T1", "-p", "two.ini"});
+  const auto run =
+      weft({"preview", "out.gcode", "-o", "tools.svg", "--colour", "tool", "--layer", "3"}, boxes.scratch.path());
+  INFO(run.err);
+  REQUIRE(run.status == 0);
+  const auto svg = boxes.scratch.read("tools.svg");
+  CHECK_THAT(svg, Contains("tool 0") && Contains("tool 1") && Contains("#e69f00") && Contains("#56b4e9"));
+}
+
+TEST_CASE("cli: a gradient over the height has the share that is asked for, within 2 % over 20 layers") {
+  const Boxes boxes;
+  boxes.scratch.write("tall.stl", box_stl(20, 20, 8));
+  for (const std::string mode : {"lines", "layers"}) {
+    boxes.slice({"tall.stl", "-p", "two.ini", "-s", "gradient_tools=0,1", "-s", "gradient_stops=0:25", "-s",
+                 "gradient_mode=" + mode, "-s", "adhesion_type=none", "--report", "out.json", "-s", "top_layers=0",
+                 "-s", "bottom_layers=0"});
+    const auto report = json::parse(boxes.scratch.read("out.json"));
+    REQUIRE(report["tools"].size() == 2);
+    const double first = report["tools"][0]["filament"]["mm3"], second = report["tools"][1]["filament"]["mm3"];
+    INFO(mode);
+    CHECK(second / (first + second) == Approx(0.25).margin(0.02));
+  }
+}
+
+TEST_CASE("cli: a nozzle that mixes is told its share, and firmware that cannot is refused") {
+  const Boxes boxes;
+  const std::vector<std::string> words{
+      "a.stl", "-s", "gradient_tools=0,1", "-s", "gradient_stops=0:0, 2:100", "-s", "gradient_mode=mix"};
+  auto marlin = words, rrf = words, klipper = words;
+  marlin.insert(marlin.end(), {"-s", "firmware=marlin2"});
+  CHECK_THAT(boxes.slice(marlin), Contains("M163 S0 P0.500\nM163 S1 P0.500\nM164 S0\n"));
+  rrf.insert(rrf.end(), {"-s", "firmware=reprapfirmware"});
+  CHECK_THAT(boxes.slice(rrf), Contains("M567 P0 E0.000:1.000\n"));
+  klipper.insert(klipper.end(), {"-s", "firmware=klipper"});
+  CHECK_THAT(boxes.slice(klipper, 3), Contains("gradient_mode: the firmware has no command for a mixing nozzle"));
+}
+
+TEST_CASE("cli: a shield stands around everything up to the last change") {
+  const Boxes boxes;
+  const auto gcode = boxes.slice({"a.stl", "b.stl@T1", "-p", "two.ini", "-s", "ooze_shield_enabled=true", "-s",
+                                  "adhesion_type=none", "--report", "out.json"});
+  const auto report = json::parse(boxes.scratch.read("out.json"));
+  CHECK(report["features"]["skirt"]["mm"].get<double>() > 10 * 80);  // ten layers around two boxes of 10 mm
+  CHECK(report["audit"]["verdict"] == "pass");
+}
+
+TEST_CASE("cli: a filament that the file draws out of a shared nozzle is shaped, parked, and the other pushed in") {
+  const Boxes boxes;
+  const auto gcode = boxes.slice({"a.stl",    "b.stl@T1",
+                                  "-s",       "tool_nozzles=0,0",
+                                  "-s",       "firmware=marlin2",
+                                  "-s",       "parking_pos_retraction=85",
+                                  "-s",       "cooling_tube_retraction=30",
+                                  "-s",       "cooling_tube_length=10",
+                                  "-s",       "extra_loading_move=-13",
+                                  "-s",       "filament_cooling_moves=1",
+                                  "-s",       "filament_ramming_parameters=120 100 6.6 6.8 7.2",
+                                  "-s",       "retraction_amount=0",
+                                  "-s",       "relative_extrusion=true",
+                                  "--report", "out.json"});
+  // 15 mm, then 70, 20 and 10 % of the 20 mm to the end of the tube, once to and fro, then on to 85 mm.
+  CHECK_THAT(gcode, Contains("G1 E-15 F6000\nG1 E-14 F5400\nG1 E-4 F2700\nG1 E-2 F1620\nG1 E10 F132\nG1 E-10 F204\n"
+                             "G1 E-50 F2000\nT1\n"));
+  CHECK_THAT(gcode, Contains("T1\nG1 E14.4 F180\nG1 E50.4 F1680\nG1 E7.2 F168\n"));
+  const auto report = json::parse(boxes.scratch.read("out.json"));
+  CHECK(report["audit"]["verdict"] == "pass");
+}
+
+TEST_CASE("cli: skirt and brim have a tool of their own where one is named") {
+  const Boxes boxes;
+  boxes.slice(
+      {"a.stl", "-p", "two.ini", "-s", "adhesion_type=brim", "-s", "adhesion_extruder_nr=1", "--report", "out.json"});
+  const auto report = json::parse(boxes.scratch.read("out.json"));
+  REQUIRE(report["tools"].size() == 2);
+  CHECK(report["tools"][1]["filament"]["mm3"].get<double>() ==
+        Approx(report["features"]["brim"]["mm3"].get<double>()).epsilon(0.02));
 }

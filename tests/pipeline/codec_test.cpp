@@ -117,7 +117,8 @@ TEST_CASE("codec: a planned layer comes back as it was") {
       {4000000000, 3, 70000, true},
       4711,
       {ObjectStart{7}, bead, travel, retract, Prime{}, SetFan{0.35}, Extrude{}, ObjectEnd{4294967295}, ToolChange{31},
-       SetTemperature{SetTemperature::Heater::chamber, 7, -1, true}, Pause{"nuts, six of M3"}}};
+       SetTemperature{SetTemperature::Heater::chamber, 7, -1, true}, Pause{"nuts, six of M3"},
+       Feed{-15, 0.25, true, {4, -5}, 500}}};
   const auto out = there_and_back(layer);
   CHECK(out.z == layer.z);
   CHECK(out.height == layer.height);
@@ -149,6 +150,7 @@ TEST_CASE("codec: a planned layer comes back as it was") {
   CHECK(std::get<ToolChange>(out.steps[8]) == std::get<ToolChange>(layer.steps[8]));
   CHECK(std::get<SetTemperature>(out.steps[9]) == std::get<SetTemperature>(layer.steps[9]));
   CHECK(std::get<Pause>(out.steps[10]) == std::get<Pause>(layer.steps[10]));
+  CHECK(std::get<Feed>(out.steps[11]) == std::get<Feed>(layer.steps[11]));
 }
 
 TEST_CASE("codec: a model comes back as it was") {

@@ -3,6 +3,7 @@
 #include "settings/schema.h"
 
 #include <array>
+#include <string>
 
 namespace weft {
 using namespace weft::literals;
@@ -22,6 +23,21 @@ constexpr auto choices_of(ToolSelect) {
                     Choice<ToolSelect>{ToolSelect::swap, "swap"}};
 }
 
+/// Along what a gradient runs.
+enum class GradientAxis { x, y, z };
+constexpr auto choices_of(GradientAxis) {
+  return std::array{Choice<GradientAxis>{GradientAxis::x, "x"}, Choice<GradientAxis>{GradientAxis::y, "y"},
+                    Choice<GradientAxis>{GradientAxis::z, "z"}};
+}
+
+/// How a share of a filament is made: by whole lines, by whole layers, or in the nozzle.
+enum class GradientMode { lines, layers, mix };
+constexpr auto choices_of(GradientMode) {
+  return std::array{Choice<GradientMode>{GradientMode::lines, "lines"},
+                    Choice<GradientMode>{GradientMode::layers, "layers"},
+                    Choice<GradientMode>{GradientMode::mix, "mix"}};
+}
+
 /// Which tools there are, what each of them prints, how one follows the other, and what happens at heights. A tool is
 /// one filament in one nozzle, counted from 0.
 struct ToolSettings {
@@ -34,6 +50,11 @@ struct ToolSettings {
   std::optional<Rgb> filament_colour;
   std::optional<int> material_print_temperature_min;
   std::optional<int> material_print_temperature_max;
+  bool material_soluble = false;
+  int material_nozzle_hardness = 0;
+  std::optional<int> machine_nozzle_hardness;
+  std::string machine_bed_plate;
+  std::string material_plates;
   int extruder_nr = 0;
   std::optional<int> wall_extruder_nr;
   std::optional<int> wall_0_extruder_nr;
@@ -44,6 +65,19 @@ struct ToolSettings {
   std::optional<int> adhesion_extruder_nr;
   Um switch_extruder_retraction_amount = 10_mm;
   Um switch_extruder_extra_prime_amount = 0_mm;
+  std::string filament_ramming_parameters;
+  double filament_unloading_speed_start = 100;
+  double filament_unloading_speed = 90;
+  double filament_loading_speed_start = 3;
+  double filament_loading_speed = 28;
+  int filament_cooling_moves = 4;
+  double filament_cooling_initial_speed = 2.2;
+  double filament_cooling_final_speed = 3.4;
+  double filament_toolchange_delay = 0;
+  Um parking_pos_retraction = 0_mm;
+  Um cooling_tube_retraction = 91.5_mm;
+  Um cooling_tube_length = 5_mm;
+  Um extra_loading_move = -2_mm;
   std::optional<int> material_standby_temperature;
   double machine_nozzle_heat_up_speed = 2;
   double machine_min_cool_heat_time_window = 50;
@@ -54,10 +88,19 @@ struct ToolSettings {
   double prime_tower_angle = 0;
   Um prime_tower_brim_width = 2_mm;
   Um prime_tower_max_bridging_distance = 10_mm;
+  std::optional<int> prime_tower_extruder_nr;
   double prime_tower_min_volume = 15;
   std::optional<Numbers> purge_volumes;
   double purge_colour_tolerance = 2;
   double purge_mix_volume = 55.6;
+  bool purge_into_infill = false;
+  bool purge_into_object = false;
+  std::optional<Numbers> gradient_tools;
+  GradientAxis gradient_axis = GradientAxis::z;
+  ValuesAt gradient_stops;
+  GradientMode gradient_mode = GradientMode::lines;
+  bool ooze_shield_enabled = false;
+  Um ooze_shield_dist = 2_mm;
   HeightMarks pause_at_heights;
   HeightMarks color_change_at_heights;
   HeightMarks tool_change_at_heights;
@@ -86,6 +129,17 @@ inline constexpr Rows tool_schema{
             0, 500, "Lowest temperature that the filament prints at; auto: unknown."),
     setting("material_print_temperature_max", Scope::tool, &ToolSettings::material_print_temperature_max, Unit::celsius,
             0, 500, "Highest temperature that the filament stands; auto: unknown."),
+    setting(
+        "material_soluble", Scope::tool, &ToolSettings::material_soluble,
+        "Water or a solvent takes the filament away: nothing else of the part is made of it, nor of the tower's wall."),
+    setting("material_nozzle_hardness", Scope::tool, &ToolSettings::material_nozzle_hardness, Unit::none, 0, 100,
+            "Hardness (HRC) that a nozzle needs not to be worn out by the filament: 40 for carbon fibre; 0: any."),
+    setting("machine_nozzle_hardness", Scope::tool, &ToolSettings::machine_nozzle_hardness, Unit::none, 0, 100,
+            "Hardness (HRC) of the nozzle: brass 2, stainless steel 20, hardened steel 55; auto: unknown."),
+    setting("machine_bed_plate", Scope::plate, &ToolSettings::machine_bed_plate,
+            "The plate that lies on the bed, as material_plates call it; empty: not told."),
+    setting("material_plates", Scope::tool, &ToolSettings::material_plates,
+            "The plates that the filament holds on, between commas; empty: any."),
     setting("extruder_nr", Scope::region, &ToolSettings::extruder_nr, Unit::none, 0, 31,
             "The tool that an object or a part of it is printed with."),
     setting("wall_extruder_nr", Scope::region, &ToolSettings::wall_extruder_nr, Unit::none, 0, 31,
@@ -107,6 +161,34 @@ inline constexpr Rows tool_schema{
     setting("switch_extruder_extra_prime_amount", Scope::tool, &ToolSettings::switch_extruder_extra_prime_amount,
             Unit::mm, -10_mm, 200_mm,
             "Length of filament pushed forward beyond that when the tool is loaded again: what oozed meanwhile."),
+    setting(
+        "filament_ramming_parameters", Scope::tool, &ToolSettings::filament_ramming_parameters,
+        "Before the filament is drawn out of a shared nozzle its tip is shaped: width and spacing of lines in percent, "
+        "then mm³/s, each for a quarter of a second: 120 100 6.6 6.8 7.2; empty: it is not."),
+    setting("filament_unloading_speed_start", Scope::tool, &ToolSettings::filament_unloading_speed_start, Unit::mm_s,
+            0.1, 500, "Speed of the first 15 mm that are drawn out."),
+    setting("filament_unloading_speed", Scope::tool, &ToolSettings::filament_unloading_speed, Unit::mm_s, 0.1, 500,
+            "Speed of what follows, as far as the cooling tube."),
+    setting("filament_loading_speed_start", Scope::tool, &ToolSettings::filament_loading_speed_start, Unit::mm_s, 0.1,
+            500, "Speed of the first fifth of what is pushed in."),
+    setting("filament_loading_speed", Scope::tool, &ToolSettings::filament_loading_speed, Unit::mm_s, 0.1, 500,
+            "Speed of what follows."),
+    setting("filament_cooling_moves", Scope::tool, &ToolSettings::filament_cooling_moves, Unit::none, 0, 20,
+            "How often the tip is moved to and fro in the cooling tube."),
+    setting("filament_cooling_initial_speed", Scope::tool, &ToolSettings::filament_cooling_initial_speed, Unit::mm_s,
+            0.1, 100, "Speed of the first of those moves."),
+    setting("filament_cooling_final_speed", Scope::tool, &ToolSettings::filament_cooling_final_speed, Unit::mm_s, 0.1,
+            100, "Speed of the last of them."),
+    setting("filament_toolchange_delay", Scope::tool, &ToolSettings::filament_toolchange_delay, Unit::seconds, 0, 600,
+            "How long is waited after the filament was drawn out."),
+    setting("parking_pos_retraction", Scope::machine, &ToolSettings::parking_pos_retraction, Unit::mm, 0_mm, 2000_mm,
+            "How far filament is drawn out of a shared nozzle before another comes; 0: the firmware does that."),
+    setting("cooling_tube_retraction", Scope::machine, &ToolSettings::cooling_tube_retraction, Unit::mm, 0_mm, 1000_mm,
+            "From the nozzle's tip to the middle of the tube that the filament's tip cools in."),
+    setting("cooling_tube_length", Scope::machine, &ToolSettings::cooling_tube_length, Unit::mm, 0_mm, 1000_mm,
+            "Length of that tube: how far the cooling moves go."),
+    setting("extra_loading_move", Scope::machine, &ToolSettings::extra_loading_move, Unit::mm, -1000_mm, 1000_mm,
+            "Pushed in beyond parking_pos_retraction; below 0: less."),
     setting("material_standby_temperature", Scope::tool, &ToolSettings::material_standby_temperature, Unit::celsius, 0,
             500,
             "Temperature of a nozzle whose tool waits for longer than machine_min_cool_heat_time_window; auto is 40 "
@@ -129,6 +211,10 @@ inline constexpr Rows tool_schema{
             "How far the tower's first layer reaches beyond it."),
     setting("prime_tower_max_bridging_distance", Scope::plate, &ToolSettings::prime_tower_max_bridging_distance,
             Unit::mm, 1_mm, 50_mm, "Between the lines where a layer of the tower is not filled by purging."),
+    setting(
+        "prime_tower_extruder_nr", Scope::plate, &ToolSettings::prime_tower_extruder_nr, Unit::none, 0, 31,
+        "The tool of the tower's wall, in layers that it prints in; auto: where filaments are of one kind, whichever "
+        "purges most there, else that of most layers which is not soluble."),
     setting("prime_tower_min_volume", Scope::tool, &ToolSettings::prime_tower_min_volume, Unit::mm3, 0, 1000,
             "What is purged when this tool is loaded in a nozzle of its own, and the least in a shared one."),
     setting("purge_volumes", Scope::plate, &ToolSettings::purge_volumes,
@@ -139,6 +225,23 @@ inline constexpr Rows tool_schema{
     setting("purge_mix_volume", Scope::plate, &ToolSettings::purge_mix_volume, Unit::mm3, 1, 1000,
             "Volume in which what is left of the filament before falls to a share of 1/e: the melt zone of the hot "
             "end."),
+    setting("purge_into_infill", Scope::object, &ToolSettings::purge_into_infill,
+            "Sparse infill behind two walls is printed with what is purged; the rest goes into the tower."),
+    setting("purge_into_object", Scope::object, &ToolSettings::purge_into_object,
+            "All of the object is printed with what is purged, as far as that goes: its colours do not count."),
+    setting("gradient_tools", Scope::object, &ToolSettings::gradient_tools,
+            "Two tools that a gradient goes from and to: 0, 1; auto: none."),
+    setting("gradient_axis", Scope::object, &ToolSettings::gradient_axis, "Along what it runs: x, y or z."),
+    setting("gradient_stops", Scope::object, &ToolSettings::gradient_stops, Unit::none, -10000, 10000,
+            "Share of the second tool at places, mm:%, even between them: 0:0, 30:100. Of x and y as on the bed."),
+    setting("gradient_mode", Scope::object, &ToolSettings::gradient_mode,
+            "How the share is made: lines (each of one of the two), layers (in turn), or mix (in the nozzle: M163 or "
+            "M567)."),
+    setting(
+        "ooze_shield_enabled", Scope::plate, &ToolSettings::ooze_shield_enabled,
+        "A wall around all objects, up to the last change of the tool, takes off what oozes from nozzles that wait."),
+    setting("ooze_shield_dist", Scope::plate, &ToolSettings::ooze_shield_dist, Unit::mm, 0.5_mm, 30_mm,
+            "Between that wall and the objects."),
     setting("pause_at_heights", Scope::plate, &ToolSettings::pause_at_heights,
             "Z at which the printer waits for somebody, with what to do: `5.2 = lay the nuts in; 10`. The layer that "
             "reaches above it is the first after."),

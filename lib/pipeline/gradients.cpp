@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/gradients.h"
+
+#include "settings/tools.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+namespace weft::pipeline {
+namespace {
+
+/// A gradient is made of so many even shares.
+constexpr int shares = 20;
+/// A change of filament is not worth less.
+constexpr double least_bead_mm = 5;
+
+double place_of(const Bead& bead, GradientAxis axis, Um z) {
+  const Point middle = box_of(bead).centre();
+  return to_mm(axis == GradientAxis::x ? middle.x : axis == GradientAxis::y ? middle.y : z);
+}
+
+bool has_gradient(const ToolSettings& t) {
+  return t.gradient_tools && t.gradient_mode != GradientMode::mix;
+}
+
+/// What the second tool is short of, mm³, and what was chosen last.
+struct Debt {
+  double mm3 = 0;
+  bool second = false;
+};
+
+class Gradients {
+ public:
+  Gradients(ToolScopes& tools, Scopes& scopes) : tools_(tools), scopes_(scopes) {}
+
+  void apply(Um z, Um height, travel::ObjectLayer& object) {
+    std::map<ScopeId, bool> of_layer;  // what whole layers have chosen
+    for (auto& bead : object.beads) {
+      const auto& t = scopes_[bead.scope].tools;
+      if (bead.tool == any_tool || !has_gradient(t)) continue;
+      const double share = share_at(t.gradient_stops, place_of(bead, t.gradient_axis, z));
+      bool second = false;
+      if (t.gradient_mode == GradientMode::layers) {
+        const auto known = of_layer.find(bead.scope);
+        second = known != of_layer.end()
+                     ? known->second
+                     : of_layer.emplace(bead.scope, choose_layer(object, bead.scope, z, height)).first->second;
+      } else {
+        auto& debt = debts_[{object.object, std::min(static_cast<int>(share * shares), shares - 1), bead.scope}];
+        const double mm3 = volume_mm3(bead, height);
+        debt.mm3 += share * mm3;
+        if (length_mm(bead) >= least_bead_mm) debt.second = debt.mm3 >= mm3 / 2;
+        second = debt.second;
+        if (second) debt.mm3 -= mm3;
+      }
+      const auto tool = static_cast<ToolId>((*t.gradient_tools)[second ? 1 : 0]);
+      bead.tool = tool;
+      bead.scope = tools_.laid_over(bead.scope, tool, scopes_);
+    }
+  }
+
+ private:
+  bool choose_layer(const travel::ObjectLayer& object, ScopeId scope, Um z, Um height) {
+    double all = 0, wanted = 0;
+    const auto& t = scopes_[scope].tools;
+    for (const auto& bead : object.beads) {
+      if (bead.scope != scope || bead.tool == any_tool) continue;
+      const double mm3 = volume_mm3(bead, height);
+      all += mm3, wanted += mm3 * share_at(t.gradient_stops, place_of(bead, t.gradient_axis, z));
+    }
+    auto& debt = debts_[{object.object, -1, scope}];
+    debt.mm3 += wanted;
+    const bool second = debt.mm3 >= all / 2;
+    if (second) debt.mm3 -= all;
+    return second;
+  }
+
+  ToolScopes& tools_;
+  Scopes& scopes_;
+  std::map<std::tuple<ObjectId, int, ScopeId>, Debt> debts_;
+};
+
+}  // namespace
+
+void apply_gradients(ToolScopes& tools, Scopes& scopes, std::span<travel::LayerInput> layers) {
+  bool any = false;
+  for (std::size_t i = 0; i < scopes.size(); ++i) any = any || has_gradient(scopes[static_cast<ScopeId>(i)].tools);
+  if (!any) return;
+  Gradients gradients(tools, scopes);
+  for (auto& layer : layers)
+    for (auto& object : layer.objects)
+      if (!object.support) gradients.apply(layer.z, object.height != 0 ? object.height : layer.height, object);
+}
+
+}  // namespace weft::pipeline
