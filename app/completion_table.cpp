@@ -2,6 +2,7 @@
 #include "completion_table.h"
 
 #include "command.h"
+#include "core/parts.h"
 #include "settings/catalogue.h"
 #include "verbs.h"
 
@@ -12,16 +13,6 @@ namespace po = boost::program_options;
 
 namespace weft::app {
 namespace {
-
-std::vector<std::string> split(std::string_view text, char at) {
-  std::vector<std::string> out;
-  while (true) {
-    const auto end = std::min(text.find(at), text.size());
-    out.emplace_back(text.substr(0, end));
-    if (end == text.size()) return out;
-    text.remove_prefix(end + 1);
-  }
-}
 
 /// "text|json" says its choices by itself; words in capitals are placeholders.
 bool is_choice(std::string_view word) {
@@ -50,9 +41,9 @@ OptionWords words_of(const po::option_description& option) {
   out.placeholder = shown.substr(0, std::min(shown.find(" ("), shown.size()));
   if (out.placeholder.starts_with("[=")) out.placeholder.clear();
   out.argument = argument_of(out.names.front().substr(2), out.placeholder);
-  const auto words = split(out.placeholder, '|');
+  const auto words = parts(out.placeholder, '|');
   if (words.size() > 1 && std::all_of(words.begin(), words.end(), is_choice))
-    out.argument = Argument::choice, out.choices = words;
+    out.argument = Argument::choice, out.choices = {words.begin(), words.end()};
   out.meaning = option.description();
   return out;
 }

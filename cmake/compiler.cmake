@@ -12,6 +12,7 @@ target_compile_options(weft_options INTERFACE
 # -O3 pays in the medial axis and the raster loops.
 string(REPLACE "-O2" "-O3" CMAKE_CXX_FLAGS_RELWITHDEBINFO "${CMAKE_CXX_FLAGS_RELWITHDEBINFO}")
 set(CMAKE_CXX_FLAGS_RELEASE "-O3")
+set(weft_fast "")
 set(weft_small $<$<CONFIG:Release>:-Os>)  # for what runs once a job
 set(weft_tested $<$<CONFIG:Release>:-O1>)  # for tests: compiled sooner than with -O3
 if(WEFT_SANITIZE AND NOT WEFT_SANITIZE MATCHES fuzzer)
@@ -27,6 +28,7 @@ if(WEFT_SANITIZE)
 endif()
 
 find_program(CCACHE ccache)
-if(CCACHE)
+include(${CMAKE_CURRENT_LIST_DIR}/precompiled.cmake)
+if(CCACHE AND NOT WEFT_PRECOMPILED)  # one does not know what the other has read
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
 endif()

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # What the house asks of its sources, beyond what compilers see:  bash tests/house.sh
 # No file above 500 lines, no function above 60 but those that tests/house.txt names with a reason, no marker of things
-# left undone, a line of licence at the top of each file, a word on every header, and the layout of .clang-format.
+# left undone, a line of licence at the top of each file, a word on every header, the layout of .clang-format,
+# and no row of settings that nothing reads.
 # Needs universal-ctags and clang-format (bash cmake/packages.sh universal-ctags clang-format). Exit status: the number of
 # kinds of faults; 127: it could not look.
 set -uo pipefail
@@ -44,6 +45,20 @@ awk 'NR == FNR { allowed[$0] = 1; next } NF && !(($1 " " $2) in allowed)' <(echo
   tell 'functions above 60 lines that tests/house.txt does not name'
 awk 'NR == FNR { long[$1 " " $2] = 1; next } NF && !($0 in long)' <(echo "$long") <(echo "$allowed") |
   tell 'tests/house.txt names what is no longer above 60 lines'
+
+# A row of settings promises an effect: its field is read somewhere outside the rows, profiles and the import.
+readers=$(grep -E '^(lib|app)/.*\.(cpp|h)$' <<< "$all" | grep -vE '^lib/(profile|prusaslicer)/')
+rows=$(grep -ohE '&[A-Za-z]+Settings::[a-z0-9_]+' lib/settings/groups/*.h | sed 's/.*:://' | LC_ALL=C sort -u)
+mapfile -t readers <<< "$readers"
+groups='&[A-Za-z]+Settings::[a-z0-9_]+,'  # the rows themselves
+used=$(awk -v rows="$groups" 'FILENAME ~ /settings.groups/ { gsub(rows, "") } 1' "${readers[@]}" | grep -oE '(\.|->|::)[a-z0-9_]+' | sed -E 's/^(\.|->|::)//' | LC_ALL=C sort -u)
+idle=$(LC_ALL=C comm -23 <(echo "$rows") <(echo "$used"))
+waiting=$(grep -v '^#' tests/settings_without_effect.txt | awk 'NF > 1 { print $1 }' | LC_ALL=C sort)
+[ "$(wc -l <<< "$rows")" -gt 300 ] || { echo "house: no rows of settings" >&2; exit 127; }
+LC_ALL=C comm -23 <(echo "$idle") <(echo "$waiting") |
+  tell 'settings that nothing reads and tests/settings_without_effect.txt does not name'
+LC_ALL=C comm -13 <(echo "$idle") <(echo "$waiting") | grep . |
+  tell 'tests/settings_without_effect.txt names what is read by now'
 
 marker='TO''DO|FIX''ME|X''XX|HA''CK'  # in pieces, so that this line is none
 grep -nHIE "\b($marker)\b" "${read[@]}" | tell 'markers'

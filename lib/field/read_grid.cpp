@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/error.h"
+#include "core/number.h"
 #include "field/grid.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -50,10 +50,9 @@ class Words {
   }
   double number() {
     const std::string_view w = word();
-    double v = 0;
-    const auto [end, error] = std::from_chars(w.data(), w.data() + w.size(), v);
-    if (error != std::errc{} || end != w.data() + w.size()) refuse(fmt::format("'{}' is not a number", w));
-    return v;
+    const auto v = as_number<double>(w);
+    if (!v) refuse(fmt::format("'{}' is not a number", w));
+    return *v;
   }
   std::string_view rest() const { return rest_; }
 
@@ -190,8 +189,9 @@ Figures figures_of(std::string_view text) {
     std::string_view part = text.substr(0, end);
     while (!part.empty() && (part.front() == ' ' || part.front() == '\t')) part.remove_prefix(1);
     while (!part.empty() && (part.back() == ' ' || part.back() == '\t')) part.remove_suffix(1);
-    const auto [stop, error] = std::from_chars(part.data(), part.data() + part.size(), out.v[out.found]);
-    out.numbers = out.numbers && error == std::errc{} && stop == part.data() + part.size();
+    const auto number = as_number<double>(part);
+    out.v[out.found] = number.value_or(0);
+    out.numbers = out.numbers && number;
     text.remove_prefix(std::min(text.size(), end + 1)), ++out.found;
   }
   return out;

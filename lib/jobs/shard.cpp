@@ -2,10 +2,10 @@
 #include "jobs/shard.h"
 
 #include "core/error.h"
+#include "core/number.h"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <functional>
 #include <numeric>
 #include <queue>
@@ -34,11 +34,9 @@ constexpr std::array schedulers{
 };
 
 unsigned number(std::string_view text, const std::string& where) {
-  unsigned out = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
-  if (error != std::errc() || end != text.data() + text.size())
-    throw Error{Error::Kind::usage, fmt::format("'{}' is not a number", text), where};
-  return out;
+  const auto out = as_number<unsigned>(text);
+  if (!out) throw Error{Error::Kind::usage, fmt::format("'{}' is not a number", text), where};
+  return *out;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/sweep.h"
 
+#include "core/parts.h"
 #include "profile/profile.h"
 #include "settings/catalogue.h"
 
@@ -28,13 +29,9 @@ std::optional<double> number(const std::string& text) {
   return std::nullopt;
 }
 
-std::vector<std::string> split(const std::string& text, char at) {
+std::vector<std::string> trimmed_parts(std::string_view text, char separator) {
   std::vector<std::string> out;
-  for (std::size_t from = 0; from <= text.size();) {
-    const auto end = std::min(text.find(at, from), text.size());
-    out.emplace_back(value::trimmed(std::string_view(text).substr(from, end - from)));
-    from = end + 1;
-  }
+  for (const auto part : parts(text, separator)) out.emplace_back(value::trimmed(part));
   return out;
 }
 
@@ -135,11 +132,11 @@ Axis parse_axis(const std::string& text) {
   }
   axis.key = entry->key;
   const auto values = text.substr(equals + 1);
-  const auto parts = split(values, ':');
-  if ((parts.size() == 2 || parts.size() == 3) && values.find(',') == std::string::npos)
-    read_range(axis, parts, option);
+  const auto range = trimmed_parts(values, ':');
+  if ((range.size() == 2 || range.size() == 3) && values.find(',') == std::string::npos)
+    read_range(axis, range, option);
   else
-    axis.values = split(values, ',');
+    axis.values = trimmed_parts(values, ',');
   std::set<std::string> seen;
   for (const auto& v : axis.values) {
     if (v.empty()) throw Error{Error::Kind::usage, "a value is empty", option, "separate values by one comma"};

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The grammar of expressions and statements: the only file that sees Boost.Spirit, which takes long to compile.
+#include "core/number.h"
 #include "macro/program.h"
 
 #include <algorithm>
-#include <charconv>
 #include <functional>
 
 #include <boost/spirit/home/x3.hpp>
@@ -69,11 +69,10 @@ constexpr DeeperGenerator deeper{};
 
 /// Whole unless it has a point or an exponent.
 Scalar number_in(const Reader& r, const std::string& text, std::uint32_t at) {
-  const auto parsed = [&](auto value) {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size())
-      r.program.refuse(at, fmt::format("'{}' is not a number that can be reckoned with", text));
-    return value;
+  const auto parsed = [&](auto of_type) {
+    const auto value = as_number<decltype(of_type)>(text);
+    if (!value) r.program.refuse(at, fmt::format("'{}' is not a number that can be reckoned with", text));
+    return *value;
   };
   return text.find_first_of(".eE") == std::string::npos ? Scalar(parsed(std::int64_t{})) : Scalar(parsed(double{}));
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "macro/value.h"
 
+#include "core/number.h"
+
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numeric>
 
@@ -32,24 +33,15 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-template <class T>
-bool whole(std::string_view text, T& out) {
-  const auto* const last = text.data() + text.size();
-  const auto [end, error] = std::from_chars(text.data(), last, out);
-  return error == std::errc() && end == last;
-}
-
 Scalar bare(std::string_view text) {
   if (text == "true") return true;
   if (text == "false") return false;
   if (text == "nil") return Nil{};
   const auto digits = !text.empty() && text.back() == '%' ? text.substr(0, text.size() - 1) : text;
-  std::int64_t i = 0;
-  double d = 0;
-  if (whole(digits, i)) return i;
-  // from_chars takes "inf" and "nan" too, which are words.
-  if (digits.find_first_not_of("0123456789+-.eE") == std::string_view::npos && whole(digits, d) && std::isfinite(d))
-    return d;
+  if (const auto whole = as_number<std::int64_t>(digits)) return *whole;
+  // "inf" and "nan" are numbers to C++, and words here.
+  if (digits.find_first_not_of("0123456789+-.eE") == std::string_view::npos)
+    if (const auto number = as_number<double>(digits); number && std::isfinite(*number)) return *number;
   return std::string(text);
 }
 

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/escape.h"
+#include "core/number.h"
 #include "mesh/text.h"
 #include "mesh/xml.h"
 
@@ -188,11 +189,10 @@ class ModelPart {
 
   std::uint32_t id(const XmlAttributes& attributes, std::string_view name) const {
     const std::string_view text = Words(attributes.find(name).value_or("")).next();
-    std::uint32_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (text.empty() || end != text.data() + text.size() || error != std::errc{})
+    const auto value = as_number<std::uint32_t>(text);
+    if (!value)
       refuse(fmt::format("{} is {}, not a whole number", name, escape::message(text)), "export the model again");
-    return value;
+    return *value;
   }
 
   std::string where() const { return fmt::format("{}/{}:{}", path_, part_, line_); }

@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/three_mf_parts.h"
 
+#include "core/number.h"
 #include "mesh/text.h"
 #include "mesh/xml.h"
 
-#include <charconv>
 #include <optional>
 
 namespace weft::mesh {
 namespace {
 
 std::optional<std::uint32_t> id(const XmlAttributes& attributes, std::string_view name) {
-  const std::string_view text = Words(attributes.find(name).value_or("")).next();
-  std::uint32_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (text.empty() || end != text.data() + text.size() || error != std::errc{}) return std::nullopt;
-  return value;
+  return as_number<std::uint32_t>(Words(attributes.find(name).value_or("")).next());
 }
 
 std::optional<MarkKind> kind_called(std::string_view name, std::string_view MarkName::*column) {

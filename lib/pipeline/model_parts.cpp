@@ -2,9 +2,9 @@
 #include "pipeline/model_parts.h"
 
 #include "core/error.h"
+#include "core/number.h"
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <utility>
 
@@ -21,10 +21,8 @@ bool is_file(const std::string& name) {
 ModelPart part_of(const std::string& typed) {
   const auto at = typed.rfind("@T");
   if (at == std::string::npos || is_file(typed)) return {typed};
-  int tool = 0;
-  const char* const end = typed.data() + typed.size();
-  const auto [last, error] = std::from_chars(typed.data() + at + 2, end, tool);
-  if (error != std::errc{} || last != end || tool < 0 || tool > 31) return {typed};
+  const auto tool = as_number<int>(std::string_view(typed).substr(at + 2));
+  if (!tool || *tool < 0 || *tool > 31) return {typed};
   return {typed.substr(0, at), tool};
 }
 

@@ -3,12 +3,12 @@
 
 #include "core/error.h"
 #include "core/escape.h"
+#include "core/number.h"
 #include "profile/profile.h"
 #include "settings/value.h"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <filesystem>
 #include <optional>
 
@@ -45,12 +45,11 @@ std::string_view next_word(std::string_view& text, char separator) {
 
 template <class T>
 T number(std::string_view text, const std::string& path) {
-  T v{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), v);
-  if (error != std::errc{} || end != text.data() + text.size())
+  const auto v = as_number<T>(text);
+  if (!v)
     throw Error{Error::Kind::file, fmt::format("'{}' in weft_placement is not a number", text), path,
                 "the file was changed after it was made"};
-  return v;
+  return *v;
 }
 
 /// What the command line takes as well. @throws Error{file}

@@ -54,7 +54,9 @@ void fill(Image& image, Rgb colour) {
 void draw_line(Image& image, Spot a, Spot b, double thickness, Ink ink) {
   const double radius = std::max(thickness, 1.0) / 2, strength = ink.opacity * std::min(thickness, 1.0);
   const double reach = radius + 0.5;  // where the soft edge ends
+  const double reach2 = reach * reach, full2 = strength >= 1 && reach > 1 ? (reach - 1) * (reach - 1) : -1;
   const double dx = b.x - a.x, dy = b.y - a.y, length2 = dx * dx + dy * dy;
+  const double along_x = length2 > 0 ? dx / length2 : 0, along_y = length2 > 0 ? dy / length2 : 0;
   const int y0 = clamped(std::min(a.y, b.y) - reach, 0, image.size.height);
   const int y1 = clamped(std::max(a.y, b.y) + reach + 1, 0, image.size.height);
   const double least_x = std::min(a.x, b.x) - reach, most_x = std::max(a.x, b.x) + reach;
@@ -68,10 +70,14 @@ void draw_line(Image& image, Spot a, Spot b, double thickness, Ink ink) {
     const int x1 = clamped(to + 1, 0, image.size.width);
     for (int x = clamped(from, 0, image.size.width); x < x1; ++x) {
       const double px = x + 0.5;
-      const double t = length2 > 0 ? std::clamp(((px - a.x) * dx + (py - a.y) * dy) / length2, 0.0, 1.0) : 0.0;
-      const double ex = px - a.x - t * dx, ey = py - a.y - t * dy;
-      const double share = reach - std::sqrt(ex * ex + ey * ey);
-      if (share > 0) blend(image.pixel(x, y), ink.colour, strength * std::min(share, 1.0));
+      const double t = std::clamp((px - a.x) * along_x + (py - a.y) * along_y, 0.0, 1.0);
+      const double ex = px - a.x - t * dx, ey = py - a.y - t * dy, off2 = ex * ex + ey * ey;
+      if (off2 >= reach2) continue;
+      std::uint8_t* const pixel = image.pixel(x, y);
+      if (off2 <= full2)
+        pixel[0] = ink.colour.r, pixel[1] = ink.colour.g, pixel[2] = ink.colour.b;
+      else
+        blend(pixel, ink.colour, strength * std::min(reach - std::sqrt(off2), 1.0));
     }
   }
 }

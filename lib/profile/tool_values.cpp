@@ -2,6 +2,7 @@
 #include "profile/tool_values.h"
 
 #include "core/error.h"
+#include "core/number.h"
 #include "settings/overlay.h"
 #include "settings/tools.h"
 #include "settings/value.h"
@@ -19,10 +20,8 @@ std::optional<int> tool_of_section(std::string_view section) {
   constexpr std::string_view word = "tool";
   if (!section.starts_with(word)) return std::nullopt;
   const auto digits = value::trimmed(section.substr(word.size()));
-  int tool = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), tool);
-  if (error != std::errc{} || end != digits.data() + digits.size() || tool < 0 || tool > 31) return std::nullopt;
-  return tool;
+  const auto tool = as_number<int>(digits);
+  return tool && *tool >= 0 && *tool <= 31 ? tool : std::nullopt;
 }
 
 std::optional<std::pair<int, std::string>> tool_key(const std::string& key) {
@@ -136,13 +135,12 @@ void check_lists(const Profile& profile, std::size_t count) {
 
 void check_heights(const Profile& profile, std::size_t count) {
   for (const auto& mark : profile.settings.tools.tool_change_at_heights) {
-    int tool = -1;
     const auto digits = std::string_view(mark.text).substr(mark.text.starts_with('T') ? 1 : 0);
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), tool);
-    if (error != std::errc{} || end != digits.data() + digits.size() || tool < 0)
+    const auto tool = as_number<int>(digits);
+    if (!tool || *tool < 0)
       refuse(profile, "tool_change_at_heights", fmt::format("'{}' is no tool", mark.text), "as in 2.4 = 1");
-    if (static_cast<std::size_t>(tool) >= count)
-      refuse_number(profile, "tool_change_at_heights", static_cast<std::size_t>(tool), count);
+    if (static_cast<std::size_t>(*tool) >= count)
+      refuse_number(profile, "tool_change_at_heights", static_cast<std::size_t>(*tool), count);
   }
 }
 

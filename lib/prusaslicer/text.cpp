@@ -2,6 +2,7 @@
 #include "prusaslicer/text.h"
 
 #include "core/join.h"
+#include "core/parts.h"
 #include "prusaslicer/keys.h"
 #include "settings/gcode_variables.h"
 #include "settings/value.h"
@@ -71,12 +72,8 @@ std::vector<std::string> elements_of(std::string_view key, std::string_view text
     return {out};
   }
   std::vector<std::string> out;
-  for (;;) {
-    const auto at = text.find(',');
-    out.emplace_back(value::trimmed(text.substr(0, at)));
-    if (at == std::string_view::npos) return out;
-    text.remove_prefix(at + 1);
-  }
+  for (const auto part : parts(text, ',')) out.emplace_back(value::trimmed(part));
+  return out;
 }
 
 std::string in_macro_words(std::string_view key, std::string_view text) {

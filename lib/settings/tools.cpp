@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "settings/value.h"
+#include "core/parts.h"
 
 #include <algorithm>
 #include <iterator>
@@ -19,12 +20,8 @@ bool listed_by_tool(const CatalogueEntry& entry) {
 
 std::vector<std::string> values_by_tool(std::string_view text) {
   std::vector<std::string> out;
-  for (;;) {
-    const auto comma = text.find(',');
-    out.emplace_back(value::trimmed(text.substr(0, comma)));
-    if (comma == std::string_view::npos) return out;
-    text.remove_prefix(comma + 1);
-  }
+  for (const auto part : parts(text, ',')) out.emplace_back(value::trimmed(part));
+  return out;
 }
 
 std::size_t tool_count(const Settings& settings) {

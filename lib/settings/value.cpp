@@ -3,6 +3,8 @@
 
 #include "core/escape.h"
 #include "core/join.h"
+#include "core/number.h"
+#include "core/parts.h"
 
 #include <algorithm>
 #include <charconv>
@@ -92,12 +94,7 @@ Um length_from(double mm, std::string_view whole) {
 
 template <class F>
 void for_each_part(std::string_view text, char separator, F f) {
-  for (;;) {
-    const auto at = text.find(separator);
-    f(trimmed(text.substr(0, at)));
-    if (at == std::string_view::npos) return;
-    text.remove_prefix(at + 1);
-  }
+  for (const auto part : parts(text, separator)) f(trimmed(part));
 }
 
 /// A text within a list: `;` parts its items, and stands in a text as `\s`, beside the escapes that texts have anyway.
@@ -230,10 +227,9 @@ void parse(std::string_view text, Unit, PictureSizes& out) {
     if (x == std::string_view::npos) refuse(whole, what);
     const auto pixels = [&](std::string_view t) {
       t = trimmed(t);
-      int n = 0;
-      const auto [end, error] = std::from_chars(t.data(), t.data() + t.size(), n);
-      if (error != std::errc{} || end != t.data() + t.size() || n < 1 || n > 4096) refuse(whole, what);
-      return n;
+      const auto n = as_number<int>(t);
+      if (!n || *n < 1 || *n > 4096) refuse(whole, what);
+      return *n;
     };
     out.push_back({pixels(part.substr(0, x)), pixels(part.substr(x + 1))});
   });
@@ -307,10 +303,9 @@ void parse(std::string_view text, Unit, Rgb& out) {
   const auto t = trimmed(text);
   constexpr std::string_view what = "a colour such as #FF8000";
   if ((t.size() != 7 && t.size() != 9) || t.front() != '#') refuse(t, what);
-  std::uint32_t v = 0;
-  const auto [end, error] = std::from_chars(t.data() + 1, t.data() + t.size(), v, 16);
-  if (error != std::errc{} || end != t.data() + t.size()) refuse(t, what);
-  if (t.size() == 9) v >>= 8;
+  const auto digits = as_number<std::uint32_t>(t.substr(1), 16);
+  if (!digits) refuse(t, what);
+  const std::uint32_t v = t.size() == 9 ? *digits >> 8 : *digits;
   out = {static_cast<std::uint8_t>(v >> 16), static_cast<std::uint8_t>(v >> 8), static_cast<std::uint8_t>(v)};
 }
 
@@ -340,11 +335,10 @@ void parse(std::string_view text, Unit, ToolValues& out) {
     if (part.empty()) return;
     const auto dot = part.find('.'), equals = part.find('=');
     if (equals == std::string_view::npos || dot > equals) refuse(part, what);
-    ToolValue value{0, std::string(trimmed(part.substr(dot + 1, equals - dot - 1))), {}};
-    const auto [end, error] = std::from_chars(part.data(), part.data() + dot, value.tool);
-    if (error != std::errc{} || end != part.data() + dot || value.tool < 1 || value.tool > 31) refuse(part, what);
-    value.text = with_semicolons(trimmed(part.substr(equals + 1)));
-    out.push_back(std::move(value));
+    const auto tool = as_number<int>(part.substr(0, dot));
+    if (!tool || *tool < 1 || *tool > 31) refuse(part, what);
+    out.push_back({*tool, std::string(trimmed(part.substr(dot + 1, equals - dot - 1))),
+                   with_semicolons(trimmed(part.substr(equals + 1)))});
   });
 }
 

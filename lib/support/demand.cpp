@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/disjoint_sets.h"
 #include "core/stop.h"
 #include "geometry/boolean.h"
 #include "support/bridged.h"
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 namespace weft::support {
 namespace {
@@ -136,46 +136,29 @@ class Layer {
   const Regions &here_, &below_;
 };
 
-/// Which patches belong together: those of neighbouring layers whose boxes nearly meet.
-class Groups {
- public:
-  explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-  std::size_t root(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::size_t a, std::size_t b) {
-    a = root(a), b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
-
 /// Small patches go, unless with what lies above and below them they are not small: a slope is a strip a layer.
 void drop_small(const SupportSettings& s, std::vector<LayerPatches>& layers) {
   constexpr Um near = 0.5_mm;
   std::vector<std::size_t> first(layers.size() + 1, 0);
   for (std::size_t i = 0; i < layers.size(); ++i) first[i + 1] = first[i] + layers[i].patches.size();
-  Groups groups(first.back());
+  DisjointSets together(first.back());  // patches of neighbouring layers whose boxes nearly meet
   StopNowAndThen now_and_then(256);
   for (std::size_t i = 1; i < layers.size(); ++i)
     for (std::size_t a = 0; a < layers[i].patches.size(); ++a) {
       now_and_then.step();
       const Box box = layers[i].patches[a].box.grown(near);
       for (std::size_t b = 0; b < layers[i - 1].patches.size(); ++b)
-        if (box.overlaps(layers[i - 1].patches[b].box)) groups.join(first[i] + a, first[i - 1] + b);
+        if (box.overlaps(layers[i - 1].patches[b].box)) together.join(first[i] + a, first[i - 1] + b);
     }
   std::vector<double> mm2(first.back(), 0.0);
   for (std::size_t i = 0; i < layers.size(); ++i)
     for (std::size_t a = 0; a < layers[i].patches.size(); ++a)
-      mm2[groups.root(first[i] + a)] += layers[i].patches[a].mm2;
+      mm2[together.of(first[i] + a)] += layers[i].patches[a].mm2;
   for (std::size_t i = 0; i < layers.size(); ++i) {
     std::vector<Patch> kept;
     for (std::size_t a = 0; a < layers[i].patches.size(); ++a) {
       Patch& p = layers[i].patches[a];
-      if (p.always || mm2[groups.root(first[i] + a)] >= s.minimum_support_area) kept.push_back(std::move(p));
+      if (p.always || mm2[together.of(first[i] + a)] >= s.minimum_support_area) kept.push_back(std::move(p));
     }
     layers[i].patches = std::move(kept);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "infill/patterns/cells.h"
 
+#include "core/disjoint_sets.h"
 #include "core/stop.h"
 
 #include <algorithm>
@@ -18,19 +19,6 @@ namespace {
 constexpr double reach = 3.2;      // cells: no farther site borders on one
 constexpr double shortest = 0.08;  // of a cell's side: a shorter border is a corner where four meet
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-
-struct Sets {
-  std::vector<std::uint32_t> set;
-  explicit Sets(std::size_t n) : set(n) { std::iota(set.begin(), set.end(), 0U); }
-  std::uint32_t of(std::uint32_t i) {
-    while (set[i] != i) i = set[i] = set[set[i]];
-    return i;
-  }
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = of(a), b = of(b);
-    set[std::max(a, b)] = std::min(a, b);
-  }
-};
 
 }  // namespace
 
@@ -84,7 +72,7 @@ void CellWalls::find(const std::vector<Site>& sites) {
   const double tile = tile_;
   const auto wrapped = [&](double v) { return v - tile * std::floor(v / tile); };
   // those of a cell that are near each other, and those of different cells, by the places of a grid
-  Sets sets(all.size());
+  DisjointSets sets(all.size());
   std::map<std::pair<int, int>, std::vector<std::uint32_t>> grid;
   const int places = static_cast<int>(std::floor(tile / shortest));
   const auto place_of = [&](double v) { return static_cast<int>(wrapped(v) / tile * places) % places; };
@@ -97,14 +85,14 @@ void CellWalls::find(const std::vector<Site>& sites) {
         for (const std::uint32_t j : found->second) {
           const double ox = all[i].x - all[j].x, oy = all[i].y - all[j].y;
           if (std::hypot(ox - tile * std::round(ox / tile), oy - tile * std::round(oy / tile)) < shortest)
-            sets.unite(i, j);
+            sets.join(i, j);
         }
       }
     grid[{x, y}].push_back(i);
   }
   std::vector<std::uint32_t> number(all.size(), none);
   for (std::uint32_t i = 0; i < all.size(); ++i) {
-    const std::uint32_t s = sets.of(i);
+    const std::size_t s = sets.of(i);
     if (number[s] != none) continue;
     number[s] = static_cast<std::uint32_t>(corners_.size());
     corners_.push_back({wrapped(all[s].x), wrapped(all[s].y)});
@@ -220,13 +208,13 @@ void CellWalls::pair_up() {
 
 /// Where two loops meet in a corner of four ends, these may be paired the other way: the two are then one.
 void CellWalls::merge_loops() {
-  Sets loops(2 * walls_.size());
+  DisjointSets loops(2 * walls_.size());
   for (LineEnd e = 0; e < partner_.size(); ++e)
-    if (partner_[e] != none) loops.unite(e / 2, partner_[e] / 2);
+    if (partner_[e] != none) loops.join(e / 2, partner_[e] / 2);
   for (const std::vector<LineEnd>& ends : at_corner_) {
     if (ends.size() != 4 || partner_[ends[0]] == none) continue;
     if (loops.of(ends[0] / 2) == loops.of(ends[2] / 2)) continue;
-    loops.unite(ends[0] / 2, ends[2] / 2);
+    loops.join(ends[0] / 2, ends[2] / 2);
     const bool with_next = partner_[ends[0]] == ends[1];
     const std::array<std::pair<LineEnd, LineEnd>, 2> pairs =
         with_next ? std::array{std::pair{ends[1], ends[2]}, std::pair{ends[3], ends[0]}}
