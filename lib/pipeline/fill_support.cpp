@@ -47,6 +47,7 @@ class Filler {
     columns();
     branches();
     for (const Regions* areas : {&layer_.bottom, &layer_.roof}) interface(*areas);
+    joists();
     for (Bead& bead : beads_) {
       const auto tool = bead.role == Role::support ? s_.support_infill_extruder_nr : s_.support_interface_extruder_nr;
       if (tool) bead.tool = static_cast<ToolId>(*tool);
@@ -92,6 +93,17 @@ class Filler {
     const double share = s_.support_interface_density / 100;
     const Regions inner = loops(areas, s_.support_roof_wall_count, Role::support_interface);
     sparse(inner, share, s_.support_interface_pattern, s_.support_infill_angle + 90, Role::support_interface);
+  }
+
+  /// The rim, and lines from branch to branch.
+  void joists() {
+    loops(layer_.joists.area, 1, Role::support);
+    for (const Polyline& line : layer_.joists.lines) {
+      Bead bead;
+      bead.role = Role::support;
+      for (const Point p : line) bead.path.push_back({p, band_, 1.F});
+      beads_.push_back(std::move(bead));
+    }
   }
 
   /// Loops along the edge, from outside in; what is too thin for one gets a bead along its middle.
@@ -175,6 +187,7 @@ PrintedLayer fill_support(const Settings& settings, const support::SupportLayer&
   out.beads = Filler(settings, layer, origin).beads();
   Regions all = layer.columns;
   append(all, layer.branches), append(all, layer.roof), append(all, layer.bottom);
+  append(all, layer.joists.area);
   out.outline = geometry::unite(all);
   if (out.outline.size() > 1) {
     const geometry::SegmentIndex index(out.outline);

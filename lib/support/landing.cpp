@@ -20,6 +20,7 @@ constexpr std::array kinds{&SupportLayer::columns, &SupportLayer::branches, &Sup
 Regions all_of(const SupportLayer& layer) {
   Regions out;
   for (const auto kind : kinds) append(out, layer.*kind);
+  append(out, layer.joists.area);
   return out.empty() ? out : geometry::unite(out);
 }
 
@@ -53,7 +54,7 @@ std::vector<Landing> landings_of(const SupportSettings& s, const Object& object,
 
 /// Takes an area out of a layer, kind by kind.
 SupportLayer taken(SupportLayer& layer, const Regions& area) {
-  SupportLayer out{layer.z, layer.height, {}, {}, {}, {}, layer.first};
+  SupportLayer out{layer.z, layer.height, {}, {}, {}, {}, layer.first, {}};
   for (const auto kind : kinds) {
     if ((layer.*kind).empty()) continue;
     out.*kind = geometry::intersect(layer.*kind, area);

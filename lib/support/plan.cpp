@@ -3,6 +3,7 @@
 #include "geometry/boolean.h"
 #include "support/cheaper.h"
 #include "support/columns.h"
+#include "support/joists.h"
 #include "support/landing.h"
 #include "support/lengths.h"
 #include "support/support.h"
@@ -45,7 +46,7 @@ SupportLayer divided(const SupportSettings& s, const Object& object, const Stack
                      const std::vector<Regions>& standing, const std::vector<Regions>& contacts) {
   const auto& level = stack.levels[k];
   const Um line = line_width(s, object.nozzle);
-  SupportLayer out{level.z, level.height, standing[k], {}, {}, {}, k == 0 && !object.on_raft};
+  SupportLayer out{level.z, level.height, standing[k], {}, {}, {}, k == 0 && !object.on_raft, {}};
   if (out.columns.empty()) return out;
   if (s.support_roof_enable && s.support_roof_height > 0) {
     Regions held;
@@ -70,9 +71,9 @@ SupportLayer divided(const SupportSettings& s, const Object& object, const Stack
   return out;
 }
 
-/// The first level reaches further out, so that it sticks.
+/// The first level is floors, also under branches, which are hollow above; and reaches further out, so that it sticks.
 void spread_first(const SupportSettings& s, const Object& object, const KeepOut& keep_out, SupportLayer& first) {
-  if (s.support_brim_width <= 0 || object.on_raft) return;
+  if (object.on_raft) return;
   Regions all = first.columns;
   append(all, first.roof), append(all, first.bottom);
   Regions wide = all.empty() ? all : grown(geometry::unite(all), s.support_brim_width);
@@ -179,9 +180,15 @@ void add_branches(const SupportSettings& s, const Object& object, std::size_t k,
     append(layer.roof, own);
     if (layer.roof.size() > own.size()) layer.roof = geometry::unite(layer.roof);
   }
+  layer.joists = standing.branches.joists[k];
+  if (!layer.joists.area.empty() && !standing.columns[k].empty()) {
+    layer.joists.area =
+        geometry::opening(geometry::subtract(layer.joists.area, grown(standing.columns[k], 20)), half / 2);
+    clip_joists(layer.joists, 2 * half);
+  }
   if (areas.empty()) return;
   Regions others = grown(standing.columns[k], half);
-  append(others, roofs);
+  append(others, roofs), append(others, layer.joists.area);
   layer.branches = others.empty() ? areas : geometry::opening(geometry::subtract(areas, others), half / 2);
 }
 
