@@ -56,6 +56,14 @@ class Filler {
   }
 
  private:
+  /// What of an area is wider than twice that. Its corners may be as coarse as support is.
+  static Regions wider(const Regions& area, Um by) {
+    const auto grown = [](const Regions& from, Um how) {
+      constexpr Um coarse = 50;
+      return geometry::offset(from, {.by = how, .corner = geometry::Corner::round, .arc_tolerance = coarse});
+    };
+    return grown(grown(area, -by), by);
+  }
   static double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
   void columns() {
@@ -67,7 +75,7 @@ class Filler {
     }
     // Between lines that far apart a narrow column would have none: it gets a loop.
     const double apart = share > 0 ? band_ / share : band_ * 10;
-    const Regions wide = geometry::opening(layer_.columns, rounded(0.6 * apart), geometry::Corner::miter);
+    const Regions wide = wider(layer_.columns, rounded(0.6 * apart));
     if (wide.empty()) {
       loops(layer_.columns, 1, Role::support);
       return;

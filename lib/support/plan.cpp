@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/stop.h"
 #include "geometry/boolean.h"
+#include "geometry/simplify.h"
 #include "support/cheaper.h"
 #include "support/columns.h"
 #include "support/joists.h"
@@ -23,9 +24,10 @@ std::vector<Regions> contacts_of(const Stack& stack, const Demand& demand) {
   std::vector<Regions> out(stack.levels.size());
   for (std::size_t i = 0; i < demand.size(); ++i)
     if (stack.contact[i] != Stack::none) append(out[stack.contact[i]], demand[i].wanted);
-  for (auto& regions : out)
-    if (regions.size() > 1) regions = geometry::unite(regions);
-  return out;
+  return tasks::parallel_map(out.size(), [&](std::size_t k) {
+    if (out[k].empty()) return Regions{};
+    return geometry::simplified(out[k].size() > 1 ? geometry::unite(out[k]) : out[k], coarse_outline);
+  });
 }
 
 /// What was drawn as support, by level.
@@ -100,8 +102,11 @@ void note_reached(const Object& object, const Stack& stack, const Demand& demand
     Regions left = demand[i].wanted;
     if (stack.contact[i] != Stack::none) {
       const auto& level = plan.layers[stack.contact[i]];
-      Regions all = level.roof;
-      append(all, level.columns), append(all, level.branches);
+      const Box near = box_of(demand[i].wanted).grown(2 * reached);
+      Regions all;
+      for (const Regions* some : {&level.roof, &level.columns, &level.branches})
+        for (const Region& region : *some)
+          if (near.overlaps(box_of(region.outer))) all.push_back(region);
       all = geometry::unite(all);
       out.contact_mm2 = area_mm2(geometry::intersect(all, demand[i].wanted));
       const Regions wide = grown(all, reached);
