@@ -96,8 +96,8 @@ class Half {
 
 /// Where the edge from a lower to an upper vertex meets the height. The same whichever triangle asks.
 Point3 crossing(Point3 low, Point3 high, Um z) {
-  const double t = (double{z} - low.z) / (double{high.z} - low.z);
-  return {low.x + rounded(t * (double{high.x} - low.x)), low.y + rounded(t * (double{high.y} - low.y)), z};
+  const double t = (double(z) - low.z) / (double(high.z) - low.z);
+  return {low.x + rounded(t * (double(high.x) - low.x)), low.y + rounded(t * (double(high.y) - low.y)), z};
 }
 
 }  // namespace

@@ -20,8 +20,8 @@ Vector mm_of(Point3 p) {
 
 /// Normal times area, mm².
 Vector area_vector(Point3 a, Point3 b, Point3 c) {
-  const Vector u{(double{b.x} - a.x) / 1000, (double{b.y} - a.y) / 1000, (double{b.z} - a.z) / 1000};
-  const Vector v{(double{c.x} - a.x) / 1000, (double{c.y} - a.y) / 1000, (double{c.z} - a.z) / 1000};
+  const Vector u{(double(b.x) - a.x) / 1000, (double(b.y) - a.y) / 1000, (double(b.z) - a.z) / 1000};
+  const Vector v{(double(c.x) - a.x) / 1000, (double(c.y) - a.y) / 1000, (double(c.z) - a.z) / 1000};
   return {(u[1] * v[2] - u[2] * v[1]) / 2, (u[2] * v[0] - u[0] * v[2]) / 2, (u[0] * v[1] - u[1] * v[0]) / 2};
 }
 
@@ -82,7 +82,7 @@ Facets::Facets(const Mesh& mesh, const Hull& around) : outmost_(around.corners) 
     const Vector area = area_vector(p, q, r);
     const double mm2 = std::sqrt(dot(area, area));
     if (mm2 <= 0) continue;
-    const auto third = [](Um u, Um v, Um w) { return static_cast<float>((double{u} + v + w) / 3000); };
+    const auto third = [](Um u, Um v, Um w) { return static_cast<float>((double(u) + v + w) / 3000); };
     facets_.push_back(
         {{static_cast<float>(area[0] / mm2), static_cast<float>(area[1] / mm2), static_cast<float>(area[2] / mm2)},
          {third(p.x, q.x, r.x), third(p.y, q.y, r.y), third(p.z, q.z, r.z)},

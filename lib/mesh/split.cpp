@@ -33,7 +33,7 @@ struct Shell {
 
 double volume_of(const Box3& box) {
   const Point3 size = box.size();
-  return double{size.x} * size.y * size.z;
+  return double(size.x) * size.y * size.z;
 }
 
 bool apart(const Box3& a, const Box3& b) {

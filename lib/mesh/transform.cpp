@@ -26,7 +26,7 @@ double determinant(const Linear& m) {
 
 /// Millimetres from `about` to p.
 Vector mm_from(Point3 about, Point3 p) {
-  return {(double{p.x} - about.x) / 1000, (double{p.y} - about.y) / 1000, (double{p.z} - about.z) / 1000};
+  return {(double(p.x) - about.x) / 1000, (double(p.y) - about.y) / 1000, (double(p.z) - about.z) / 1000};
 }
 
 }  // namespace
