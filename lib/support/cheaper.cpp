@@ -37,10 +37,11 @@ double walls_mm2(const SupportSettings& s, const Region& branch, Um line) {
   return s.support_wall_count.value_or(two ? 2 : 1) * perimeter_mm({branch}) * to_mm(line);
 }
 
-/// Columns as they would stand, every two millimetres of height: visit(region, height that it stands for).
-template <class Visit>
+/// Columns as they would stand, every two millimetres of height: visit(region, height that it stands for), and
+/// land(region) for what of them comes to stand on the part.
+template <class Visit, class Land>
 void guess_columns(const SupportSettings& s, const Object& object, const Stack& stack,
-                   const std::vector<KeepOut>& keep_out, const std::vector<Regions>& contacts, Visit visit) {
+                   const std::vector<KeepOut>& keep_out, const std::vector<Regions>& contacts, Visit visit, Land land) {
   using namespace weft::literals;
   constexpr Um step = 2_mm, coarse = 0.1_mm;
   Regions falling;
@@ -52,6 +53,10 @@ void guess_columns(const SupportSettings& s, const Object& object, const Stack& 
     stop_if_asked();
     falling = geometry::simplified(geometry::unite(falling), coarse);
     if (s.support_join_distance > 0) falling = geometry::closing(falling, s.support_join_distance / 2);
+    if (s.support_type == SupportType::everywhere)
+      for (const Region& region :
+           geometry::intersect(falling, outlines_between(object, stack.levels[k].bottom(), stack.levels[k].z)))
+        land(region);
     falling = opened(geometry::subtract(falling, keep_out[k].near), line_width(s, object.nozzle) / 2);
     for (const Region& region : falling) visit(region, height);
     height = 0;
@@ -70,9 +75,11 @@ Split cheaper(const SupportSettings& s, const Object& object, const Stack& stack
   const auto patch_of = [&](const Region& region) { return index.region_at(region.outer.front()).value_or(0); };
   std::vector<double> columns_mm3(patches.size(), 0), branches_mm3(patches.size(), 0);
 
-  guess_columns(s, object, stack, keep_out, contacts, [&](const Region& region, Um height) {
-    columns_mm3[patch_of(region)] += column_mm3(s, {region}, line, height);
-  });
+  constexpr double mm3_by_scar_mm2 = 1;  // what stands on the part is filed off
+  guess_columns(
+      s, object, stack, keep_out, contacts,
+      [&](const Region& region, Um height) { columns_mm3[patch_of(region)] += column_mm3(s, {region}, line, height); },
+      [&](const Region& region) { columns_mm3[patch_of(region)] += mm3_by_scar_mm2 * area_mm2(region); });
   auto branches = tree(s, object, stack, keep_out, contacts);
   double tree_mm3 = 0;
   for (std::size_t k = 0; k < stack.levels.size(); ++k) {
