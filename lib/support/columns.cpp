@@ -191,6 +191,18 @@ Regions free_part(const Regions& area, const KeepOut& out, const Regions& contac
   return barred.empty() ? left : geometry::subtract(left, barred);
 }
 
+namespace {
+
+constexpr Um corner_bound = 15_um;
+
+/// What is thinner than twice the radius goes. Other corners stay as they are: opened level by level, they would be cut
+/// a little each time.
+Regions without_thin(const Regions& area, Um radius) {
+  return geometry::intersect(area, grown(opened(area, radius), radius / 2));
+}
+
+}  // namespace
+
 std::vector<Regions> columns(const SupportSettings& settings, const Object& object, const Stack& stack,
                              const std::vector<KeepOut>& keep_out, const std::vector<Regions>& contacts,
                              const std::vector<Regions>& given) {
@@ -216,10 +228,11 @@ std::vector<Regions> columns(const SupportSettings& settings, const Object& obje
       falling = geometry::unite(falling);
     }
     if (falling.empty()) continue;
-    // Corners that the part above has left are let go of before the part beside cuts new ones.
-    falling = free_part(geometry::simplified(falling, coarse_outline), keep_out[k], contacts[k], object);
-    if (!shadow.empty()) falling = geometry::subtract(falling, shadow[k]);
-    falling = opened(falling, line * 4 / 10);
+    falling = geometry::simplified(falling, corner_bound);  // of corners that the part above has left
+    Regions left = free_part(falling, keep_out[k], contacts[k], object);
+    if (!shadow.empty()) left = geometry::subtract(left, shadow[k]);
+    const bool same = contacts[k].empty() && std::abs(area_mm2(left) - area_mm2(falling)) < 1e-6;
+    if (!same) falling = without_thin(left, line * 4 / 10);
     out[k] = falling;
   }
   let_rest(settings, object, stack, out);
