@@ -2,7 +2,7 @@
 #include "pipeline/orient_model.h"
 
 #include "geometry/boolean.h"
-#include "geometry/offset.h"
+#include "geometry/simplify.h"
 #include "mesh/facings.h"
 #include "mesh/placement.h"
 #include "mesh/transform.h"
@@ -19,7 +19,7 @@ namespace {
 
 using namespace weft::literals;
 
-constexpr std::size_t hull_candidates = 40, flat_candidates = 24, sliced_candidates = 8, told = 5;
+constexpr std::size_t hull_candidates = 40, flat_candidates = 24, sliced_candidates = 6, told = 5;
 constexpr int coarse_layers = 60;
 
 /// Plastic that a way of laying it costs, mm³: what support takes, and what the rest is worth beside it.
@@ -80,7 +80,7 @@ Report::Orientation judged(const Settings& settings, const Mesh& model, const st
     out.contact_mm2 += area_mm2(demand[i].wanted);
     if (demand[i].wanted.empty()) continue;
     falling.insert(falling.end(), demand[i].wanted.begin(), demand[i].wanted.end());
-    falling = geometry::opening(geometry::unite(falling), 50);
+    falling = geometry::simplified(geometry::unite(falling), 50);
   }
   if (!layers.empty()) out.foot_mm2 = area_mm2(layers.front().regions);
   out.cost_mm3 = cost_of(s, out, widest_mm2);
