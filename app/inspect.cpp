@@ -3,6 +3,9 @@
 #include "core/json_text.h"
 #include "limited.h"
 #include "mesh/read.h"
+#include "pipeline/transform_models.h"
+#include "pipeline/transform_words.h"
+#include "transform_options.h"
 #include "verbs.h"
 
 #include <cstdio>
@@ -34,11 +37,42 @@ Json facts_of(const mesh::Object& object) {
           {"repairs", std::move(repairs)}};
 }
 
-Json facts_of(const mesh::Loaded& loaded) {
+Json facts_of(const Report::Orientation& o) {
+  return {{"down", o.down},
+          {"support_mm3", o.support_mm3},
+          {"contact_mm2", o.contact_mm2},
+          {"on_part_mm2", o.on_part_mm2},
+          {"height_mm", o.height_mm},
+          {"foot_mm2", o.foot_mm2},
+          {"cost_mm3", o.cost_mm3}};
+}
+
+/// @param told what was done with it
+Json facts_of(const std::vector<pipeline::Typed>& of_file, const Report::Model& told) {
+  const auto& loaded = of_file.front().model;
   Json objects = Json::array();
-  for (const auto& object : loaded.objects) objects.push_back(facts_of(object));
-  return {{"file", loaded.path}, {"format", mesh::name_of(loaded.format)},        {"sha256", loaded.sha256},
-          {"unit", loaded.unit}, {"triangles_in_file", loaded.triangles_in_file}, {"objects", std::move(objects)}};
+  for (const auto& typed : of_file)
+    for (const auto& object : typed.model.objects) objects.push_back(facts_of(object));
+  Json out{{"file", loaded.path}, {"format", mesh::name_of(loaded.format)},        {"sha256", loaded.sha256},
+           {"unit", loaded.unit}, {"triangles_in_file", loaded.triangles_in_file}, {"objects", std::move(objects)}};
+  if (!told.transforms.empty()) out["transforms"] = told.transforms;
+  for (const auto& o : told.orientations) out["orientations"].push_back(facts_of(o));
+  return out;
+}
+
+/// A file, and what the words make of it.
+Json facts_of(const std::string& path, const Command& command, const Placement& placement) {
+  const auto& t = placement.transform;
+  std::vector<pipeline::Typed> typed(1);
+  typed[0].model = mesh::read_file(path, {.scale = placement.scale, .mm_per_unit = t.mm_per_unit});
+  typed[0].tools.resize(typed[0].model.objects.size());
+  std::vector<Report::Model> told(1);
+  pipeline::tell_transforms(placement, told[0]);
+  if (pipeline::transforms(t)) {
+    const bool judged = t.orient && t.orient->automatic;  // by what the settings say of support
+    typed = pipeline::transformed(judged ? resolve(command).settings : Settings{}, placement, std::move(typed), told);
+  }
+  return facts_of(typed, told[0]);
 }
 
 std::string as_text(const Json& model) {
@@ -46,6 +80,15 @@ std::string as_text(const Json& model) {
       fmt::format("{}: {}, {} triangles in the file, unit {}\n  sha256 {}\n", model["file"].get<std::string>(),
                   model["format"].get<std::string>(), model["triangles_in_file"].get<std::size_t>(),
                   model["unit"].get<std::string>(), model["sha256"].get<std::string>());
+  for (const auto& done : model.value("transforms", Json::array()))
+    out += fmt::format("  {}\n", done.get<std::string>());
+  for (const auto& o : model.value("orientations", Json::array()))
+    out += fmt::format(
+        "  down {:.3f},{:.3f},{:.3f}: {:.0f} mm³ below overhangs, {:.1f} mm² touched, {:.1f} mm² on the part, "
+        "{:.2f} mm high, foot {:.1f} mm²; costs {:.1f}\n",
+        o["down"][0].get<double>(), o["down"][1].get<double>(), o["down"][2].get<double>(),
+        o["support_mm3"].get<double>(), o["contact_mm2"].get<double>(), o["on_part_mm2"].get<double>(),
+        o["height_mm"].get<double>(), o["foot_mm2"].get<double>(), o["cost_mm3"].get<double>());
   for (const auto& o : model["objects"]) {
     const auto name = o["name"].get<std::string>();
     out += fmt::format(
@@ -65,6 +108,7 @@ po::options_description inspect_options() {
   po::options_description out("Options of weft inspect");
   out.add_options()("format", po::value<std::string>()->value_name("text|json")->default_value("text"),
                     "form of the facts");
+  add_transform_options(out);
   add_limit_options(out);
   return out;
 }
@@ -81,9 +125,11 @@ int inspect(const Words& words) {
   const auto format = command.options["format"].as<std::string>();
   if (format != "text" && format != "json")
     throw Error{Error::Kind::usage, fmt::format("'{}' is not one of text, json", format), "--format"};
+  Placement placement;
+  take_transforms(command.options, placement);
   Json models = Json::array();
   within_limits(command, [&] {
-    for (const auto& path : command.inputs) models.push_back(facts_of(mesh::read_file(path)));
+    for (const auto& path : command.inputs) models.push_back(facts_of(path, command, placement));
   });
   std::string out;
   if (format == "json")

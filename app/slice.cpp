@@ -10,6 +10,7 @@
 #include "pipeline/write_file.h"
 #include "preview_file.h"
 #include "slice_job.h"
+#include "transform_options.h"
 #include "verbs.h"
 
 #include <cmath>
@@ -33,7 +34,6 @@ po::options_description slice_options() {
       "export-gcode,g", po::bool_switch(), "what weft slice does anyway")("gcode", po::bool_switch(), "the same")(
       "info", po::bool_switch(), "facts of the models, as weft inspect tells them; nothing is sliced")(
       "drop", po::bool_switch(), "with --keep-position: put down what floats or dips")(
-      "scale", po::value<std::string>()->value_name("F"), "uniform scale: 2, 0.5, 25.4 or 50%")(
       "rotate", po::value<double>()->value_name("DEG")->default_value(0.0, "0"), "rotation about Z, counter-clockwise")(
       "support-enforcer", po::value<std::vector<std::string>>()->value_name("FILE"),
       "support what lies in this mesh, or in box:x,y,z,x,y,z, of the model before it")(
@@ -49,27 +49,12 @@ po::options_description slice_options() {
       "max-memory", po::value<double>()->value_name("MB")->default_value(0, "none"),
       "stop above so much resident memory, in the same way")("preview", po::value<std::string>()->value_name("FILE"),
                                                              "also write a preview (html, svg or png)");
+  add_transform_options(out);
   add_cache_options(out);
   return out;
 }
 
 namespace {
-
-double parse_scale(std::string text) {
-  const bool percent = !text.empty() && text.back() == '%';
-  if (percent) text.pop_back();
-  double factor = 0;
-  try {
-    value::parse(text, Unit::none, factor);
-  } catch (const std::invalid_argument&) {
-    factor = 0;
-  }
-  if (percent) factor /= 100;
-  if (!(factor >= 1e-6 && factor <= 1e6))
-    throw Error{Error::Kind::usage, fmt::format("'{}' is not a factor above 0", text), "--scale",
-                "as in --scale 2 or --scale 50%"};
-  return factor;
-}
 
 Placement placement_of(const po::variables_map& o) {
   Placement p;
@@ -79,7 +64,6 @@ Placement placement_of(const po::variables_map& o) {
   if (o["dont-arrange"].as<bool>() && !p.centre) p.keep_position = p.drop = true;
   if (p.keep_position && p.centre)
     throw Error{Error::Kind::usage, "contradicts --center", "--keep-position", "give one of the two"};
-  if (o.count("scale")) p.scale = parse_scale(o["scale"].as<std::string>());
   p.rotate_deg = o["rotate"].as<double>();
   if (!(std::abs(p.rotate_deg) <= 36000)) throw Error{Error::Kind::usage, "must be an angle in degrees", "--rotate"};
   p.copies = o.count("duplicate") ? o["duplicate"].as<int>() : o["copies"].as<int>();
@@ -90,6 +74,7 @@ Placement placement_of(const po::variables_map& o) {
   p.spacing = from_mm(spacing_mm);
   if (p.copies > 1 && p.keep_position)
     throw Error{Error::Kind::usage, "contradicts --copies", "--keep-position", "copies are arranged on the bed"};
+  take_transforms(o, p);
   return p;
 }
 
@@ -202,13 +187,20 @@ std::string help(const po::options_description& options) {
   return out.str();
 }
 
+/// --info
+int inform(const Command& command) {
+  Words said = command.inputs;
+  for (auto& word : transform_arguments(placement_of(command.options))) said.push_back(std::move(word));
+  return inspect(said);
+}
+
 }  // namespace
 
 int slice(const Words& words) {
   const auto options = slice_options();
   const auto command = parse_command(words, options);
   if (command.help) return write_output("-", help(options)), 0;
-  if (command.options["info"].as<bool>()) return inspect(command.inputs);
+  if (command.options["info"].as<bool>()) return inform(command);
   refuse_nonsense(command);
   const auto preview = preview_of(command);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/job_list.h"
+#include "pipeline/transform_words.h"
 #include "settings/value.h"
 
 #include <algorithm>
@@ -34,15 +35,6 @@ Point point(const Values& values) {
   value::parse(text, Unit::none, out);
   if (out.size() != 1) throw std::invalid_argument(fmt::format("'{}' is not X,Y in mm", text));
   return out.front();
-}
-
-double scale(std::string text) {
-  const bool percent = !text.empty() && text.back() == '%';
-  if (percent) text.pop_back();
-  const double factor = number(text, 0, 1e8) / (percent ? 100 : 1);
-  if (!(factor >= 1e-6 && factor <= 1e6))
-    throw std::invalid_argument(fmt::format("'{}' is not a factor above 0", text));
-  return factor;
 }
 
 audit::Mode mode(const std::string& text) {
@@ -98,7 +90,6 @@ constexpr std::array fields{
     Field{"center", true, [](JobLine& j, const Values& v, Folder) { j.placement.centre = point(v); }},
     Field{"keep_position", false, [](JobLine& j, const Values& v, Folder) { j.placement.keep_position = flag(v[0]); }},
     Field{"drop", false, [](JobLine& j, const Values& v, Folder) { j.placement.drop = flag(v[0]); }},
-    Field{"scale", false, [](JobLine& j, const Values& v, Folder) { j.placement.scale = scale(v[0]); }},
     Field{"rotate", false,
           [](JobLine& j, const Values& v, Folder) { j.placement.rotate_deg = number(v[0], -36000, 36000); }},
     Field{"support_enforcer", true, add_marks<mesh::MarkKind::support_enforcer>},
@@ -122,6 +113,7 @@ const std::vector<std::string_view>& field_names() {
   static const std::vector<std::string_view> names = [] {
     std::vector<std::string_view> out;
     for (const auto& field : fields) out.push_back(field.name);
+    for (const auto& word : pipeline::transform_words()) out.push_back(word.key);
     return out;
   }();
   return names;
@@ -135,7 +127,14 @@ bool is_free_field(std::string_view name) {
 
 bool set_field(JobLine& job, std::string_view name, const Values& values, const std::filesystem::path& folder) {
   const auto at = std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.name == name; });
-  if (at == fields.end()) return false;
+  const auto* word = at == fields.end() ? pipeline::find_transform_word(name) : nullptr;
+  if (at == fields.end() && !word) return false;
+  if (word) {
+    std::string text;  // [1, 1, 2] is 1,1,2
+    for (const auto& v : values) text += (text.empty() ? "" : ",") + v;
+    word->set(job.placement, text);
+    return true;
+  }
   if (!at->list && values.size() != 1) throw std::invalid_argument("takes one value, not a list");
   for (const auto& v : values)
     if (value::trimmed(v).empty()) throw std::invalid_argument("is empty");

@@ -3,6 +3,7 @@
 
 #include "core/file_bytes.h"
 #include "pipeline/model_parts.h"
+#include "pipeline/transform_words.h"
 #include "settings/value.h"
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <iostream>
 #include <iterator>
 #include <map>
+#include <stdexcept>
 
 #include <fmt/format.h>
 #include <glob.h>
@@ -153,6 +155,11 @@ void complete(JobList& list) {
       refuse(job, "keep_position contradicts center", "give one of the two");
     if (job.placement.keep_position && job.placement.copies > 1)
       refuse(job, "keep_position contradicts copies", "copies are arranged on the bed");
+    try {
+      pipeline::check_transform(job.placement);
+    } catch (const std::invalid_argument& problem) {
+      refuse(job, problem.what(), "");
+    }
     if (const auto [at, is_new] = ids.emplace(job.id, job.where); !is_new)
       refuse(job, fmt::format("the id '{}' is that of {}", job.id, at->second), "give each job an id of its own");
     if (leaves_its_folder(job.output))

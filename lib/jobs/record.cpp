@@ -6,6 +6,7 @@
 #include "core/hash.h"
 #include "core/json_text.h"
 #include "pipeline/model_parts.h"
+#include "pipeline/transform_words.h"
 #include "pipeline/write_file.h"
 #include "settings/exact.h"
 
@@ -220,6 +221,10 @@ std::string inputs_hash(const Job& job, FileHashes& files) {
   exact::add(key, p.rotate_deg);
   exact::add(key, Um{p.copies});
   exact::add(key, p.spacing);
+  for (const auto& word : pipeline::transform_words())
+    if (const auto text = word.text(p); !text.empty() && word.key != "scale")
+      exact::add(key, fmt::format("{}={}", word.key, text));
+  if (p.transform.stretch != Transform{}.stretch) exact::add(key, pipeline::find_transform_word("scale")->text(p));
   exact::add(key, job.audit);
   return sha256(key + exact::bytes_of(job.settings));
 }

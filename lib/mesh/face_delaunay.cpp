@@ -78,28 +78,32 @@ void insert(Delaunay& delaunay, Points points) {
   }
 }
 
-}  // namespace
-
-std::optional<std::vector<Triangle>> triangulated_by_delaunay(const std::vector<Point>& ring) {
+/// The triangles that lie in an odd number of rings.
+std::optional<std::vector<Triangle>> triangles_inside(const std::vector<const std::vector<Point>*>& rings) {
   Points points;
-  points.reserve(ring.size());
-  for (std::uint32_t i = 0; i < ring.size(); ++i) points.emplace_back(Kernel::Point_2(ring[i].x, ring[i].y), i);
+  for (const auto* ring : rings)
+    for (const Point p : *ring)
+      points.emplace_back(Kernel::Point_2(p.x, p.y), static_cast<std::uint32_t>(points.size()));
   Delaunay delaunay;
   insert(delaunay, points);
   std::map<Kernel::Point_2, Delaunay::Vertex_handle> seen;
   for (const auto vertex : delaunay.finite_vertex_handles()) seen.emplace(vertex->point(), vertex);
   std::vector<Delaunay::Vertex_handle> corners;
-  corners.reserve(ring.size());
+  corners.reserve(points.size());
   for (const auto& [point, index] : points) corners.push_back(seen.at(point));
   std::map<Edge, unsigned> uses;
   StopNowAndThen stop(now_and_then);
+  std::size_t first = 0;
   try {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      stop.step();
-      const auto a = corners[i], b = corners[(i + 1) % ring.size()];
-      if (a == b) return std::nullopt;
-      delaunay.insert_constraint(a, b);
-      ++uses[edge_of(a->info(), b->info())];
+    for (const auto* ring : rings) {
+      for (std::size_t i = 0; i < ring->size(); ++i) {
+        stop.step();
+        const auto a = corners[first + i], b = corners[first + (i + 1) % ring->size()];
+        if (a == b) return std::nullopt;
+        delaunay.insert_constraint(a, b);
+        ++uses[edge_of(a->info(), b->info())];
+      }
+      first += ring->size();
     }
   } catch (const Delaunay::Intersection_of_constraints_exception&) {
     return std::nullopt;
@@ -107,12 +111,25 @@ std::optional<std::vector<Triangle>> triangulated_by_delaunay(const std::vector<
   for (const auto face : delaunay.all_face_handles()) face->info() = Side::unknown;
   if (!tell_sides(delaunay, uses)) return std::nullopt;
   std::vector<Triangle> triangles;
-  triangles.reserve(ring.size());
+  triangles.reserve(points.size());
   for (const auto face : delaunay.finite_face_handles())
     if (face->info() == Side::inside)
       triangles.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
-  if (triangles.size() + 2 != ring.size()) return std::nullopt;
   return triangles;
+}
+
+}  // namespace
+
+std::optional<std::vector<Triangle>> triangulated_by_delaunay(const std::vector<Point>& ring) {
+  auto triangles = triangles_inside({&ring});
+  if (triangles && triangles->size() + 2 != ring.size()) return std::nullopt;
+  return triangles;
+}
+
+std::optional<std::vector<Triangle>> triangulated_rings(const std::vector<std::vector<Point>>& rings) {
+  std::vector<const std::vector<Point>*> all;
+  for (const auto& ring : rings) all.push_back(&ring);
+  return triangles_inside(all);
 }
 
 }  // namespace weft::mesh

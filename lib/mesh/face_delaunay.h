@@ -15,4 +15,8 @@ namespace weft::mesh {
 /// Source: Chew 1989, "Constrained Delaunay triangulations"; CGAL's 2D triangulations.
 std::optional<std::vector<Triangle>> triangulated_by_delaunay(const std::vector<Point>& ring);
 
+/// The same of several rings that do not cross: what lies in an odd number of them.
+/// @return triangles of indices into the corners of all rings one behind the other; nothing where two sides cross
+std::optional<std::vector<Triangle>> triangulated_rings(const std::vector<std::vector<Point>>& rings);
+
 }  // namespace weft::mesh

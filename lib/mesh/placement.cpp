@@ -4,7 +4,7 @@
 #include "core/convex_hull.h"
 #include "core/error.h"
 #include "mesh/arrange.h"
-#include "mesh/weld.h"
+#include "mesh/mapped.h"
 
 #include <cmath>
 #include <numbers>
@@ -24,20 +24,6 @@ Eigen::Rotation2Dd::Matrix2 turn(double degrees) {
   quarter << 0, -1, 1, 0;
   for (int i = static_cast<int>(std::fmod(std::fmod(whole, 4) + 4, 4)); i > 0; --i) result = quarter * result;
   return result;
-}
-
-/// Each vertex where f puts it.
-template <class F>
-Mesh mapped(Mesh mesh, F f) {
-  Weld weld(mesh.vertices.size());
-  std::vector<std::uint32_t> welded;
-  welded.reserve(mesh.vertices.size());
-  for (const Point3& p : mesh.vertices) welded.push_back(weld.index(f(p)));
-  for (Triangle& triangle : mesh.triangles)
-    for (std::uint32_t& corner : triangle) corner = welded[corner];
-  mesh.vertices = weld.take_vertices();
-  if (drop_degenerate(mesh) > 0) drop_unused_vertices(mesh);
-  return mesh;
 }
 
 PlacedModel at_origin(Loaded loaded, const PlacementOptions& options, Point3& home) {

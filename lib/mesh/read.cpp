@@ -104,8 +104,10 @@ Loaded loaded_from(Contents contents, Format format, const std::string& path_as_
 }  // namespace
 
 Loaded read(std::string_view bytes, const std::string& path_as_typed, const ReadOptions& options) {
-  const Source source{without_byte_order_mark(bytes), path_as_typed, options.scale};
+  Source source{without_byte_order_mark(bytes), path_as_typed, options.scale};
   const Reader reader = reader_for(source);
+  const bool says_unit = reader.format == Format::three_mf;
+  if (!says_unit) source.scale *= options.mm_per_unit;
   std::string hash = options.sha256;
   tasks::Beside beside([&] {
     if (hash.empty()) hash = sha256(bytes);
@@ -113,6 +115,10 @@ Loaded read(std::string_view bytes, const std::string& path_as_typed, const Read
   auto loaded = loaded_from(reader.read(source), reader.format, path_as_typed);
   beside.wait();
   loaded.sha256 = std::move(hash);
+  if (says_unit && options.mm_per_unit != 1)
+    loaded.notices.push_back(
+        {"unit_ignored", fmt::format("{}: the file says that its unit is a {}, and --unit has no effect; --scale has",
+                                     path_as_typed, loaded.unit)});
   return loaded;
 }
 
@@ -121,9 +127,10 @@ Loaded read_file(const std::string& path_as_typed, const ReadOptions& options) {
   char bytes[128];
   const std::string_view front(bytes, file.regular() ? file.front(bytes, sizeof bytes) : 0);
   if (!is_binary_stl(front, file.size()) || without_byte_order_mark(front) != front)
-    return read(FileBytes(file).view(), path_as_typed, {.scale = options.scale});
+    return read(FileBytes(file).view(), path_as_typed, {.scale = options.scale, .mm_per_unit = options.mm_per_unit});
   Sha256 hash;  // of the largest files, which are not needed as a whole
-  auto contents = read_binary_stl(file, path_as_typed, options.scale, [&](std::string_view block) { hash.add(block); });
+  auto contents = read_binary_stl(file, path_as_typed, options.scale * options.mm_per_unit,
+                                  [&](std::string_view block) { hash.add(block); });
   auto loaded = loaded_from(std::move(contents), Format::stl_binary, path_as_typed);
   loaded.sha256 = hash.digest();
   return loaded;

@@ -36,6 +36,8 @@ struct ReadOptions {
   /// Multiplies every coordinate. Belongs here and not to the placement: a part drawn in metres or inches would
   /// lose its detail if it met the lattice before it is scaled. Pre: finite, > 0.
   double scale = 1.0;
+  /// Millimetres that a unit of the file is, where the file does not say (STL, OBJ). Pre: finite, > 0.
+  double mm_per_unit = 1.0;
   /// Of the bytes, from who knows it; empty: it is found out. Of a file it is not asked.
   std::string sha256{};
 };

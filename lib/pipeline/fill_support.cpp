@@ -49,6 +49,7 @@ class Filler {
     columns();
     branches();
     for (const Regions* areas : {&layer_.bottom, &layer_.roof}) interface(*areas);
+    joists();
     for (Bead& bead : beads_) {
       const auto tool = bead.role == Role::support ? s_.support_infill_extruder_nr : s_.support_interface_extruder_nr;
       if (tool) bead.tool = static_cast<ToolId>(*tool);
@@ -57,6 +58,14 @@ class Filler {
   }
 
  private:
+  /// What of an area is wider than twice that. Its corners may be as coarse as support is.
+  static Regions wider(const Regions& area, Um by) {
+    const auto grown = [](const Regions& from, Um how) {
+      constexpr Um coarse = 50;
+      return geometry::offset(from, {.by = how, .corner = geometry::Corner::round, .arc_tolerance = coarse});
+    };
+    return grown(grown(area, -by), by);
+  }
   static double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
   void columns() {
@@ -68,7 +77,7 @@ class Filler {
     }
     // Between lines that far apart a narrow column would have none: it gets a loop.
     const double apart = share > 0 ? band_ / share : band_ * 10;
-    const Regions wide = geometry::opening(layer_.columns, rounded(0.6 * apart), geometry::Corner::miter);
+    const Regions wide = wider(layer_.columns, rounded(0.6 * apart));
     if (wide.empty()) {
       loops(layer_.columns, 1, Role::support);
       return;
@@ -94,6 +103,17 @@ class Filler {
     const double share = s_.support_interface_density / 100;
     const Regions inner = loops(areas, s_.support_roof_wall_count, Role::support_interface);
     sparse(inner, share, s_.support_interface_pattern, s_.support_infill_angle + 90, Role::support_interface);
+  }
+
+  /// The rim, and lines from branch to branch.
+  void joists() {
+    loops(layer_.joists.area, 1, Role::support);
+    for (const Polyline& line : layer_.joists.lines) {
+      Bead bead;
+      bead.role = Role::support;
+      for (const Point p : line) bead.path.push_back({p, band_, 1.F});
+      beads_.push_back(std::move(bead));
+    }
   }
 
   /// Loops along the edge, from outside in; what is too thin for one gets a bead along its middle.
@@ -177,6 +197,7 @@ PrintedLayer fill_support(const Settings& settings, const support::SupportLayer&
   out.beads = Filler(settings, layer, origin).beads();
   Regions all = layer.columns;
   append(all, layer.branches), append(all, layer.roof), append(all, layer.bottom);
+  append(all, layer.joists.area);
   out.outline = geometry::unite(all);
   if (out.outline.size() > 1) {
     const geometry::SegmentIndex index(out.outline);

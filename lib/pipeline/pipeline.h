@@ -10,12 +10,37 @@
 #include "plate/plate.h"
 #include "settings/settings.h"
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace weft {
+
+/// Which way a model is laid.
+struct Orientation {
+  bool automatic = true;         ///< so that it wants least support
+  std::array<double, 3> face{};  ///< else the direction that comes to point down; not 0
+  friend bool operator==(const Orientation&, const Orientation&) = default;
+};
+
+enum class CutKeep { both, lower, upper };
+
+/// What is done with models before they are placed, beside Placement::scale and rotate_deg, in this order.
+struct Transform {
+  double mm_per_unit = 1;                     ///< of files that do not say
+  std::array<double, 3> stretch{1, 1, 1};     ///< along the file's axes, beside the scale; 0 < each <= 1
+  std::array<bool, 3> mirror{};               ///< along X, Y, Z
+  double rotate_x_deg = 0, rotate_y_deg = 0;  ///< about X, then Y; then the orientation, then rotate_deg
+  std::optional<Orientation> orient{};
+  std::optional<std::array<double, 3>> fit_mm{};  ///< as large as it can be in a box of that size
+  std::optional<Um> cut{};                        ///< height above its lowest point
+  CutKeep keep = CutKeep::both;
+  bool split = false;  ///< each body that touches no other is an object of its own
+  bool merge = false;  ///< all models are parts of one object
+  friend bool operator==(const Transform&, const Transform&) = default;
+};
 
 /// Where the models go on the bed.
 struct Placement {
@@ -26,6 +51,7 @@ struct Placement {
   double rotate_deg = 0.0;  ///< about Z, counter-clockwise
   int copies = 1;
   Um spacing = 6000;  ///< between copies and models
+  Transform transform{};
 };
 
 /// A file, or a box, that marks something of a model: `box:x,y,z,x,y,z` in mm, two opposite corners.

@@ -10,6 +10,8 @@
 #include "pipeline/model_parts.h"
 #include "pipeline/provenance.h"
 #include "pipeline/stopwatch.h"
+#include "pipeline/transform_models.h"
+#include "pipeline/transform_words.h"
 #include "preview/thumbnail.h"
 #include "settings/value.h"
 #include "tasks/parallel.h"
@@ -48,27 +50,27 @@ void note_model(const mesh::Loaded& model, Report& report) {
 }
 
 /// A model, welded and repaired. Messages name it as it was typed, so that name is part of the key.
-mesh::Loaded read_model(const std::string& path, double scale, StageCache* cache) {
-  if (!cache) return mesh::read_file(path, {.scale = scale});
+mesh::Loaded read_model(const std::string& path, const mesh::ReadOptions& read, StageCache* cache) {
+  if (!cache) return mesh::read_file(path, read);
   const FileBytes file(path);
   const auto hash = sha256(file.view());
   return cached(
-             cache, [&] { return StageKey(row_of<Stage::read>()).with(path).with(hash).with(scale); },
-             [&] { return mesh::read(file.view(), path, {.scale = scale, .sha256 = hash}); })
+             cache,
+             [&] {
+               return StageKey(row_of<Stage::read>()).with(path).with(hash).with(read.scale).with(read.mm_per_unit);
+             },
+             [&] {
+               return mesh::read(file.view(), path,
+                                 {.scale = read.scale, .mm_per_unit = read.mm_per_unit, .sha256 = hash});
+             })
       .take();
 }
 
-/// A model as it is typed: one file, or the parts of one object.
-struct Typed {
-  mesh::Loaded model;
-  std::vector<std::optional<int>> tools;  ///< of each object of the file, or part; where one is named
-  bool one_object = false;
-};
-Typed read_typed(const std::string& typed, double scale, StageCache* cache) {
+Typed read_typed(const std::string& typed, const mesh::ReadOptions& read, StageCache* cache) {
   const auto parts = parts_of(typed);
   Typed out;
   for (const auto& part : parts) {
-    auto model = read_model(part.file, scale, cache);
+    auto model = read_model(part.file, read, cache);
     out.tools.insert(out.tools.end(), model.objects.size(), part.tool);
     if (out.tools.size() == model.objects.size()) {
       out.model = std::move(model);
@@ -125,37 +127,29 @@ Mesh box_mesh(const std::string& source, double scale) {
 }
 
 /// What the command line or a job lays beside a model.
-void add_marks(const Job& job, std::vector<mesh::Loaded>& loaded, Report& report) {
+void add_marks(const Job& job, const mesh::ReadOptions& read, std::vector<Typed>& typed, Report& report) {
   for (const auto& mark : job.marks) {
     std::vector<Mesh> meshes;
     Report::Mark told{mark.model, std::string(mark_key(mark.kind)), mark.source, {}};
     if (mark.source.starts_with("box:")) {
-      meshes.push_back(box_mesh(mark.source, job.placement.scale));
+      meshes.push_back(box_mesh(mark.source, read.scale * read.mm_per_unit));
     } else {
-      auto file = mesh::read_file(mark.source, {.scale = job.placement.scale});
+      auto file = mesh::read_file(mark.source, read);
       told.sha256 = file.sha256;
       for (auto& object : file.objects) meshes.push_back(std::move(object.mesh));
     }
     report.marks.push_back(std::move(told));
-    for (auto& object : loaded[mark.model].objects)
+    for (auto& object : typed[mark.model].model.objects)
       for (const Mesh& mesh : meshes) object.marks.push_back({mark.kind, false, mesh});
   }
 }
 
-}  // namespace
-
-Plate place_models(const Job& job, Report& report, StageCache* cache) {
-  const Stopwatch stopwatch(report.timings_ms[Stage::read]);
-  auto typed = tasks::parallel_map(
-      job.models.size(), [&](std::size_t i) { return read_typed(job.models[i], job.placement.scale, cache); });
-  std::vector<mesh::Loaded> loaded;
-  for (auto& each : typed) loaded.push_back(std::move(each.model));
-  add_marks(job, loaded, report);
+/// What is to be printed, with the tools that it is printed with, and without meshes.
+Plate plate_of(const std::vector<mesh::Loaded>& loaded, const std::vector<Typed>& typed) {
   Plate out;
   for (std::size_t m = 0; m < loaded.size(); ++m) {
     const auto& model = loaded[m];
     const auto& [moved, tools, one_object] = typed[m];
-    note_model(model, report);
     if (one_object) out.objects.push_back({name_of(model, 0), std::vector<Volume>(model.objects.size())});
     for (std::size_t i = 0; i < model.objects.size(); ++i) {
       const auto name = name_of(model, i);
@@ -166,13 +160,33 @@ Plate place_models(const Job& job, Report& report, StageCache* cache) {
                 one_object ? Scope::region : Scope::object, model.path);
     }
   }
+  return out;
+}
+
+}  // namespace
+
+Plate place_models(const Job& job, Report& report, StageCache* cache) {
+  const Stopwatch stopwatch(report.timings_ms[Stage::read]);
+  const auto& transform = job.placement.transform;
+  const bool turned = transforms(transform);
+  const mesh::ReadOptions read{.scale = job.placement.scale, .mm_per_unit = transform.mm_per_unit};
+  auto typed =
+      tasks::parallel_map(job.models.size(), [&](std::size_t i) { return read_typed(job.models[i], read, cache); });
+  add_marks(job, read, typed, report);
+  for (const auto& each : typed) note_model(each.model, report);
+  if (turned || transform.mm_per_unit != 1)
+    for (auto& model : report.models) tell_transforms(job.placement, model);
+  if (turned) typed = transformed(job.settings, job.placement, std::move(typed), report.models);
+  std::vector<mesh::Loaded> loaded;
+  for (auto& each : typed) loaded.push_back(std::move(each.model));
+  Plate out = plate_of(loaded, typed);
 
   const auto& machine = job.settings.machine;
   const mesh::Plate bed{print_surface(machine), machine.bed_exclude_areas, height_of(machine)};
   auto placed = mesh::place(std::move(loaded),
                             {.stretch_xy = job.settings.material.material_shrinkage_percentage_xy / 100,
                              .stretch_z = job.settings.material.material_shrinkage_percentage_z / 100,
-                             .rotate_deg = job.placement.rotate_deg,
+                             .rotate_deg = turned ? 0 : job.placement.rotate_deg,
                              .keep_position = job.placement.keep_position,
                              .drop = job.placement.drop,
                              .center = job.placement.centre,

@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/escape.h"
 #include "core/number.h"
+#include "pipeline/transform_words.h"
 #include "profile/profile.h"
 #include "settings/value.h"
 
@@ -11,6 +12,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -28,10 +30,14 @@ std::string text_of(const Placement& p) {
   if (p.centre) out += fmt::format(" center={},{}", p.centre->x, p.centre->y);  // microns
   if (p.keep_position) out += " keep-position=1";
   if (p.drop) out += " drop=1";
-  if (p.scale != usual.scale) out += fmt::format(" scale={}", p.scale);
+  if (const auto* scale = pipeline::find_transform_word("scale"); !scale->text(p).empty())
+    out += " scale=" + scale->text(p);
   if (p.rotate_deg != usual.rotate_deg) out += fmt::format(" rotate={}", p.rotate_deg);
   if (p.copies != usual.copies) out += fmt::format(" copies={}", p.copies);
   if (p.spacing != usual.spacing) out += fmt::format(" spacing={}", p.spacing);
+  for (const auto& word : pipeline::transform_words())
+    if (const auto text = word.text(p); !text.empty() && word.key != "scale")
+      out += fmt::format(" {}={}", word.key, text);
   return out.empty() ? out : out.substr(1);
 }
 
@@ -59,6 +65,16 @@ T within(T v, T least, T most, const char* key, const std::string& path) {
   throw Error{Error::Kind::file, fmt::format("{}: {} is outside {} … {}", key, v, least, most), path, "was it edited?"};
 }
 
+/// @throws Error{file}
+void set_word(Placement& p, const pipeline::TransformWord& word, std::string_view value, const std::string& path) {
+  try {
+    word.set(p, value);
+  } catch (const std::invalid_argument& problem) {
+    throw Error{Error::Kind::file, fmt::format("weft_placement: {}: {}", word.key, problem.what()), path,
+                "was it edited?"};
+  }
+}
+
 Placement placement_from(std::string_view text, const std::string& path) {
   Placement p;
   while (!text.empty()) {
@@ -71,8 +87,8 @@ Placement placement_from(std::string_view text, const std::string& path) {
       p.keep_position = true;
     } else if (key == "drop") {
       p.drop = true;
-    } else if (key == "scale") {
-      p.scale = within(number<double>(value, path), 1e-6, 1e6, "scale", path);
+    } else if (const auto* word = pipeline::find_transform_word(key)) {
+      set_word(p, *word, value, path);
     } else if (key == "rotate") {
       p.rotate_deg = within(number<double>(value, path), -36000.0, 36000.0, "rotate", path);
     } else if (key == "copies") {

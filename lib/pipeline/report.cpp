@@ -29,12 +29,22 @@ std::string_view name_of(Report::Status status) {
 
 Json models_of(const Report& r) {
   Json out = Json::array();
-  for (const auto& m : r.models)
+  for (const auto& m : r.models) {
     out.push_back({{"file", m.file},
                    {"sha256", m.sha256},
                    {"triangles", m.triangles},
                    {"volume_mm3", rounded3(m.volume_mm3)},
                    {"repairs", m.repairs}});
+    if (!m.transforms.empty()) out.back()["transforms"] = m.transforms;
+    for (const auto& o : m.orientations)
+      out.back()["orientations"].push_back({{"down", {rounded3(o.down[0]), rounded3(o.down[1]), rounded3(o.down[2])}},
+                                            {"support_mm3", rounded3(o.support_mm3)},
+                                            {"contact_mm2", rounded3(o.contact_mm2)},
+                                            {"on_part_mm2", rounded3(o.on_part_mm2)},
+                                            {"height_mm", rounded3(o.height_mm)},
+                                            {"foot_mm2", rounded3(o.foot_mm2)},
+                                            {"cost_mm3", rounded3(o.cost_mm3)}});
+  }
   return out;
 }
 

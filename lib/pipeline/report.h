@@ -18,6 +18,14 @@ struct Report {
   /// annotated: written although the audit found something, as it was asked for.
   enum class Status { ok, rejected, failed, annotated };
 
+  /// A way in which a model could be laid, and what it would ask for.
+  struct Orientation {
+    std::array<double, 3> down{0, 0, -1};     ///< the direction of the model that comes to point down
+    double support_mm3 = 0;                   ///< of columns, as if they were solid
+    double contact_mm2 = 0, on_part_mm2 = 0;  ///< support under the part, and on it
+    double height_mm = 0, foot_mm2 = 0;
+    double cost_mm3 = 0;  ///< of all that together: less is better
+  };
   struct Model {
     std::string file, sha256;
     std::size_t triangles = 0;
@@ -29,6 +37,8 @@ struct Report {
       std::optional<int> tool;
     };
     std::vector<Part> parts{};  ///< empty: one file, of which no tool is named
+    std::vector<std::string> transforms{};    ///< what was done with it before it was placed, in words
+    std::vector<Orientation> orientations{};  ///< the best that were found, best first, where it was to be laid
   };
   /// What was laid beside a model for support.
   struct Mark {

@@ -3,11 +3,14 @@
 
 #include "core/stop.h"
 #include "geometry/boolean.h"
+#include "geometry/offset.h"
+#include "geometry/simplify.h"
 #include "geometry/spatial_index.h"
 #include "support/columns.h"
 #include "support/lengths.h"
 
 #include <algorithm>
+#include <numbers>
 
 namespace weft::support {
 namespace {
@@ -27,6 +30,39 @@ double column_mm3(const SupportSettings& s, const Regions& area, Um line, Um hei
   return to_mm(height) * std::min(mm2, std::max(mm2 * s.support_infill_rate / 100, loop));
 }
 
+/// What the loops of a branch take, mm² on a level.
+double walls_mm2(const SupportSettings& s, const Region& branch, Um line) {
+  const double thick_mm = to_mm(s.support_tree_branch_diameter_double_wall);
+  const bool two = thick_mm > 0 && area_mm2(branch) > std::numbers::pi / 4 * thick_mm * thick_mm;
+  return s.support_wall_count.value_or(two ? 2 : 1) * perimeter_mm({branch}) * to_mm(line);
+}
+
+/// Columns as they would stand, every two millimetres of height: visit(region, height that it stands for), and
+/// land(region) for what of them comes to stand on the part.
+template <class Visit, class Land>
+void guess_columns(const SupportSettings& s, const Object& object, const Stack& stack,
+                   const std::vector<KeepOut>& keep_out, const std::vector<Regions>& contacts, Visit visit, Land land) {
+  using namespace weft::literals;
+  constexpr Um step = 2_mm, coarse = 0.1_mm;
+  Regions falling;
+  Um height = 0;
+  for (std::size_t k = stack.levels.size(); k-- > 0;) {
+    append(falling, contacts[k]);
+    height += stack.levels[k].height;
+    if (falling.empty() || (height < step && k > 0)) continue;
+    stop_if_asked();
+    falling = geometry::simplified(geometry::unite(falling), coarse);
+    if (s.support_join_distance > 0) falling = geometry::closing(falling, s.support_join_distance / 2);
+    if (s.support_type == SupportType::everywhere)
+      for (const Region& region :
+           geometry::intersect(falling, outlines_between(object, stack.levels[k].bottom(), stack.levels[k].z)))
+        land(region);
+    falling = opened(geometry::subtract(falling, keep_out[k].near), line_width(s, object.nozzle) / 2);
+    for (const Region& region : falling) visit(region, height);
+    height = 0;
+  }
+}
+
 }  // namespace
 
 Split cheaper(const SupportSettings& s, const Object& object, const Stack& stack, const std::vector<KeepOut>& keep_out,
@@ -39,14 +75,17 @@ Split cheaper(const SupportSettings& s, const Object& object, const Stack& stack
   const auto patch_of = [&](const Region& region) { return index.region_at(region.outer.front()).value_or(0); };
   std::vector<double> columns_mm3(patches.size(), 0), branches_mm3(patches.size(), 0);
 
-  const auto standing = columns(s, object, stack, keep_out, contacts, std::vector<Regions>(contacts.size()));
+  constexpr double mm3_by_scar_mm2 = 1;  // what stands on the part is filed off
+  guess_columns(
+      s, object, stack, keep_out, contacts,
+      [&](const Region& region, Um height) { columns_mm3[patch_of(region)] += column_mm3(s, {region}, line, height); },
+      [&](const Region& region) { columns_mm3[patch_of(region)] += mm3_by_scar_mm2 * area_mm2(region); });
   auto branches = tree(s, object, stack, keep_out, contacts);
   double tree_mm3 = 0;
   for (std::size_t k = 0; k < stack.levels.size(); ++k) {
     stop_if_asked();
-    for (const Region& region : standing[k])
-      columns_mm3[patch_of(region)] += column_mm3(s, {region}, line, stack.levels[k].height);
-    tree_mm3 += perimeter_mm(branches.areas[k]) * to_mm(line) * to_mm(stack.levels[k].height);
+    for (const Region& region : branches.areas[k])
+      tree_mm3 += walls_mm2(s, region, line) * to_mm(stack.levels[k].height);
   }
   // Either has a roof, which on a branch takes the place of nothing, and on a column that of what fills it.
   const double roof = s.support_roof_enable ? to_mm(s.support_roof_height) * s.support_infill_rate / 100 : 0;

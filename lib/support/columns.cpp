@@ -4,6 +4,7 @@
 #include "core/stop.h"
 #include "geometry/boolean.h"
 #include "geometry/clip_lines.h"
+#include "geometry/simplify.h"
 #include "support/branch_areas.h"
 #include "support/lengths.h"
 
@@ -114,23 +115,60 @@ TowersAndOthers for_towers(const SupportSettings& settings, const std::vector<Re
   return out;
 }
 
+namespace {
+
+/// The boxes of pieces, wider.
+Regions boxes_around(const Regions& pieces, Um by) {
+  std::vector<Ring> rings;
+  for (const Region& piece : pieces) {
+    const Box box = box_of(piece.outer).grown(by);
+    rings.push_back({box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}});
+  }
+  return geometry::regions_from_rings(rings);
+}
+
+}  // namespace
+
 void thicken(Regions& area, const Regions& fresh, Um line) {
-  Regions thin = geometry::subtract(area, grown(geometry::opening(area, line), 20));
-  if (thin.empty()) return;
-  thin = geometry::intersect(thin, fresh);
+  if (fresh.empty()) return;
+  // What a disc inside of the area covers is told by what lies as near as its diameter.
+  const Regions around = &area == &fresh ? area : geometry::intersect(area, boxes_around(fresh, 2 * line));
+  const Regions thin = geometry::subtract(fresh, grown(opened(around, line), 20));
   if (thin.empty()) return;
   append(area, grown(thin, line));
   area = geometry::unite(area);
 }
 
+namespace {
+
+/// What of a level hangs, but for slivers along edges: an area that was opened by 0.4 lines is none.
+Regions hanging(const Regions& here, const Regions& below) {
+  Regions out = geometry::subtract(here, below);
+  std::erase_if(out, [](const Region& piece) {
+    constexpr double least_mm2 = 0.05, least_wide_mm = 0.06;
+    const double mm2 = area_mm2(piece);
+    return mm2 < least_mm2 || 2000 * mm2 < least_wide_mm * perimeter_of(piece.outer);
+  });
+  return out;
+}
+
+}  // namespace
+
 void rest_on(const SupportSettings& s, const Object& object, const Stack::Level& level, const Regions& below,
              Regions& here) {
   constexpr Um sinks = 0.6_mm;  // what hangs so far above the part comes to lie on it
-  if (here.empty() || geometry::subtract(here, below).empty()) return;
-  Regions base = below;
-  if (s.support_type == SupportType::everywhere)
-    append(base, outlines_between(object, level.bottom() - bottom_gap(s) - sinks, level.bottom()));
-  here = geometry::intersect(here, grown(base, std::max(line_width(s, object.nozzle) * 6 / 10, level.height)));
+  if (here.empty()) return;
+  const Regions hangs = hanging(here, below);
+  if (hangs.empty()) return;
+  const Um reach = std::max(line_width(s, object.nozzle) * 6 / 10, level.height);
+  const Regions near = boxes_around(hangs, 2 * reach);
+  Regions base = geometry::intersect(below, near);
+  if (s.support_type == SupportType::everywhere) {
+    const auto run = layers_between(object, level.bottom() - bottom_gap(s) - sinks, level.bottom());
+    for (std::size_t i = run.from; i < run.to; ++i) append(base, geometry::intersect(object.layers[i]->regions, near));
+  }
+  const Regions free = base.empty() ? hangs : geometry::subtract(hangs, grown(geometry::unite(base), reach));
+  if (!free.empty()) here = geometry::subtract(here, free);
 }
 
 void let_rest(const SupportSettings& s, const Object& object, const Stack& stack, std::vector<Regions>& levels) {
@@ -152,6 +190,18 @@ Regions free_part(const Regions& area, const KeepOut& out, const Regions& contac
     append(barred, geometry::subtract(out.near, grown(contacts, object.nozzle)));  // a strip alone could not be printed
   return barred.empty() ? left : geometry::subtract(left, barred);
 }
+
+namespace {
+
+constexpr Um corner_bound = 15_um;
+
+/// What is thinner than twice the radius goes. Other corners stay as they are: opened level by level, they would be cut
+/// a little each time.
+Regions without_thin(const Regions& area, Um radius) {
+  return geometry::intersect(area, grown(opened(area, radius), radius / 2));
+}
+
+}  // namespace
 
 std::vector<Regions> columns(const SupportSettings& settings, const Object& object, const Stack& stack,
                              const std::vector<KeepOut>& keep_out, const std::vector<Regions>& contacts,
@@ -178,9 +228,11 @@ std::vector<Regions> columns(const SupportSettings& settings, const Object& obje
       falling = geometry::unite(falling);
     }
     if (falling.empty()) continue;
-    falling = free_part(falling, keep_out[k], contacts[k], object);
-    if (!shadow.empty()) falling = geometry::subtract(falling, shadow[k]);
-    falling = geometry::opening(falling, line * 4 / 10);
+    falling = geometry::simplified(falling, corner_bound);  // of corners that the part above has left
+    Regions left = free_part(falling, keep_out[k], contacts[k], object);
+    if (!shadow.empty()) left = geometry::subtract(left, shadow[k]);
+    const bool same = contacts[k].empty() && std::abs(area_mm2(left) - area_mm2(falling)) < 1e-6;
+    if (!same) falling = without_thin(left, line * 4 / 10);
     out[k] = falling;
   }
   let_rest(settings, object, stack, out);

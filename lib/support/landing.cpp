@@ -20,6 +20,7 @@ constexpr std::array kinds{&SupportLayer::columns, &SupportLayer::branches, &Sup
 Regions all_of(const SupportLayer& layer) {
   Regions out;
   for (const auto kind : kinds) append(out, layer.*kind);
+  append(out, layer.joists.area);
   return out.empty() ? out : geometry::unite(out);
 }
 
@@ -36,8 +37,11 @@ std::vector<Landing> landings_of(const SupportSettings& s, const Object& object,
   const auto run = layers_between(object, bottom - gap - below.height, bottom - gap);
   std::vector<Landing> out;
   if (run.from == run.to) return out;
-  Regions standing = all_of(layer);
-  if (standing.empty()) return out;
+  Regions kinds_of, part;
+  for (const auto kind : kinds) append(kinds_of, layer.*kind);
+  for (std::size_t i = run.from; i < run.to; ++i) append(part, object.layers[i]->regions);
+  if (kinds_of.empty() || geometry::intersect(kinds_of, part).empty()) return out;
+  Regions standing = geometry::unite(kinds_of);
   standing = geometry::subtract(standing, grown(all_of(below), line));
   for (std::size_t i = run.to; i-- > run.from && !standing.empty();) {  // the highest is what it stands on
     const Um free = bottom - object.layers[i]->z - gap;
@@ -53,7 +57,7 @@ std::vector<Landing> landings_of(const SupportSettings& s, const Object& object,
 
 /// Takes an area out of a layer, kind by kind.
 SupportLayer taken(SupportLayer& layer, const Regions& area) {
-  SupportLayer out{layer.z, layer.height, {}, {}, {}, {}, layer.first};
+  SupportLayer out{layer.z, layer.height, {}, {}, {}, {}, layer.first, {}};
   for (const auto kind : kinds) {
     if ((layer.*kind).empty()) continue;
     out.*kind = geometry::intersect(layer.*kind, area);

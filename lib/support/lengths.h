@@ -64,6 +64,14 @@ inline Regions grown(const Regions& regions, Um by) {
   return geometry::offset(regions, {.by = by, .corner = geometry::Corner::round, .arc_tolerance = coarse_arc});
 }
 
+/// As geometry::opening, with arcs of as many corners as support needs.
+inline Regions opened(const Regions& regions, Um radius) {
+  return grown(grown(regions, -radius), radius);
+}
+
+/// Outlines of support need no finer corners than that.
+inline constexpr Um coarse_outline = 25_um;
+
 inline void append(Regions& to, const Regions& more) {
   to.insert(to.end(), more.begin(), more.end());
 }

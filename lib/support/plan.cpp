@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/stop.h"
 #include "geometry/boolean.h"
+#include "geometry/simplify.h"
 #include "support/cheaper.h"
 #include "support/columns.h"
+#include "support/joists.h"
 #include "support/landing.h"
 #include "support/lengths.h"
 #include "support/support.h"
@@ -22,9 +24,10 @@ std::vector<Regions> contacts_of(const Stack& stack, const Demand& demand) {
   std::vector<Regions> out(stack.levels.size());
   for (std::size_t i = 0; i < demand.size(); ++i)
     if (stack.contact[i] != Stack::none) append(out[stack.contact[i]], demand[i].wanted);
-  for (auto& regions : out)
-    if (regions.size() > 1) regions = geometry::unite(regions);
-  return out;
+  return tasks::parallel_map(out.size(), [&](std::size_t k) {
+    if (out[k].empty()) return Regions{};
+    return geometry::simplified(out[k].size() > 1 ? geometry::unite(out[k]) : out[k], coarse_outline);
+  });
 }
 
 /// What was drawn as support, by level.
@@ -45,7 +48,7 @@ SupportLayer divided(const SupportSettings& s, const Object& object, const Stack
                      const std::vector<Regions>& standing, const std::vector<Regions>& contacts) {
   const auto& level = stack.levels[k];
   const Um line = line_width(s, object.nozzle);
-  SupportLayer out{level.z, level.height, standing[k], {}, {}, {}, k == 0 && !object.on_raft};
+  SupportLayer out{level.z, level.height, standing[k], {}, {}, {}, k == 0 && !object.on_raft, {}};
   if (out.columns.empty()) return out;
   if (s.support_roof_enable && s.support_roof_height > 0) {
     Regions held;
@@ -70,9 +73,9 @@ SupportLayer divided(const SupportSettings& s, const Object& object, const Stack
   return out;
 }
 
-/// The first level reaches further out, so that it sticks.
+/// The first level is floors, also under branches, which are hollow above; and reaches further out, so that it sticks.
 void spread_first(const SupportSettings& s, const Object& object, const KeepOut& keep_out, SupportLayer& first) {
-  if (s.support_brim_width <= 0 || object.on_raft) return;
+  if (object.on_raft) return;
   Regions all = first.columns;
   append(all, first.roof), append(all, first.bottom);
   Regions wide = all.empty() ? all : grown(geometry::unite(all), s.support_brim_width);
@@ -99,8 +102,11 @@ void note_reached(const Object& object, const Stack& stack, const Demand& demand
     Regions left = demand[i].wanted;
     if (stack.contact[i] != Stack::none) {
       const auto& level = plan.layers[stack.contact[i]];
-      Regions all = level.roof;
-      append(all, level.columns), append(all, level.branches);
+      const Box near = box_of(demand[i].wanted).grown(2 * reached);
+      Regions all;
+      for (const Regions* some : {&level.roof, &level.columns, &level.branches})
+        for (const Region& region : *some)
+          if (near.overlaps(box_of(region.outer))) all.push_back(region);
       all = geometry::unite(all);
       out.contact_mm2 = area_mm2(geometry::intersect(all, demand[i].wanted));
       const Regions wide = grown(all, reached);
@@ -179,9 +185,15 @@ void add_branches(const SupportSettings& s, const Object& object, std::size_t k,
     append(layer.roof, own);
     if (layer.roof.size() > own.size()) layer.roof = geometry::unite(layer.roof);
   }
+  layer.joists = standing.branches.joists[k];
+  if (!layer.joists.area.empty() && !standing.columns[k].empty()) {
+    layer.joists.area =
+        geometry::opening(geometry::subtract(layer.joists.area, grown(standing.columns[k], 20)), half / 2);
+    clip_joists(layer.joists, 2 * half);
+  }
   if (areas.empty()) return;
   Regions others = grown(standing.columns[k], half);
-  append(others, roofs);
+  append(others, roofs), append(others, layer.joists.area);
   layer.branches = others.empty() ? areas : geometry::opening(geometry::subtract(areas, others), half / 2);
 }
 

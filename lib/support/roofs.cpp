@@ -5,10 +5,12 @@
 #include "geometry/boolean.h"
 #include "support/branch_areas.h"
 #include "support/columns.h"
+#include "support/joists.h"
 #include "support/lengths.h"
 #include "tasks/parallel.h"
 
 #include <algorithm>
+#include <numbers>
 #include <utility>
 
 namespace weft::support {
@@ -35,7 +37,9 @@ Roofs::Roofs(const SupportSettings& settings, const Object& object, const Stack&
       begins_(contacts.size()),
       laid_(contacts.size()),
       held_from_(contacts.size()),
-      wide_(contacts.size()) {
+      wide_(contacts.size()),
+      lowest_(contacts.size()),
+      tips_(contacts.size()) {
   if (!settings.support_roof_enable || settings.support_roof_height <= 0) {
     bare_ = contacts;
     return;
@@ -51,7 +55,8 @@ Roofs::Roofs(const SupportSettings& settings, const Object& object, const Stack&
     bare_[k] =
         wide_[k].empty() ? contacts[k] : geometry::opening(geometry::subtract(contacts[k], grown(wide_[k], 100)), 20);
     if (wide_[k].empty()) continue;
-    const std::size_t count = interface_levels(stack, k, settings.support_roof_height);
+    // A roof of one level gets its joists below it, any other has them for its lowest.
+    const std::size_t count = std::max<std::size_t>(2, interface_levels(stack, k, settings.support_roof_height));
     if (count > k) {  // it lies on the plate
       for (std::size_t j = 0; j <= k; ++j) append(laid_[j], wide_[k]);
       continue;
@@ -70,22 +75,55 @@ void Roofs::rest(std::size_t level, const std::vector<Point>& branches, Um spans
     if (box.contains(p)) rings.push_back(circle_around({p, static_cast<double>(spans)}));
   if (rings.empty()) return;
   const Regions held = geometry::regions_from_rings(rings);
+  for (const Point p : branches)
+    if (box.contains(p)) tips_[level + 1].push_back(p);
   for (const std::size_t k : held_from_[level]) {
     const Regions part = geometry::intersect(wide_[k], held);
-    for (std::size_t j = level + 1; j <= k; ++j) append(laid_[j], part);
+    append(lowest_[level + 1], part);
+    for (std::size_t j = level + 2; j <= k; ++j) append(laid_[j], part);
   }
 }
 
-std::vector<Regions> Roofs::areas(const std::vector<KeepOut>& keep_out) && {
+Regions Roofs::shaped(const Regions& area, const KeepOut& keep_out) const {
   const Um line = line_width(s_, o_.nozzle);
-  return tasks::parallel_map(laid_.size(), [&](std::size_t k) {
-    if (laid_[k].empty()) return Regions{};
+  const Regions all = geometry::unite(area);
+  Regions out = s_.support_join_distance > 0 ? geometry::closing(all, s_.support_join_distance / 2) : all;
+  thicken(out, out, line);
+  return geometry::opening(free_part(out, keep_out, all, o_), line * 4 / 10);
+}
+
+Roofs::OfLevel Roofs::of_level(std::size_t level, const KeepOut& keep_out) const {
+  constexpr Um narrow = 3_mm;  // strands from rim to rim of what is no wider cross it
+  const Um line = line_width(s_, o_.nozzle);
+  Regions dense = laid_[level], open;
+  if (!lowest_[level].empty()) {
+    const Regions lowest = geometry::unite(lowest_[level]);
+    open = geometry::opening(lowest, narrow / 2);
+    append(dense, open.empty() ? lowest : geometry::opening(geometry::subtract(lowest, grown(open, 50)), 20));
+  }
+  OfLevel out;
+  if (!dense.empty()) out.area = shaped(dense, keep_out);
+  if (open.empty()) return out;
+  open = shaped(open, keep_out);
+  if (!out.area.empty()) open = geometry::opening(geometry::subtract(open, grown(out.area, 20)), line * 4 / 10);
+  const bool one_way = s_.support_interface_pattern == SupportPattern::zigzag ||
+                       s_.support_interface_pattern == SupportPattern::lines || s_.support_interface_density >= 99.5;
+  const JoistStyle style{.strands_rad = (s_.support_infill_angle + 90) * std::numbers::pi / 180,
+                         .one_way = one_way,
+                         .longest = branch_style(s_).tip + roof_span(o_.nozzle) + 2 * o_.nozzle,
+                         .line = line};
+  out.joists = joists_between(std::move(open), tips_[level], style);
+  return out;
+}
+
+Roofs::Laid Roofs::laid(const std::vector<KeepOut>& keep_out) && {
+  auto levels = tasks::parallel_map(laid_.size(), [&](std::size_t k) {
     stop_if_asked();
-    Regions area = geometry::unite(laid_[k]);
-    if (s_.support_join_distance > 0) area = geometry::closing(area, s_.support_join_distance / 2);
-    thicken(area, area, line);
-    return geometry::opening(free_part(area, keep_out[k], geometry::unite(laid_[k]), o_), line * 4 / 10);
+    return laid_[k].empty() && lowest_[k].empty() ? OfLevel{} : of_level(k, keep_out[k]);
   });
+  Laid out;
+  for (auto& level : levels) out.areas.push_back(std::move(level.area)), out.joists.push_back(std::move(level.joists));
+  return out;
 }
 
 }  // namespace weft::support

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "support/room.h"
+#include "support/support.h"
 
 #include <vector>
 
 namespace weft::support {
 
 /// Interfaces that lie on branches: few thick branches under a roof hold what many thin ones would, and the part lies
-/// on strands side by side. What is too narrow for a roof is held by tips themselves.
+/// on strands side by side. The lowest level of a wide roof is joists from branch to branch, or strands between rows of
+/// branches would hang. What is too narrow for a roof is held by tips themselves.
 class Roofs {
  public:
   Roofs(const SupportSettings& settings, const Object& object, const Stack& stack,
@@ -22,9 +24,20 @@ class Roofs {
   void rest(std::size_t level, const std::vector<Point>& branches, Um spans);
 
   /// By level, within the room.
-  std::vector<Regions> areas(const std::vector<KeepOut>& keep_out) &&;
+  struct Laid {
+    std::vector<Regions> areas;
+    std::vector<Joists> joists;
+  };
+  Laid laid(const std::vector<KeepOut>& keep_out) &&;
 
  private:
+  struct OfLevel {
+    Regions area;
+    Joists joists;
+  };
+  OfLevel of_level(std::size_t level, const KeepOut& keep_out) const;
+  Regions shaped(const Regions& area, const KeepOut& keep_out) const;
+
   const SupportSettings& s_;
   const Object& o_;
   const Stack& stack_;
@@ -32,6 +45,8 @@ class Roofs {
   std::vector<Regions> bare_, begins_, laid_;
   std::vector<std::vector<std::size_t>> held_from_;  ///< of each level: the contacts whose roofs begin above it
   std::vector<Regions> wide_;                        ///< of each contact, what gets a roof
+  std::vector<Regions> lowest_;                      ///< of each level, the roofs' that begin there
+  std::vector<std::vector<Point>> tips_;             ///< of each level, what those lie on
 };
 
 }  // namespace weft::support

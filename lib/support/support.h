@@ -47,6 +47,13 @@ struct Island {
 /// @param over_air by layer: what of it has nothing below, where that is known
 std::vector<Island> islands(const Object& object, std::span<const Regions* const> over_air = {});
 
+/// The lowest layer of a roof over branches: what its strands lie on. An area with a loop along its rim, and lines in
+/// it.
+struct Joists {
+  Regions area;
+  std::vector<Polyline> lines;
+};
+
 /// One layer of support. Areas do not overlap.
 struct SupportLayer {
   Um z = 0, height = 0;
@@ -55,6 +62,7 @@ struct SupportLayer {
   Regions roof;        ///< the interface under the part
   Regions bottom;      ///< the interface over the part
   bool first = false;  ///< it lies on the bed
+  Joists joists{};     ///< between branches and the roof above them
 };
 
 struct Figures {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "support/room.h"
+#include "support/support.h"
 
 #include <vector>
 
@@ -10,6 +11,7 @@ namespace weft::support {
 struct Tree {
   std::vector<Regions> areas;  ///< by level
   std::vector<Regions> roofs;  ///< by level: interfaces that lie on branches
+  std::vector<Joists> joists;  ///< by level: the lowest of them
   std::vector<Regions> left;   ///< by level: contacts that no branch could get to
   std::vector<Point3> tips_at;
   std::size_t trunks = 0;

@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "support/support.h"
-
-#include "geometry/boolean.h"
-#include "geometry/offset.h"
-#include "rectangle.h"
+#include "body.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,60 +9,9 @@
 #include <catch2/catch.hpp>
 
 using namespace weft;
-using test::rectangle;
+using namespace weft::test;
 
 namespace {
-
-/// Layers of 0.2 mm of a body that grows from outline to outline.
-struct Body {
-  std::vector<SlicedLayer> layers;
-  std::vector<const SlicedLayer*> pointers;
-
-  void add(int count, const Regions& outline, Um height = 200) {
-    for (int i = 0; i < count; ++i) {
-      const Um z = (layers.empty() ? 0 : layers.back().z) + height;
-      layers.push_back({z, height, outline});
-    }
-  }
-  support::Object object() {
-    pointers.clear();
-    for (const auto& layer : layers) pointers.push_back(&layer);
-    support::Object out;
-    out.layers = pointers;
-    return out;
-  }
-};
-
-/// A plate of 40 × 20 mm on a post of 4 × 4 mm.
-Body tee(int post = 50) {
-  Body out;
-  out.add(post, {rectangle(-2000, -2000, 2000, 2000)});
-  out.add(10, {rectangle(-20000, -10000, 20000, 10000)});
-  return out;
-}
-
-SupportSettings on(SupportStructure structure = SupportStructure::normal) {
-  SupportSettings s;
-  s.support_enable = true;
-  s.support_structure = structure;
-  return s;
-}
-
-Regions all_of(const support::SupportLayer& layer) {
-  Regions out;
-  for (const auto* regions : {&layer.columns, &layer.branches, &layer.roof, &layer.bottom})
-    out.insert(out.end(), regions->begin(), regions->end());
-  return geometry::unite(out);
-}
-
-Regions grown(const Regions& regions, Um by) {
-  return geometry::offset(regions, {.by = by, .corner = geometry::Corner::round, .arc_tolerance = 5});
-}
-
-support::Plan planned(const SupportSettings& s, Body& body) {
-  const auto object = body.object();
-  return support::plan(s, object, support::demand(s, object));
-}
 
 /// Plastic, about: columns are filled to 15 %, interfaces wholly, branches are one loop of 0.4 mm.
 double plastic(const support::Plan& plan) {
@@ -107,7 +52,9 @@ double floating(const support::Plan& plan, const Body& body, Um aside) {
       if (layer.z <= bottom && layer.z > bottom - 1000) add(layer.regions);
     base = geometry::unite(base);
     const Regions hangs = geometry::subtract(all_of(level), grown(base, aside));
-    mm2 += area_mm2(geometry::subtract(hangs, geometry::intersect(level.roof, grown(base, crosses))));
+    Regions strands = level.roof;
+    strands.insert(strands.end(), level.joists.area.begin(), level.joists.area.end());
+    mm2 += area_mm2(geometry::subtract(hangs, geometry::intersect(strands, grown(base, crosses))));
   }
   return mm2;
 }
@@ -250,25 +197,6 @@ TEST_CASE("support: what stands on the part begins the gap above it that is set,
       CHECK(lowest == 2000 + gap);
       CHECK(plan.figures.on_part_mm2 > 0);
     }
-}
-
-TEST_CASE("support: a roof lies on fewer branches, and what is too narrow for one is held by tips") {
-  auto body = tee();
-  auto s = on(SupportStructure::tree);
-  const auto roofed = planned(s, body);
-  s.support_roof_enable = false;
-  const auto bare = planned(s, body);
-  CHECK(roofed.figures.tips < bare.figures.tips * 7 / 10);
-  CHECK(area_mm2(roofed.layers.back().roof) > 0.95 * roofed.figures.needed_mm2 - 20);
-  for (const auto& layer : bare.layers) CHECK(layer.roof.empty());
-
-  Body needle;
-  needle.add(30, {rectangle(0, 0, 10000, 10000)});
-  needle.add(10, {rectangle(0, 0, 10000, 10000), rectangle(15000, 0, 15500, 500)});
-  const auto held = planned(on(SupportStructure::tree), needle);
-  REQUIRE_FALSE(held.layers.empty());
-  CHECK(held.figures.tips >= 1);
-  CHECK(held.figures.left_mm2 == 0);
 }
 
 TEST_CASE("support: conical columns get narrower downwards and keep their least width") {

@@ -106,7 +106,7 @@ struct SupportSettings {
   std::optional<double> support_tree_angle_slow;
   std::optional<Um> support_tree_branch_diameter;
   std::optional<double> support_tree_branch_diameter_angle;
-  Um support_tree_branch_diameter_double_wall = 3_mm;
+  Um support_tree_branch_diameter_double_wall = 10_mm;
   std::optional<Um> support_tree_tip_diameter;
   Um support_tree_branch_distance = 1_mm;
   double support_tree_top_rate = 15;

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "body.h"
+#include "geometry/clip_lines.h"
+
+#include <catch2/catch.hpp>
+
+using namespace weft;
+using namespace weft::test;
+
+TEST_CASE("support: a roof lies on fewer branches, and what is too narrow for one is held by tips") {
+  auto body = tee();
+  auto s = on(SupportStructure::tree);
+  const auto roofed = planned(s, body);
+  s.support_roof_enable = false;
+  const auto bare = planned(s, body);
+  CHECK(roofed.figures.tips < bare.figures.tips * 7 / 10);
+  CHECK(area_mm2(roofed.layers.back().roof) > 0.95 * roofed.figures.needed_mm2 - 20);
+  for (const auto& layer : bare.layers) CHECK(layer.roof.empty());
+
+  Body needle;
+  needle.add(30, {rectangle(0, 0, 10000, 10000)});
+  needle.add(10, {rectangle(0, 0, 10000, 10000), rectangle(15000, 0, 15500, 500)});
+  const auto held = planned(on(SupportStructure::tree), needle);
+  REQUIRE_FALSE(held.layers.empty());
+  CHECK(held.figures.tips >= 1);
+  CHECK(held.figures.left_mm2 == 0);
+}
+
+TEST_CASE("support: every strand of a roof over branches lies on joists, and every joist on branches") {
+  constexpr double longest_mm = 6;  // a joist from branch to branch, a strand from joist to joist
+  for (const auto& outline : {rectangle(-20000, -10000, 20000, 10000), rectangle(-14000, -14000, 14000, 14000)}) {
+    Body body;
+    body.add(50, {rectangle(-2000, -2000, 2000, 2000)});
+    body.add(10, {outline});
+    const auto plan = planned(on(SupportStructure::tree), body);
+    std::size_t roofs = 0;
+    for (std::size_t k = 2; k < plan.layers.size(); ++k) {
+      const auto& joists = plan.layers[k - 1].joists;
+      if (joists.area.empty() || plan.layers[k].roof.empty()) continue;
+      ++roofs;
+      const Regions rim = geometry::subtract(joists.area, geometry::offset(joists.area, {.by = -400}));
+      std::vector<Polyline> strands;
+      for (Um x = -19900; x < 20000; x += 400) strands.push_back({{x, -30000}, {x, 30000}});
+      const auto carried = [&](const std::vector<Polyline>& lines, const Regions& on) {
+        for (const auto& line : lines) {
+          CHECK_FALSE(geometry::clip_lines(std::vector<Polyline>{line}, on).empty());
+          for (const auto& free : geometry::clip_lines(std::vector<Polyline>{line}, on, geometry::Keep::outside))
+            CHECK(length_of(free.line) / 1000 < longest_mm);
+        }
+      };
+      std::vector<Ring> bands;
+      for (const auto& line : joists.lines)
+        for (std::size_t i = 1; i < line.size(); ++i) {
+          const double d = distance(line[i - 1], line[i]) / 200;
+          const Point a = line[i - 1], b = line[i];
+          const Point side{rounded((a.y - b.y) / d), rounded((b.x - a.x) / d)};
+          bands.push_back({a - side, b - side, b + side, a + side});
+        }
+      Regions on = geometry::regions_from_rings(bands);
+      on.insert(on.end(), rim.begin(), rim.end());
+      std::vector<Polyline> inside;
+      for (auto& piece : geometry::clip_lines(strands, geometry::offset(plan.layers[k].roof, {.by = -200})))
+        inside.push_back(std::move(piece.line));
+      CHECK(inside.size() > 50);
+      carried(inside, geometry::unite(on));
+      carried(joists.lines, geometry::unite(all_of(plan.layers[k - 2]), rim));
+    }
+    CHECK(roofs == 1);
+  }
+}
+
+TEST_CASE("support: a branch stands on a floor, also where nothing spreads on the bed") {
+  auto body = tee();
+  for (const Um brim : {0, 3000}) {
+    auto s = on(SupportStructure::tree);
+    s.support_brim_width = brim;
+    const auto plan = planned(s, body);
+    REQUIRE(plan.layers.size() > 2);
+    CHECK(plan.layers[0].branches.empty());  // which are hollow
+    CHECK(area_mm2(plan.layers[0].columns) > 40);
+    CHECK_FALSE(plan.layers[1].branches.empty());
+  }
+}
