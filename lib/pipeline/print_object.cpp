@@ -339,9 +339,13 @@ Fills fill_object(const FillHands& handed, const WallHands& walled, const Scopes
   looked_at(parts);
   Box box;  // patterns hang on its centre, so they move with the object
   for (const auto& cut : cuts) box.add(box_of(cut.layer.regions));
-  const Point origin = box.empty() ? Point{} : box.centre();
-  const PreparedInfill prepared(handed, scopes_asked(object, 0, cuts.size()), object.layers, object.box, parts, origin,
-                                at);
+  const auto asked = scopes_asked(object, 0, cuts.size());
+  const bool on_plate = !asked.empty() && std::get<1>(handed[asked.front()]).infill_phase_frame == InfillFrame::plate;
+  const Point origin = box.empty() ? Point{} : on_plate ? Point{} - at : box.centre();
+  const PreparedInfill prepared(handed, asked, object.layers, object.box, parts, origin, at);
+  const Um reach =
+      box.empty() ? 0
+                  : std::max({origin.x - box.min.x, box.max.x - origin.x, origin.y - box.min.y, box.max.y - origin.y});
   // Layers are let go of as they are filled: what the next one must know of their bridges is set aside.
   std::vector<std::vector<infill::BridgeArea>> bridges(cuts.size());
   for (std::size_t i = 0; i < cuts.size(); ++i)
@@ -363,7 +367,7 @@ Fills fill_object(const FillHands& handed, const WallHands& walled, const Scopes
                            .outer_wall_line_width = own_walls.wall_line_width_0.value_or(0),
                            .wall_count = own_walls.wall_line_count,
                            .origin = origin,
-                           .reach = box.empty() ? 0 : std::max(box.size().x, box.size().y) / 2,
+                           .reach = reach,
                            .prepared = prepared.of(object.scope_of(scope)),
                            .bridges_below = i > 0 ? std::span<const infill::BridgeArea>(bridges[i - 1])
                                                   : std::span<const infill::BridgeArea>{}});
