@@ -6,6 +6,7 @@
 #include "model/flow.h"
 #include "overhangs/overhangs.h"
 #include "pipeline/cached.h"
+#include "pipeline/infill_figures.h"
 #include "pipeline/key_bytes.h"
 #include "pipeline/object_scopes.h"
 #include "pipeline/prepared_infill.h"
@@ -491,6 +492,7 @@ PrintedLayers print_object(const Running& job, const Scopes& all_scopes, const T
   auto out = put_together(std::move(sliced).take(), areas, std::move(walled).take(), std::move(filled).take(),
                           support.held, at, notices);
   for (auto& layer : out) tools.tell(layer.beads, all_scopes);
+  if (job.sample.all()) tell_infill(all_scopes[scopes.front().of_volume.front()], out, job.report);
   return out;
 }
 
