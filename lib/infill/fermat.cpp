@@ -223,9 +223,9 @@ class Spiral {
 
 }  // namespace
 
-std::vector<Ring> spirals_through(std::vector<Regions> levels, double spacing) {
+std::vector<Ring> spirals_through(std::vector<Regions> levels, double spacing, Um tolerance) {
   std::vector<Ring> lines = Spiral(std::move(levels), spacing).lines();
-  for (Ring& line : lines) line = few_points(line, true, curve_tolerance);
+  for (Ring& line : lines) line = few_points(line, true, tolerance);
   return lines;
 }
 
@@ -238,7 +238,7 @@ void fill_fermat(const Region& region, const SparseStyle& style, Beads& beads) {
     if (rest.empty()) break;
     levels.push_back(rest);
   }
-  const std::vector<Ring> lines = spirals_through(std::move(levels), spacing);
+  const std::vector<Ring> lines = spirals_through(std::move(levels), spacing, tolerance_of(style.density));
   double way = 0;
   for (const Ring& line : lines) way += perimeter_of(line);
   if (way <= 0) return;

@@ -13,6 +13,7 @@ void fill_fermat(const Region& region, const SparseStyle& style, Beads& beads);
 
 /// The outlines of nested regions, from outside inwards, opened towards each other and joined: one closed line for each
 /// region of the first level, where no two outlines are farther apart than 1.6 × spacing.
-std::vector<Ring> spirals_through(std::vector<Regions> levels, double spacing);
+/// @param tolerance  of its points, as few_points has it
+std::vector<Ring> spirals_through(std::vector<Regions> levels, double spacing, Um tolerance);
 
 }  // namespace weft::infill

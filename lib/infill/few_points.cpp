@@ -10,8 +10,8 @@
 namespace weft::infill {
 namespace {
 
-constexpr std::size_t most_dropped = 64;  // points of a chord
-constexpr double corner = 0.5;            // cosine of the angle between chords from which on a point stays where it is
+constexpr std::size_t most_dropped = 256;  // points of a chord
+constexpr double corner = 0.5;             // cosine of the angle between chords from which on a point stays where it is
 
 /// What a line's points stand off a chord, to its left.
 struct Off {
@@ -39,17 +39,34 @@ struct Chord {
   double aside = 0;
 };
 
+/// The chord to that point, if all between lie within the bound of where it can be moved to.
+bool reaches(std::span<const Point> line, std::size_t from, std::size_t to, double bound, Chord& chord) {
+  bool beyond = false;
+  const Off off = off_chord(line.subspan(from, to - from + 1), beyond);
+  if (beyond || off.most - off.least > 2 * bound) return false;
+  chord = {to, off.middle()};
+  return true;
+}
+
 std::vector<Chord> chords_of(std::span<const Point> line, double bound) {
   std::vector<Chord> out;
   StopNowAndThen stop(256);
   for (std::size_t from = 0; from + 1 < line.size(); from = out.back().end) {
     stop.step();
     Chord chord{from + 1, 0};
-    for (std::size_t to = from + 2; to < line.size() && to - from <= most_dropped; ++to) {
-      bool beyond = false;
-      const Off off = off_chord(line.subspan(from, to - from + 1), beyond);
-      if (beyond || off.most - off.least > 2 * bound) break;
-      chord = {to, off.middle()};
+    const std::size_t last = std::min(line.size() - 1, from + most_dropped);
+    std::size_t fails = last + 1;  // as far as is known
+    for (std::size_t way = 2;; way *= 2) {
+      const std::size_t to = std::min(from + way, last);
+      if (to <= chord.end) break;
+      if (!reaches(line, from, to, bound, chord)) {
+        fails = to;
+        break;
+      }
+    }
+    while (chord.end + 1 < fails) {
+      const std::size_t to = (chord.end + fails) / 2;
+      if (!reaches(line, from, to, bound, chord)) fails = to;
     }
     out.push_back(chord);
   }

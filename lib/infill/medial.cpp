@@ -136,7 +136,7 @@ class Between {
       greatest_ = std::max(greatest_, wall_[n] + to_axis);
     }
     mean_ = inside > 0 ? sum / static_cast<double>(inside) : 0;
-    for (int round = 0; round < static_cast<int>(smooth_rounds); ++round) smooth();
+    for (int round = 0; round < smooth_rounds; ++round) smooth();
   }
   void smooth() {
     std::vector<double> out = u_;
@@ -168,7 +168,8 @@ void fill_medial(const Region& region, const SparseStyle& style, Beads& beads) {
     if (level.empty()) break;
     levels.push_back(std::move(level));
   }
-  const std::vector<Ring> lines = spirals_through(std::move(levels), between.greatest_depth() / count);
+  const std::vector<Ring> lines =
+      spirals_through(std::move(levels), between.greatest_depth() / count, tolerance_of(style.density));
   double way = 0;
   for (const Ring& line : lines) way += perimeter_of(line);
   if (way <= 0) return;

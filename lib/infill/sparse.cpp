@@ -33,7 +33,7 @@ void fill_concentric(const Region& region, const SparseStyle& style, Beads& bead
     }
   }
   std::erase_if(loops, [&](const Ring& loop) { return perimeter_of(loop) < style.band; });
-  for (Ring& loop : loops) loop = few_points(loop, true, curve_tolerance);
+  for (Ring& loop : loops) loop = few_points(loop, true, tolerance_of(style.density));
   for (const Ring& loop : loops) way += perimeter_of(loop);
   if (way <= 0) return;
   const double wanted = style.density * area_mm2(region) * 1e6 / style.band;  // length of beads
@@ -57,7 +57,7 @@ Span2 span_of(const Region& region, const Frame& frame) {
   return area;
 }
 
-std::vector<Web::Curve> turned_back(const std::vector<Curve>& curves, const Frame& frame) {
+std::vector<Web::Curve> turned_back(const std::vector<Curve>& curves, const Frame& frame, Um tolerance) {
   std::vector<Web::Curve> out;
   out.reserve(curves.size());
   for (const Curve& curve : curves) {
@@ -65,7 +65,7 @@ std::vector<Web::Curve> turned_back(const std::vector<Curve>& curves, const Fram
     Polyline line;
     line.reserve(curve.points.size());
     for (const Turned t : curve.points) line.push_back(frame.back(t));
-    out.push_back({few_points(line, curve.closed, curve_tolerance), curve.closed});
+    out.push_back({few_points(line, curve.closed, tolerance), curve.closed});
   }
   return out;
 }
@@ -101,7 +101,7 @@ void fill_drawn(const Region& region, const SparseStyle& style, const PatternRow
     web.add_lines(region, angle + family.angle_rad, family.pitch, family.phase);
   const bool bent = style.bend && drawing.curves.empty() && drawing.families.size() > 1;
   if (bent) web.bend_crossings();
-  if (!drawing.curves.empty()) web.add_curves(region, turned_back(drawing.curves, frame));
+  if (!drawing.curves.empty()) web.add_curves(region, turned_back(drawing.curves, frame, tolerance_of(style.density)));
   const double joint = style.anchor_max >= 0 ? style.anchor_max : row.longest_joint * drawing.pitch;
   if (drawing.longer > 0 && !bent)
     web.emit(joint, std::max(1, rounded(style.band / drawing.longer)), 0, beads);

@@ -246,7 +246,7 @@ void Web::write(const std::vector<std::vector<Place>>& paths, Um width, Beads& b
       if (line.empty() || line.back() != at) line.push_back(at);
     }
     if (closed && line.size() > 1 && line.back() == line.front()) line.pop_back();
-    if (!closed) line = geometry::simplified_line(line, curve_tolerance);
+    if (!closed) line = geometry::simplified_line(line, tolerance_of(style_.density));
     if (line.size() < (closed ? 3U : 2U)) return;
     Bead& bead = beads.emplace_back();
     bead.role = Role::infill, bead.part = style_.part, bead.closed = closed;
