@@ -75,13 +75,4 @@ double gyroid_period(double band_um, double density) {
   return band_um * mean_length / (turn * density);
 }
 
-double gyroid_length_ratio(double period, double z_um) {
-  const Slice slice(z_um / period * turn);
-  double length = 0;
-  for (int branch = 0; branch < 2; ++branch)
-    for (int i = 0; i < steps; ++i)
-      length += std::hypot(turn / steps, slice.at(turn * (i + 1) / steps, branch) - slice.at(turn * i / steps, branch));
-  return length / mean_length;
-}
-
 }  // namespace weft::infill

@@ -103,8 +103,9 @@ void fill_drawn(const Region& region, const SparseStyle& style, const PatternRow
   if (bent) web.bend_crossings();
   if (!drawing.curves.empty()) web.add_curves(region, turned_back(drawing.curves, frame, tolerance_of(style.density)));
   const double joint = style.anchor_max >= 0 ? style.anchor_max : row.longest_joint * drawing.pitch;
-  if (drawing.longer > 0 && !bent)
-    web.emit(joint, std::max(1, rounded(style.band / drawing.longer)), 0, beads);
+  const bool as_usual = drawing.longer > 0 || (!style.even && drawing.curves.empty());
+  if (as_usual && !bent)
+    web.emit(joint, std::max(1, rounded(drawing.longer > 0 ? style.band / drawing.longer : style.band)), 0, beads);
   else
     web.emit(joint, style.band, style.density * area_mm2(region) * 1e6 / style.band, beads);
 }
