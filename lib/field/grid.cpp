@@ -24,4 +24,12 @@ double Grid::at(double x, double y, double z) const {
   return std::lerp(sheet(k), sheet(k + 1), w);
 }
 
+std::optional<double> TensorGrid::direction_at(double x, double y, double z) const {
+  const double across = xx.at(x, y, z) - yy.at(x, y, z), shear = xy.at(x, y, z),
+               size = std::abs(xx.at(x, y, z)) + std::abs(yy.at(x, y, z)) + std::abs(shear);
+  constexpr double alike = 1e-6;  // of their size
+  if (!(std::hypot(across, 2 * shear) > alike * size)) return std::nullopt;
+  return std::atan2(2 * shear, across) / 2;
+}
+
 }  // namespace weft::field

@@ -7,7 +7,7 @@
 #include "core/stop.h"
 #include "geometry/boolean.h"
 #include "geometry/offset.h"
-#include "infill/level_set.h"
+#include "infill/distance_transform.h"
 #include "infill/mask.h"
 
 #include <algorithm>
@@ -24,35 +24,6 @@ namespace {
 
 constexpr double finest = 500;  // µm, of cells that distances are known on
 constexpr double most_cells = 4e6;
-constexpr Um step = 1000;              // between places that a layer's density is looked at
-constexpr double longest_even = 1000;  // µm of a line along which its width stays
-
-/// The least sum of a parabola's height and its foot, for each place of a row.
-/// Source: Felzenszwalb & Huttenlocher 2012, "Distance transforms of sampled functions".
-void lower_envelope(const std::vector<double>& f, std::vector<double>& out) {
-  const std::size_t n = f.size();
-  std::vector<std::size_t> foot(n);
-  std::vector<double> from(n + 1);
-  std::size_t k = 0;
-  constexpr double far = std::numeric_limits<double>::infinity();
-  const auto meet = [&](std::size_t p, std::size_t q) {
-    const auto a = static_cast<double>(p), b = static_cast<double>(q);
-    return ((f[q] + b * b) - (f[p] + a * a)) / (2 * (b - a));
-  };
-  from[0] = -far, from[1] = far;
-  for (std::size_t q = 1; q < n; ++q) {
-    double s = meet(foot[k], q);
-    while (k > 0 && s <= from[k]) s = meet(foot[--k], q);
-    if (s <= from[k]) s = from[k];
-    foot[++k] = q, from[k] = s, from[k + 1] = far;
-  }
-  k = 0;
-  for (std::size_t q = 0; q < n; ++q) {
-    while (from[k + 1] < static_cast<double>(q)) ++k;
-    const double d = static_cast<double>(q) - static_cast<double>(foot[k]);
-    out[q] = d * d + f[foot[k]];
-  }
-}
 
 }  // namespace
 
@@ -72,7 +43,7 @@ double Density::value_of(const ValuesAt& curve, double at) {
 
 Density::Density(const InfillSettings& infill, const ShellObject& object, const std::vector<LayerAreas>& areas,
                  Point on_bed)
-    : infill_(infill), on_bed_(on_bed) {
+    : infill_(infill), patterns_(parse_pattern_list(infill.infill_pattern_by_density)), on_bed_(on_bed) {
   if (object.layers.empty() || object.box.empty()) return;
   read_files(object);
   if (!infill.infill_density_by_distance.empty()) find_distance(object);
@@ -90,12 +61,42 @@ FileBytes read_file(const std::string& path, std::string_view key) {
 }
 }  // namespace
 
+void refuse_elsewhere(const field::Grid& g, const ShellObject& object, Point on_bed, const std::string& path) {
+  const Box box{object.box.min + on_bed, object.box.max + on_bed};
+  const auto end = [](double from, double step, std::size_t count) {
+    return from + step * static_cast<double>(count - 1);
+  };
+  const double x1 = end(g.x0, g.dx, g.columns), y1 = end(g.y0, g.dy, g.rows), z1 = end(g.z0, g.dz, g.slices);
+  const double high = to_mm(object.layers.back().z);
+  const auto misses = [](double from, double to, std::size_t count, double low, double up) {
+    return count > 1 && (to < low || from > up);  // a single node holds everywhere along its axis
+  };
+  if (misses(g.x0, x1, g.columns, to_mm(box.min.x), to_mm(box.max.x)) ||
+      misses(g.y0, y1, g.rows, to_mm(box.min.y), to_mm(box.max.y)) || misses(g.z0, z1, g.slices, 0, high))
+    throw Error{Error::Kind::settings,
+                fmt::format("{:.6g}…{:.6g}, {:.6g}…{:.6g}, {:.6g}…{:.6g} misses the object at {:.6g}…{:.6g}, "
+                            "{:.6g}…{:.6g}, 0…{:.6g}",
+                            g.x0, x1, g.y0, y1, g.z0, z1, to_mm(box.min.x), to_mm(box.max.x), to_mm(box.min.y),
+                            to_mm(box.max.y), high),
+                path, "is it in metres or another frame?"};
+}
+
+std::optional<Direction> read_direction(const InfillSettings& infill, const ShellObject& object, Point on_bed) {
+  const std::string& path = infill.infill_direction_field;
+  if (path.empty() || object.layers.empty() || object.box.empty()) return std::nullopt;
+  field::TensorGrid tensors = field::read_tensors(read_file(path, "infill_direction_field").view(), path);
+  refuse_elsewhere(tensors.xx, object, on_bed, path);
+  return Direction(std::move(tensors), on_bed);
+}
+
 std::string Density::files_of(const InfillSettings& infill) {
   std::string out;
   if (!infill.infill_density_image.empty())
     out += sha256(read_file(infill.infill_density_image, "infill_density_image").view());
   if (!infill.infill_density_field.empty())
     out += sha256(read_file(infill.infill_density_field, "infill_density_field").view());
+  if (!infill.infill_direction_field.empty())
+    out += sha256(read_file(infill.infill_direction_field, "infill_direction_field").view());
   return out;
 }
 
@@ -116,20 +117,7 @@ void Density::read_files(const ShellObject& object) {
   if (const std::string& path = infill_.infill_density_field; !path.empty()) {
     const double most = infill_.infill_density_field_unit == DensityUnit::percent ? 100 : 1;
     grid_ = field::read_grid(read_file(path, "infill_density_field").view(), path, most);
-    const field::Grid& g = *grid_;
-    const auto end = [](double from, double step, std::size_t count) {
-      return from + step * static_cast<double>(count - 1);
-    };
-    const double x1 = end(g.x0, g.dx, g.columns), y1 = end(g.y0, g.dy, g.rows), z1 = end(g.z0, g.dz, g.slices);
-    const double high = to_mm(object.layers.back().z);
-    if (x1 < to_mm(on_bed.min.x) || g.x0 > to_mm(on_bed.max.x) || y1 < to_mm(on_bed.min.y) ||
-        g.y0 > to_mm(on_bed.max.y) || z1 < 0 || g.z0 > high)
-      throw Error{Error::Kind::settings,
-                  fmt::format("{:.6g}…{:.6g}, {:.6g}…{:.6g}, {:.6g}…{:.6g} misses the object at {:.6g}…{:.6g}, "
-                              "{:.6g}…{:.6g}, 0…{:.6g}",
-                              g.x0, x1, g.y0, y1, g.z0, z1, to_mm(on_bed.min.x), to_mm(on_bed.max.x),
-                              to_mm(on_bed.min.y), to_mm(on_bed.max.y), high),
-                  path, "is it in metres or another frame?"};
+    refuse_elsewhere(*grid_, object, on_bed_, path);
   }
 }
 
@@ -301,70 +289,6 @@ double Density::at(Point p, double z_um) const {
   }
   const double least = infill_.infill_density_min / 100, most = std::max(least, infill_.infill_density_max / 100);
   return std::clamp(*out, least, most);
-}
-
-std::vector<Density::Part> Density::parts(const Region& region, double z_um) const {
-  const Box box = weft::box_of(region.outer);
-  const Point from = box.min;
-  const LevelGrid grid({{0, 0}, {static_cast<double>(box.size().x), static_cast<double>(box.size().y)}}, step);
-  const double base = std::max(infill_.infill_sparse_density, 1.0) / 100;
-  std::vector<double> level(grid.columns * grid.rows);
-  double least = 1e9, most = -1e9;
-  for (std::size_t j = 0; j < grid.rows; ++j) {
-    stop_if_asked();
-    for (std::size_t i = 0; i < grid.columns; ++i) {
-      const double rho = at(from + Point{rounded(grid.x(i)), rounded(grid.y(j))}, z_um);
-      const double l = rho > 0 ? std::log2(rho / base) : -30;
-      level[j * grid.columns + i] = l;
-      least = std::min(least, l), most = std::max(most, l);
-    }
-  }
-  std::vector<Part> out;
-  Regions rest{region};
-  constexpr double half = 0.5;
-  for (double k = std::floor(most + half); k > std::floor(least + half) && !rest.empty(); --k) {
-    std::vector<double> over(level.size(), -1);
-    for (std::size_t j = 1; j + 1 < grid.rows; ++j)
-      for (std::size_t i = 1; i + 1 < grid.columns; ++i)
-        over[j * grid.columns + i] = std::clamp(level[j * grid.columns + i] - (k - half), -1.0, 1.0);
-    std::vector<Ring> rings;
-    for (const Curve& curve : zero_curves(grid, over)) {
-      Ring& ring = rings.emplace_back();
-      for (const Turned t : curve.points) ring.push_back(from + Point{rounded(t.x), rounded(t.y)});
-    }
-    // what is narrower than the places that were looked at are apart is no part of its own
-    const Regions dense = geometry::opening(geometry::regions_from_rings(rings), step / 2);
-    for (Region& r : geometry::intersect(rest, dense)) out.push_back({std::move(r), base * std::exp2(k)});
-    rest = geometry::subtract(rest, dense);
-  }
-  for (Region& r : rest) out.push_back({std::move(r), base * std::exp2(std::floor(least + half))});
-  return out;
-}
-
-void Density::follow(double level, double z_um, std::size_t from, Beads& beads) const {
-  constexpr double narrowest = 0.7, widest = 1.42;
-  for (std::size_t b = from; b < beads.size(); ++b) {
-    Bead& bead = beads[b];
-    std::vector<Junction> path;
-    const std::size_t count = bead.path.size();
-    const auto share = [&](Point p) { return std::clamp(at(p, z_um) / level, narrowest, widest); };
-    const auto add = [&](Junction j) {
-      j.width = std::max(1, rounded(j.width * share(j.at)));
-      path.push_back(j);
-    };
-    for (std::size_t i = 0; i < count; ++i) {
-      add(bead.path[i]);
-      if (i + 1 == count && !bead.closed) break;
-      const Junction &a = bead.path[i], &c = bead.path[(i + 1) % count];
-      const int pieces = static_cast<int>(std::ceil(distance(a.at, c.at) / longest_even));
-      for (int k = 1; k < pieces; ++k) {
-        const double t = static_cast<double>(k) / pieces;
-        const Point p{rounded(std::lerp(a.at.x, c.at.x, t)), rounded(std::lerp(a.at.y, c.at.y, t))};
-        add({p, rounded(std::lerp(a.width, c.width, t)), a.flow});
-      }
-    }
-    bead.path = std::move(path);
-  }
 }
 
 }  // namespace weft::infill

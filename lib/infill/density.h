@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "field/grid.h"
+#include "infill/direction.h"
 #include "infill/shells.h"
 #include "model/bead.h"
+#include "settings/pattern_list.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -30,13 +34,18 @@ class Density {
   /// 0 … 1, at a height over the bed.
   double at(Point p, double z_um) const;
 
-  /// A part of a region whose density is within a factor of √2 of `level`.
+  /// A part of a region whose density is within a factor of √2 of `level`, or is `level` on average when it was
+  /// dithered.
   struct Part {
     Region region;
     double level = 0;
+    InfillPattern pattern = InfillPattern::grid;
+    bool dithered = false;
   };
-  /// Levels are doubled from each to the next, so that the coarse lines of a pattern are some of the fine ones.
-  std::vector<Part> parts(const Region& region, double z_um) const;
+  /// Levels are doubled from each to the next, so that the coarse lines of a pattern are some of the fine ones. Where
+  /// patterns go by the density, parts also end where the pattern does.
+  /// @param layer  its number
+  std::vector<Part> parts(const Region& region, double z_um, std::size_t layer) const;
 
   /// Widths of beads that were laid at a level, from `from` on, follow the density along them.
   void follow(double level, double z_um, std::size_t from, Beads& beads) const;
@@ -55,15 +64,26 @@ class Density {
   void find_distance(const ShellObject& object);
   void find_depth(const ShellObject& object, const std::vector<LayerAreas>& areas);
 
+  /// Of places a step apart over a box, log₂ of the density over the nominal one.
+  struct Levels;
+  Levels levels_of(const Box& box, double z_um) const;
+  double base() const { return std::max(infill_.infill_sparse_density, 1.0) / 100; }
+  InfillPattern pattern_at(double density) const;
+  std::vector<Part> by_isolines(const Region& region, double z_um) const;
+  std::vector<Part> by_cells(const Region& region, double z_um, std::size_t layer) const;
   void read_files(const ShellObject& object);
   double transferred(double v) const;
 
   const InfillSettings infill_;
+  std::vector<PatternFrom> patterns_;
   Point on_bed_;
   std::optional<field::Grid> picture_, grid_;
   Box picture_box_;  ///< on the bed
   Volume distance_;  ///< from the surface, µm
   Volume depth_;     ///< below what is above the infill, µm
 };
+
+/// The field that lines are to follow, or nothing. @throws as Density
+std::optional<Direction> read_direction(const InfillSettings& infill, const ShellObject& object, Point on_bed);
 
 }  // namespace weft::infill

@@ -4,6 +4,7 @@
 #include "core/stop.h"
 #include "geometry/offset.h"
 #include "geometry/spatial_index.h"
+#include "infill/few_points.h"
 #include "infill/web.h"
 
 #include <algorithm>
@@ -75,18 +76,12 @@ class Loop {
 
 class Spiral {
  public:
-  Spiral(const Region& region, double spacing) : spacing_(spacing) {
-    Regions rest{region};
-    for (std::size_t level = 0;; ++level) {
-      rest = geometry::offset(rest, {.by = -std::max(1, rounded(level == 0 ? spacing / 2 : spacing))});
-      if (rest.empty()) break;
-      stop_if_asked();
-      for (std::size_t r = 0; r < rest.size(); ++r) {
-        add(rest[r].outer, level, r);
-        for (const Ring& hole : rest[r].holes) add(hole, level, r);
+  Spiral(std::vector<Regions> levels, double spacing) : spacing_(spacing), levels_(std::move(levels)) {
+    for (std::size_t level = 0; level < levels_.size(); ++level)
+      for (std::size_t r = 0; r < levels_[level].size(); ++r) {
+        add(levels_[level][r].outer, level, r);
+        for (const Ring& hole : levels_[level][r].holes) add(hole, level, r);
       }
-      levels_.push_back(rest);
-    }
     set_.resize(loops_.size());
     std::iota(set_.begin(), set_.end(), std::size_t{0});
     join();
@@ -228,9 +223,22 @@ class Spiral {
 
 }  // namespace
 
+std::vector<Ring> spirals_through(std::vector<Regions> levels, double spacing, Um tolerance) {
+  std::vector<Ring> lines = Spiral(std::move(levels), spacing).lines();
+  for (Ring& line : lines) line = few_points(line, true, tolerance);
+  return lines;
+}
+
 void fill_fermat(const Region& region, const SparseStyle& style, Beads& beads) {
-  Spiral spiral(region, style.band / style.density);
-  const std::vector<Ring> lines = spiral.lines();
+  const double spacing = style.band / style.density;
+  std::vector<Regions> levels;
+  for (Regions rest{region};;) {
+    stop_if_asked();
+    rest = geometry::offset(rest, {.by = -std::max(1, rounded(levels.empty() ? spacing / 2 : spacing))});
+    if (rest.empty()) break;
+    levels.push_back(rest);
+  }
+  const std::vector<Ring> lines = spirals_through(std::move(levels), spacing, tolerance_of(style.density));
   double way = 0;
   for (const Ring& line : lines) way += perimeter_of(line);
   if (way <= 0) return;

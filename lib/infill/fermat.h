@@ -11,4 +11,9 @@ namespace weft::infill {
 ///         fabrication". There rings are followed smoothly; here the line changes rings in one step.
 void fill_fermat(const Region& region, const SparseStyle& style, Beads& beads);
 
+/// The outlines of nested regions, from outside inwards, opened towards each other and joined: one closed line for each
+/// region of the first level, where no two outlines are farther apart than 1.6 × spacing.
+/// @param tolerance  of its points, as few_points has it
+std::vector<Ring> spirals_through(std::vector<Regions> levels, double spacing, Um tolerance);
+
 }  // namespace weft::infill

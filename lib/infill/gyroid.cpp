@@ -12,7 +12,7 @@ namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 constexpr double mean_length = 15.4468;  // of the curves in a cell of 2π × 2π, over all heights; integrated numerically
-constexpr int steps = 48;                // a period: chords stand off by 0.3 % of it at most
+constexpr int steps = 96;                // a period: chords stand off by 0.1 % of it at most
 
 /// One height of the surface with period 2π.
 struct Slice {
@@ -73,15 +73,6 @@ std::vector<std::vector<Turned>> gyroid_curves(const Span2& area, double period,
 
 double gyroid_period(double band_um, double density) {
   return band_um * mean_length / (turn * density);
-}
-
-double gyroid_length_ratio(double period, double z_um) {
-  const Slice slice(z_um / period * turn);
-  double length = 0;
-  for (int branch = 0; branch < 2; ++branch)
-    for (int i = 0; i < steps; ++i)
-      length += std::hypot(turn / steps, slice.at(turn * (i + 1) / steps, branch) - slice.at(turn * i / steps, branch));
-  return length / mean_length;
 }
 
 }  // namespace weft::infill

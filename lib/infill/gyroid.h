@@ -16,7 +16,4 @@ std::vector<std::vector<Turned>> gyroid_curves(const Span2& area, double period,
 /// The period at which lines of that band have the density on average over the height, µm.
 double gyroid_period(double band_um, double density);
 
-/// Length of the curves in a cell at that height, relative to its mean over all heights.
-double gyroid_length_ratio(double period, double z_um);
-
 }  // namespace weft::infill

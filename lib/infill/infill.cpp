@@ -122,12 +122,13 @@ void fill_as_dense(const Region& region, SparseStyle style, Beads& beads) {
   const Density* density = style.prepared != nullptr && style.prepared->density ? &*style.prepared->density : nullptr;
   if (density == nullptr) return fill_sparse(region, style, beads);
   constexpr double least = 0.005, most = 0.95;  // what is less is nothing
-  for (const Density::Part& part : density->parts(region, style.z)) {
+  const std::vector<Density::Part> parts = density->parts(region, style.z, style.index);
+  for (const Density::Part& part : parts) {
     if (part.level < least) continue;
     const std::size_t from = beads.size();
-    style.density = std::min(part.level, most);
+    style.density = std::min(part.level, most), style.pattern = part.pattern;
     fill_sparse(part.region, style, beads);
-    density->follow(style.density, style.z, from, beads);
+    if (!part.dithered) density->follow(style.density, style.z, from, beads);
   }
 }
 

@@ -144,6 +144,11 @@ std::size_t Mask::count() const {
   return n;
 }
 
+void Mask::set(int column, int row_number) {
+  if (column < 0 || row_number < 0 || column >= grid_.columns || row_number >= grid_.rows) return;
+  row(row_number)[word_of(column)] |= bit_of(column);
+}
+
 bool Mask::at(int column, int r) const {
   if (column < 0 || r < 0 || column >= grid_.columns || r >= grid_.rows) return false;
   return (row(r)[word_of(column)] & bit_of(column)) != 0;

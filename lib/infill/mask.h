@@ -37,6 +37,7 @@ class Mask {
   bool any() const;
   std::size_t count() const;
   bool at(int column, int row) const;
+  void set(int column, int row);
   /// The cell of that point; false outside of the grid.
   bool at(Point p) const;
 

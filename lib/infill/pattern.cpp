@@ -80,6 +80,15 @@ constexpr std::array pattern_rows{
     PatternRow{InfillPattern::lightning, "branches below what is solid",
                "Tricard et al. 2020, Ribbed support vaults for 3D printing of hollowed objects; Cura",
                "branches b/ρ apart", draw_grid, 0},
+    PatternRow{InfillPattern::lockedzag, "zigzag whose density follows the distance from the surface", "OrcaSlicer",
+               "pitch b/ρ", draw_lines, 90, 1e6},
+    PatternRow{InfillPattern::medial, "lines between walls and medial axis, joined to one",
+               "Ding et al. 2016, Adaptive path planning for wire-feed additive manufacturing using medial axis "
+               "transformation",
+               "u = d_wall / (d_wall + d_axis) at (k + ½) / n", nullptr, 0},
+    PatternRow{InfillPattern::streamlines, "evenly spaced lines along a field of directions, every second layer across",
+               "Jobard & Lefer 1997, Creating evenly-spaced streamlines of arbitrary density", "distance b/ρ", nullptr,
+               0},
 };
 static_assert(in_order(pattern_rows, &PatternRow::pattern), "row i of pattern_rows is pattern i");
 static_assert(pattern_rows.size() == choices_of(InfillPattern{}).size(), "a pattern has no row");

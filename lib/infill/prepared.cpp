@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace weft::infill {
 namespace {
@@ -85,9 +86,10 @@ Prepared prepare(const InfillSettings& infill, const ShellObject& object, const 
   if (pattern == InfillPattern::lightning) {
     std::vector<LightningLayer> layers;
     for (std::size_t i = 0; i < areas.size(); ++i) layers.push_back({object.layers[i].height, sparse_of(areas[i])});
-    constexpr double lean = 1;  // 45°
+    const double lean = std::tan(infill.lightning_infill_support_angle * std::numbers::pi / 180);
     out.branches = lightning(layers, spacing_of(infill, object), lean, anchored);
   }
+  out.direction = read_direction(infill, object, on_bed);
   if (Density::varies(infill)) out.density.emplace(infill, object, areas, on_bed);
   return out;
 }

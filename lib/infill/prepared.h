@@ -2,6 +2,7 @@
 #pragma once
 #include "infill/cube_tree.h"
 #include "infill/density.h"
+#include "infill/direction.h"
 #include "infill/shells.h"
 
 #include <optional>
@@ -14,6 +15,7 @@ struct Prepared {
   std::optional<CubeTree> cubes;
   std::vector<std::vector<Polyline>> branches;  ///< of lightning, by layer
   std::optional<Density> density;
+  std::optional<Direction> direction;
 };
 
 /// @param areas   of all layers

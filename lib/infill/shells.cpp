@@ -7,6 +7,7 @@
 #include "geometry/spatial_index.h"
 #include "infill/belts.h"
 #include "infill/bridges.h"
+#include "infill/few_points.h"
 #include "infill/mask.h"
 #include "model/flow.h"
 
@@ -25,6 +26,7 @@ using namespace weft::literals;
 constexpr Um finest_cell = 0.1_mm;
 constexpr double most_cells = 2.3e6;  // of the grid over an object: 150 × 150 mm of the finest cells
 constexpr int margin_cells = 4;
+constexpr double as_straight = 0.55;  // cells on each side of a line that the middles of its cells' sides lie in
 constexpr int beyond_cells = 2;  // how far an area is drawn over the wall beside it before it is cut to the wall's edge
 
 /// Layers [from, to).
@@ -285,12 +287,24 @@ struct Kind {
   const Regions* exact = nullptr;  ///< its outlines, where they are known
 };
 
+/// Through the middles of the cells' sides: what slants is straight there, not a staircase.
+Ring through_middles(const Ring& outline, Um cell) {
+  Ring out;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Point a = outline[i], b = outline[(i + 1) % outline.size()];
+    const int sides = std::max(std::abs(b.x - a.x), std::abs(b.y - a.y)) / cell;
+    const Point step{b.x == a.x ? 0 : (b.x > a.x ? cell : -cell), b.y == a.y ? 0 : (b.y > a.y ? cell : -cell)};
+    for (int k = 0; k < sides; ++k) out.push_back({a.x + k * step.x + step.x / 2, a.y + k * step.y + step.y / 2});
+  }
+  return out;
+}
+
 /// Outlines of an area that may run over the wall beside it, to be cut with what is inside of the walls.
 Regions rough_outline(const Mask& cells, const Mask& inside) {
   const Mask drawn = cells | (cells.grown(beyond_cells) - inside);
   Regions rings;  // holes among them: the Booleans take rings as they are wound
   for (const Ring& ring : drawn.outlines())
-    rings.push_back({geometry::simplified(ring, cells.grid().cell * 3 / 4), {}});
+    rings.push_back({few_points(through_middles(ring, cells.grid().cell), true, as_straight * cells.grid().cell), {}});
   return rings;
 }
 

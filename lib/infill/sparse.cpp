@@ -3,10 +3,12 @@
 
 #include "core/stop.h"
 #include "geometry/offset.h"
-#include "geometry/simplify.h"
 #include "infill/fermat.h"
+#include "infill/few_points.h"
+#include "infill/medial.h"
 #include "infill/pattern.h"
 #include "infill/prepared.h"
+#include "infill/streamlines.h"
 #include "infill/web.h"
 #include "model/flow.h"
 
@@ -31,6 +33,7 @@ void fill_concentric(const Region& region, const SparseStyle& style, Beads& bead
     }
   }
   std::erase_if(loops, [&](const Ring& loop) { return perimeter_of(loop) < style.band; });
+  for (Ring& loop : loops) loop = few_points(loop, true, tolerance_of(style.density));
   for (const Ring& loop : loops) way += perimeter_of(loop);
   if (way <= 0) return;
   const double wanted = style.density * area_mm2(region) * 1e6 / style.band;  // length of beads
@@ -54,26 +57,23 @@ Span2 span_of(const Region& region, const Frame& frame) {
   return area;
 }
 
-std::vector<Web::Curve> turned_back(const std::vector<Curve>& curves, const Frame& frame) {
-  constexpr Um chord = 10;  // how far a simplified curve may stand off
+std::vector<Web::Curve> turned_back(const std::vector<Curve>& curves, const Frame& frame, Um tolerance) {
   std::vector<Web::Curve> out;
   out.reserve(curves.size());
   for (const Curve& curve : curves) {
     stop_if_asked();
     Polyline line;
-    line.reserve(curve.points.size() + 1);
+    line.reserve(curve.points.size());
     for (const Turned t : curve.points) line.push_back(frame.back(t));
-    if (curve.closed && !line.empty()) line.push_back(line.front());
-    line = geometry::simplified_line(line, chord);
-    if (curve.closed && !line.empty()) line.pop_back();
-    out.push_back({std::move(line), curve.closed});
+    out.push_back({few_points(line, curve.closed, tolerance), curve.closed});
   }
   return out;
 }
 
 /// What a pattern draws there, or what was found for the whole object.
 Drawing drawing_of(const PatternRow& row, const PatternPlace& place, const Prepared* prepared) {
-  if (prepared != nullptr && prepared->cubes)
+  const bool of_cubes = row.pattern == InfillPattern::cubicsubdiv || row.pattern == InfillPattern::support_cubic;
+  if (of_cubes && prepared != nullptr && prepared->cubes)
     return {.curves = prepared->cubes->cut(place.z), .pitch = 3 * place.spacing(), .longer = 1};
   return row.draw(place);
 }
@@ -99,10 +99,13 @@ void fill_drawn(const Region& region, const SparseStyle& style, const PatternRow
   Web web(region, style);
   for (const Family& family : drawing.families)
     web.add_lines(region, angle + family.angle_rad, family.pitch, family.phase);
-  if (!drawing.curves.empty()) web.add_curves(region, turned_back(drawing.curves, frame));
+  const bool bent = style.bend && drawing.curves.empty() && drawing.families.size() > 1;
+  if (bent) web.bend_crossings();
+  if (!drawing.curves.empty()) web.add_curves(region, turned_back(drawing.curves, frame, tolerance_of(style.density)));
   const double joint = style.anchor_max >= 0 ? style.anchor_max : row.longest_joint * drawing.pitch;
-  if (drawing.longer > 0)
-    web.emit(joint, std::max(1, rounded(style.band / drawing.longer)), 0, beads);
+  const bool as_usual = drawing.longer > 0 || (!style.even && drawing.curves.empty());
+  if (as_usual && !bent)
+    web.emit(joint, std::max(1, rounded(drawing.longer > 0 ? style.band / drawing.longer : style.band)), 0, beads);
   else
     web.emit(joint, style.band, style.density * area_mm2(region) * 1e6 / style.band, beads);
 }
@@ -143,6 +146,8 @@ void fill_one(const Region& region, const SparseStyle& style, Beads& beads) {
     return fill_branches(region, style, row, beads);
   if (row.draw != nullptr) return fill_drawn(region, style, row, beads);
   if (style.pattern == InfillPattern::fermat) return fill_fermat(region, style, beads);
+  if (style.pattern == InfillPattern::medial) return fill_medial(region, style, beads);
+  if (style.pattern == InfillPattern::streamlines) return fill_streamlines(region, style, beads);
   fill_concentric(region, style, beads);
 }
 
@@ -167,7 +172,8 @@ SparseStyle sparse_style(const InfillSettings& infill, const SparseLayer& layer)
           .reach = layer.reach + std::max(std::abs(infill.infill_offset_x), std::abs(infill.infill_offset_y)),
           .anchor_max = infill.infill_anchor_max ? static_cast<double>(*infill.infill_anchor_max) : -1,
           .anchor_um = static_cast<double>(infill.infill_anchor_length),
-          .loops = infill.infill_wall_line_count};
+          .loops = infill.infill_wall_line_count,
+          .bend = infill.infill_crossings == InfillCrossings::bend};
 }
 
 void fill_sparse(const Region& region, const SparseStyle& style, Beads& beads) {

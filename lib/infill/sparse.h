@@ -28,6 +28,8 @@ struct SparseStyle {
   double anchor_max = -1;              ///< longest joint, µm; negative: by the distance of the lines
   double anchor_um = 0;                ///< how far ends without a joint are bent along the edge
   int loops = 0;                       ///< lines around the area
+  bool even = true;                    ///< lines of a small region are as wide as its density asks for, not as usual
+  bool bend = false;                   ///< lines of two directions turn where they meet, and none crosses another
   const Prepared* prepared = nullptr;  ///< of the object, for patterns that look at all of it
 };
 

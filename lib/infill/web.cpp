@@ -2,14 +2,24 @@
 #include "infill/web.h"
 
 #include "core/stop.h"
+#include "geometry/simplify.h"
+#include "infill/few_points.h"
 
 #include <algorithm>
+#include <numbers>
 
 namespace weft::infill {
 namespace {
 
-constexpr double least_inset = 0.7;  // of what a joint keeps from the edge
-constexpr double shallowest = 0.3;   // sine of the angle between line and edge below which they are not joined
+constexpr double farther = 8;        // than other joints are those without which a path would end
+constexpr double least_even = 0.88;  // of the band: how narrow lines may become by them
+
+Place turn(double x, double y, double angle_rad) {
+  const double c = std::cos(angle_rad), s = std::sin(angle_rad);
+  return {x * c - y * s, x * s + y * c};
+}
+
+}  // namespace
 
 double length_of(const std::vector<Place>& places) {
   double way = 0;
@@ -26,13 +36,6 @@ void shorten(std::vector<Place>& places, double by) {
   const Place before = places[places.size() - 2], end = places.back();
   places.back() = end + (by / std::max(norm(before - end), 1e-9)) * (before - end);
 }
-
-Place turn(double x, double y, double angle_rad) {
-  const double c = std::cos(angle_rad), s = std::sin(angle_rad);
-  return {x * c - y * s, x * s + y * c};
-}
-
-}  // namespace
 
 Web::Web(const Region& region, const SparseStyle& style) : style_(style), outline_(region, Frame(0, style.origin)) {
   const std::vector<Turned>& points = outline_.points();
@@ -57,6 +60,9 @@ void Web::add_lines(const Region& region, double angle_rad, double spacing, doub
   const LineSet lines{first, spacing, static_cast<int>(std::floor((turned.greatest_y() - first) / spacing)) + 1};
   const std::vector<Interval> intervals = turned.cut(lines);
   const SideFit fit(turned, lines, intervals, style_.band);
+  // bent crossings need all lines to run into one half of the plane
+  const double turns = std::round(angle_rad / (2 * std::numbers::pi) * 1e6) / 1e6;
+  const bool backwards = style_.bend && turns - std::floor(turns) >= 0.5;
   StopNowAndThen stop(64);
   for (std::uint32_t k = 0; k < intervals.size(); ++k) {
     stop.step();
@@ -69,8 +75,12 @@ void Web::add_lines(const Region& region, double angle_rad, double spacing, doub
       const Turned p = turned.points()[edge], q = turned.points()[turned.next(edge)];
       return End{edge, (y - p.y) / (q.y - p.y), std::abs(q.y - p.y) / std::hypot(q.x - p.x, q.y - p.y)};
     };
-    add_piece(std::move(places), end_at(i.from_edge), end_at(i.to_edge));
+    if (backwards) std::reverse(places.begin(), places.end());
+    add_piece(std::move(places), end_at(backwards ? i.to_edge : i.from_edge),
+              end_at(backwards ? i.from_edge : i.to_edge));
+    family_.push_back(families_);
   }
+  ++families_;
 }
 
 /// Beside an edge along it a line bends aside, so as not to lie in a wall.
@@ -137,6 +147,23 @@ void Web::add_curves(const Region& region, const std::vector<Curve>& curves) {
   }
 }
 
+/// Of all lines and joints as they are.
+double Web::laid_length() const {
+  double out = 0;
+  for (std::uint32_t line = 0; line < lines_.size(); ++line)
+    out += length(line) - pull_[2 * line] - pull_[2 * line + 1];
+  for (std::uint32_t e = 0; e < ends_.size(); ++e)
+    if (joint_[e] != nobody && !arc_[e].empty()) {
+      std::vector<Place> way{pulled(e)};
+      way.insert(way.end(), arc_[e].begin(), arc_[e].end());
+      way.push_back(pulled(joint_[e]));
+      out += infill::length_of(way);
+    } else if (joint_[e] != nobody && e < joint_[e] && arc_[joint_[e]].empty()) {
+      out += norm(pulled(e) - pulled(joint_[e]));
+    }
+  return out;
+}
+
 void Web::emit(double most, Um band, double wanted, Beads& beads) {
   band_ = band;
   double raw = 0, around = 0;
@@ -147,7 +174,11 @@ void Web::emit(double most, Um band, double wanted, Beads& beads) {
   // joints that make up much of a small area's plastic are not worth it: shorter ones, or none
   for (const double longest : {most, most / 2, 0.4 / 1.5 * most, 0.0}) {
     join(style_.connect ? longest : 0.0);
-    if (style_.connect && longest > 0) join_the_rest(longest);
+    if (style_.connect && longest > 0) {
+      join_the_rest(longest);
+      merge_loops(longest);
+      join_far(style_.anchor_max >= 0 ? longest : farther * longest, wanted / least_even - around - laid_length());
+    }
     if (style_.anchor_um > 0) anchor(style_.anchor_um);
     const std::vector<std::vector<Place>> paths = joined_paths();
     double laid = around;
@@ -180,206 +211,6 @@ Place Web::pulled(std::uint32_t end) const {
   return places.back();
 }
 
-/// Joins ends that are neighbours along an edge, going around each ring once. Paths never close.
-void Web::join(double longest) {
-  joint_.assign(ends_.size(), nobody);
-  arc_.assign(ends_.size(), {});
-  bent_.assign(ends_.size(), {});
-  set_.resize(lines_.size());
-  for (std::uint32_t i = 0; i < set_.size(); ++i) set_[i] = i;
-  pull_.resize(ends_.size());
-  for (std::uint32_t e = 0; e < ends_.size(); ++e) pull_[e] = free_pull(e);
-  if (order_.empty()) {
-    for (std::uint32_t e = 0; e < ends_.size(); ++e)
-      if (on_edge(e)) order_.push_back(e);
-    std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
-      if (ends_[a].edge != ends_[b].edge) return ends_[a].edge < ends_[b].edge;
-      return ends_[a].along != ends_[b].along ? ends_[a].along < ends_[b].along : a < b;
-    });
-    for (std::size_t i = 0; i < order_.size();) {
-      std::size_t last = i;  // one past the ring
-      const std::uint32_t ring = outline_.ring_of(ends_[order_[i]].edge);
-      while (last < order_.size() && outline_.ring_of(ends_[order_[last]].edge) == ring) ++last;
-      rings_.emplace_back(i, last);
-      i = last;
-    }
-  }
-  if (longest <= 0) return;
-  StopNowAndThen stop(64);
-  for (const auto& [i, last] : rings_)
-    for (std::size_t k = i; k < last; ++k) {
-      stop.step();
-      const std::uint32_t a = order_[k], b = order_[k + 1 < last ? k + 1 : i];
-      if (joint_[a] == nobody && joint_[b] == nobody) try_join(a, b, longest);
-    }
-}
-
-/// Between two ends that stayed alone all joints may be moved on by one end, which makes one more of them.
-void Web::join_the_rest(double longest) {
-  constexpr std::size_t most_moved = 400, most_tried = 400;
-  std::size_t tried = 0;
-  for (bool better = true; better;) {
-    better = false;
-    for (const auto& [first, last] : rings_) {
-      const std::size_t count = last - first;
-      for (std::size_t k = 0; k < count; ++k) {
-        if (joint_[order_[first + k]] != nobody) continue;
-        std::vector<std::uint32_t> ends{order_[first + k]};  // up to the next that is alone
-        for (std::size_t n = 1; n < count && ends.size() <= most_moved; ++n) {
-          ends.push_back(order_[first + (k + n) % count]);
-          if (joint_[ends.back()] == nobody) break;
-        }
-        if (ends.size() < 2 || ends.size() % 2 != 0 || joint_[ends.back()] != nobody) continue;
-        stop_if_asked();
-        if (++tried > most_tried) return;
-        better = shift_joints(ends, longest) || better;
-      }
-    }
-  }
-}
-
-/// Joins each pair of the ends, of which the inner ones were joined to their other neighbours; as before when it cannot
-/// be done.
-bool Web::shift_joints(const std::vector<std::uint32_t>& ends, double longest) {
-  struct Kept {
-    std::uint32_t joint;
-    double pull;
-    std::vector<Place> arc;
-  };
-  for (std::size_t i = 1; i + 1 < ends.size(); i += 2)
-    if (joint_[ends[i]] != ends[i + 1]) return false;  // they are joined across the ring's beginning
-  std::vector<Kept> kept;
-  for (const std::uint32_t e : ends) kept.push_back({joint_[e], pull_[e], arc_[e]});
-  for (const std::uint32_t e : ends) part(e);
-  for (std::uint32_t i = 0; i < set_.size(); ++i) set_[i] = i;
-  for (std::uint32_t e = 0; e < joint_.size(); ++e)
-    if (joint_[e] != nobody && e < joint_[e]) set_[set_of(e / 2)] = set_of(joint_[e] / 2);
-  bool done = true;
-  for (std::size_t i = 0; i + 1 < ends.size() && done; i += 2) done = try_join(ends[i], ends[i + 1], longest);
-  if (done) return true;
-  for (const std::uint32_t e : ends) part(e);
-  for (std::size_t i = 0; i < ends.size(); ++i)
-    joint_[ends[i]] = kept[i].joint, pull_[ends[i]] = kept[i].pull, arc_[ends[i]] = std::move(kept[i].arc);
-  return false;
-}
-
-void Web::part(std::uint32_t a) {
-  const std::uint32_t b = joint_[a];
-  if (b == nobody) return;
-  joint_[a] = joint_[b] = nobody;
-  arc_[a].clear(), arc_[b].clear();
-  pull_[a] = free_pull(a), pull_[b] = free_pull(b);
-}
-
-bool Web::try_join(std::uint32_t a, std::uint32_t b, double longest) {
-  if (a == b || set_of(a / 2) == set_of(b / 2)) return false;
-  if (ends_[a].sine < shallowest || ends_[b].sine < shallowest) return false;
-  const double inset = band_ / 2.0 - style_.overlap_um;
-  const auto room = [&](std::uint32_t e) {
-    return inset / ends_[e].sine + std::max(pull_[e ^ 1U], 0.0) < length(e / 2);
-  };
-  if (!room(a) || !room(b)) return false;
-  const double before_a = pull_[a], before_b = pull_[b];
-  pull_[a] = inset / ends_[a].sine, pull_[b] = inset / ends_[b].sine;
-  std::optional<std::vector<Place>> arc = arc_between(a, b, inset, longest);
-  if (!arc) {
-    pull_[a] = before_a, pull_[b] = before_b;
-    return false;
-  }
-  joint_[a] = b, joint_[b] = a;
-  set_[set_of(a / 2)] = set_of(b / 2);
-  arc_[a] = std::move(*arc);
-  return true;
-}
-
-/// The inner points of the way from end a to end b beside the edge; nothing when it is too long or folds.
-std::optional<std::vector<Place>> Web::arc_between(std::uint32_t a, std::uint32_t b, double inset,
-                                                   double longest) const {
-  std::vector<Place> arc;
-  double way = 0;
-  Place last = pulled(a);
-  std::uint32_t edge = ends_[a].edge;
-  const std::uint32_t last_edge = ends_[b].edge;
-  const bool wraps = edge == last_edge && ends_[b].along < ends_[a].along;
-  for (int steps = 0; edge != last_edge || (wraps && steps == 0); ++steps) {
-    constexpr int most_steps = 500;
-    const std::uint32_t vertex = outline_.next(edge);
-    const Place n = normals_[edge], m = normals_[vertex];
-    const double bend = 1 + n.x * m.x + n.y * m.y;
-    if (bend < 0.2 || steps > most_steps) return std::nullopt;  // a spike
-    const Place p = place(vertex) + (inset / bend) * (n + m);
-    const Place step = p - last, forward = {n.y, -n.x};
-    if (step.x * forward.x + step.y * forward.y > 0) {  // else the edge is shorter than the inset eats up
-      way += norm(step);
-      // steps of the grid that areas were found on need not be followed
-      if (arc.empty() || norm(p - arc.back()) > band_ / 2.0) arc.push_back(p);
-      last = p;
-    }
-    if (way > longest) return std::nullopt;
-    edge = vertex;
-  }
-  way += norm(pulled(b) - last);
-  if (way > longest) return std::nullopt;
-  std::erase_if(arc, [&](const Place& p) { return inside_of(p, ends_[a].edge, last_edge) < least_inset * inset; });
-  return arc;
-}
-
-/// How far inside of the edges from the first to the last a place is; beside a notch a corner's inner point is outside.
-double Web::inside_of(Place p, std::uint32_t first, std::uint32_t last) const {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::uint32_t edge = first;; edge = outline_.next(edge)) {
-    const Place from = place(edge), way = place(outline_.next(edge)) - from, to = p - from, n = normals_[edge];
-    const double t = (to.x * way.x + to.y * way.y) / std::max(way.x * way.x + way.y * way.y, 1e-9);
-    const double off = norm(to - std::clamp(t, 0.0, 1.0) * way);
-    if (off < std::abs(nearest)) nearest = to.x * n.x + to.y * n.y < 0 ? -off : off;
-    if (edge == last) return nearest;
-  }
-}
-
-/// Ends that are joined to none are bent along the edge, to where the next line ends.
-void Web::anchor(double length) {
-  const double inset = band_ / 2.0 - style_.overlap_um;
-  for (const auto& [first, last] : rings_) {
-    const std::size_t count = last - first;
-    if (count < 2) continue;
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::uint32_t e = order_[first + k];
-      if (joint_[e] != nobody || ends_[e].sine < shallowest) continue;
-      if (inset / ends_[e].sine + std::max(pull_[e ^ 1U], 0.0) >= this->length(e / 2)) continue;
-      const std::uint32_t next = order_[first + (k + 1) % count], before = order_[first + (k + count - 1) % count];
-      for (const bool forward : {true, false}) {
-        const std::uint32_t other = forward ? next : before;
-        if (joint_[other] != nobody && joint_[other] == e) continue;
-        const double kept = pull_[e];
-        pull_[e] = inset / ends_[e].sine;
-        const double before_other = pull_[other];
-        pull_[other] = inset / std::max(ends_[other].sine, shallowest);
-        if (pull_[other] >= this->length(other / 2)) pull_[other] = 0;
-        auto arc = forward ? arc_between(e, other, inset, 1e9) : arc_between(other, e, inset, 1e9);
-        const Place end = pulled(other), start = pulled(e);
-        pull_[other] = before_other;
-        if (!arc) {
-          pull_[e] = kept;
-          continue;
-        }
-        if (!forward) std::reverse(arc->begin(), arc->end());
-        arc->insert(arc->begin(), start);
-        arc->push_back(end);
-        // half of the way where the other may come towards it
-        const double whole = infill::length_of(*arc), room = joint_[other] == nobody ? whole / 2 : whole;
-        const double way = std::min(length, room - band_);
-        if (way < band_) {
-          pull_[e] = kept;
-          continue;
-        }
-        shorten(*arc, whole - way);
-        bent_[e].assign(arc->begin() + 1, arc->end());
-        break;
-      }
-    }
-  }
-}
-
 std::vector<std::vector<Place>> Web::joined_paths() const {
   std::vector<std::vector<Place>> paths;
   std::vector<bool> done(lines_.size(), false);
@@ -408,16 +239,19 @@ std::vector<std::vector<Place>> Web::joined_paths() const {
 
 void Web::write(const std::vector<std::vector<Place>>& paths, Um width, Beads& beads) const {
   const auto write_one = [&](const std::vector<Place>& path, bool closed) {
-    Bead bead;
-    bead.role = Role::infill, bead.part = style_.part, bead.closed = closed;
-    bead.path.reserve(path.size());
+    Polyline line;
+    line.reserve(path.size());
     for (const Place& p : path) {
-      const Junction j{
-          {style_.origin.x + rounded(p.x), style_.origin.y + rounded(p.y)}, width, static_cast<float>(style_.layers)};
-      if (bead.path.empty() || bead.path.back().at != j.at) bead.path.push_back(j);
+      const Point at{style_.origin.x + rounded(p.x), style_.origin.y + rounded(p.y)};
+      if (line.empty() || line.back() != at) line.push_back(at);
     }
-    if (closed && bead.path.size() > 1 && bead.path.back().at == bead.path.front().at) bead.path.pop_back();
-    if (bead.path.size() >= (closed ? 3U : 2U)) beads.push_back(std::move(bead));
+    if (closed && line.size() > 1 && line.back() == line.front()) line.pop_back();
+    if (!closed) line = geometry::simplified_line(line, tolerance_of(style_.density));
+    if (line.size() < (closed ? 3U : 2U)) return;
+    Bead& bead = beads.emplace_back();
+    bead.role = Role::infill, bead.part = style_.part, bead.closed = closed;
+    bead.path.reserve(line.size());
+    for (const Point at : line) bead.path.push_back({at, width, static_cast<float>(style_.layers)});
   };
   for (const std::vector<Place>& path : paths) write_one(path, false);
   for (const std::vector<Place>& loop : loops_) write_one(loop, true);

@@ -27,6 +27,10 @@ inline double norm(Place a) {
 
 inline constexpr double least_narrowing = 0.75;  // of the band, so that a layer has its density; most is 1 / least
 
+double length_of(const std::vector<Place>& places);
+/// Shortens a way at its end, or prolongs it when `by` is negative. Pre: by < its length.
+void shorten(std::vector<Place>& places, double by);
+
 /// Lines of a region and where they end, and how they are joined to paths beside the region's edge.
 class Web {
  public:
@@ -34,6 +38,9 @@ class Web {
 
   /// Lines y = phase + k·spacing in a frame turned by that angle. Beside an edge along them they bend aside.
   void add_lines(const Region& region, double angle_rad, double spacing, double phase);
+
+  /// Lines of different families turn into each other instead of crossing. Pre: no curves were added
+  void bend_crossings();
 
   /// A curve; what of it is inside.
   struct Curve {
@@ -60,7 +67,15 @@ class Web {
     double sine = 1;   ///< of the angle between line and edge
   };
   static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+  static constexpr double shallowest = 0.2;  // sine of the angle between line and edge below which they are not joined
 
+  /// Where a line meets another: how far from its beginning, and how far before and behind it turns.
+  struct Meeting {
+    std::uint32_t other = 0;
+    double at = 0, cut = 0;
+  };
+  std::vector<std::vector<Meeting>> meetings() const;
+  std::vector<Place> stretch(std::uint32_t line, double from, double to) const;
   void give_way(const std::vector<Sides>& sides, const Interval& i, double y, double angle_rad,
                 std::vector<Place>& places) const;
   void add_piece(std::vector<Place> piece, End from, End to);
@@ -68,6 +83,7 @@ class Web {
   Place relative(Point p) const {
     return {static_cast<double>(p.x) - style_.origin.x, static_cast<double>(p.y) - style_.origin.y};
   }
+  double laid_length() const;
   double length(std::uint32_t line) const { return lines_[line].length; }
   std::vector<Place> walked_from(std::uint32_t end) const;
   Place pulled(std::uint32_t end) const;
@@ -78,8 +94,17 @@ class Web {
   bool on_edge(std::uint32_t end) const { return ends_[end].edge != nobody; }
   double free_pull(std::uint32_t end) const;
   void join(double longest);
+  void order_ends();
   void join_the_rest(double longest);
   bool shift_joints(const std::vector<std::uint32_t>& ends, double longest);
+  void find_sets();
+  void merge_loops(double longest);
+  bool merge_loop(std::uint32_t start, double longest, std::size_t& tries);
+  bool merge_at(std::uint32_t x, std::uint32_t y, std::uint32_t gap, double longest);
+  std::uint32_t gap_of_loop(std::uint32_t end) const;
+  std::uint32_t other_end_of_path(std::uint32_t end) const;
+  std::uint32_t beside(std::uint32_t end, bool after) const;
+  void join_far(double longest, double most_more);
   void anchor(double length);
   bool try_join(std::uint32_t a, std::uint32_t b, double longest);
   void part(std::uint32_t a);
@@ -92,10 +117,13 @@ class Web {
   Outline outline_;
   std::vector<Place> normals_;
   std::vector<Line> lines_;
+  std::vector<int> family_;  // of lines that were added as such
+  int families_ = 0;
   std::vector<End> ends_;
   std::vector<std::vector<Place>> loops_;                   // curves that meet no edge
   std::vector<std::uint32_t> order_;                        // ends on the edge, around each ring
   std::vector<std::pair<std::size_t, std::size_t>> rings_;  // of `order_`
+  std::vector<std::uint32_t> at_ring_, in_order_;           // by end on the edge: its ring, its place in `order_`
   std::vector<std::uint32_t> joint_, set_;
   Um band_ = 0;
   std::vector<double> pull_;              // how far each end is drawn back along its line

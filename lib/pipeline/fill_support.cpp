@@ -153,7 +153,8 @@ class Filler {
                                     .overlap_um = 0,
                                     .connect = row.connect,
                                     .z = layer_.z,
-                                    .origin = origin_};
+                                    .origin = origin_,
+                                    .even = false};
     // A bead's end is round and reaches half its width further than its path.
     for (const Region& region : geometry::offset(areas, {.by = -band_ / 2})) {
       stop_if_asked();

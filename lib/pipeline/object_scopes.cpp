@@ -116,7 +116,10 @@ std::vector<slice::Cut> united(const ObjectScopes& scopes, const std::vector<con
 
 std::string files_of_infill(const Scopes& scopes, Point at) {
   std::string out;
-  for (ScopeId id = 0; id < scopes.size(); ++id) out += infill::Density::files_of(scopes[id].infill);
+  for (ScopeId id = 0; id < scopes.size(); ++id) {
+    out += infill::Density::files_of(scopes[id].infill);
+    if (scopes[id].infill.infill_phase_frame == InfillFrame::plate) out += "plate";
+  }
   return out.empty() ? out : fmt::format("{} {} {}", out, at.x, at.y);
 }
 

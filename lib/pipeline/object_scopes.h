@@ -37,7 +37,8 @@ std::vector<slice::Cut> united(const ObjectScopes& scopes, const std::vector<con
 /// The areas of layers of one volume: one each.
 std::vector<Areas> areas_of_one(const ObjectScopes& scopes, const std::vector<slice::Cut>& cuts);
 
-/// What the files of densities that settings name hold, and where the object lies on them; empty without such files.
+/// What the files that infill is laid by hold, and where the object lies on them, as well where patterns stand still
+/// against the plate; empty where nothing of that is asked for.
 /// @throws Error{settings} for one that is not there
 std::string files_of_infill(const Scopes& scopes, Point at);
 

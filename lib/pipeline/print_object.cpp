@@ -6,6 +6,7 @@
 #include "model/flow.h"
 #include "overhangs/overhangs.h"
 #include "pipeline/cached.h"
+#include "pipeline/infill_figures.h"
 #include "pipeline/key_bytes.h"
 #include "pipeline/object_scopes.h"
 #include "pipeline/prepared_infill.h"
@@ -339,9 +340,13 @@ Fills fill_object(const FillHands& handed, const WallHands& walled, const Scopes
   looked_at(parts);
   Box box;  // patterns hang on its centre, so they move with the object
   for (const auto& cut : cuts) box.add(box_of(cut.layer.regions));
-  const Point origin = box.empty() ? Point{} : box.centre();
-  const PreparedInfill prepared(handed, scopes_asked(object, 0, cuts.size()), object.layers, object.box, parts, origin,
-                                at);
+  const auto asked = scopes_asked(object, 0, cuts.size());
+  const bool on_plate = !asked.empty() && std::get<1>(handed[asked.front()]).infill_phase_frame == InfillFrame::plate;
+  const Point origin = box.empty() ? Point{} : on_plate ? Point{} - at : box.centre();
+  const PreparedInfill prepared(handed, asked, object.layers, object.box, parts, origin, at);
+  const Um reach =
+      box.empty() ? 0
+                  : std::max({origin.x - box.min.x, box.max.x - origin.x, origin.y - box.min.y, box.max.y - origin.y});
   // Layers are let go of as they are filled: what the next one must know of their bridges is set aside.
   std::vector<std::vector<infill::BridgeArea>> bridges(cuts.size());
   for (std::size_t i = 0; i < cuts.size(); ++i)
@@ -363,7 +368,7 @@ Fills fill_object(const FillHands& handed, const WallHands& walled, const Scopes
                            .outer_wall_line_width = length_or(own_walls.wall_line_width_0, own_nozzle, 0),
                            .wall_count = own_walls.wall_line_count,
                            .origin = origin,
-                           .reach = box.empty() ? 0 : std::max(box.size().x, box.size().y) / 2,
+                           .reach = reach,
                            .prepared = prepared.of(object.scope_of(scope)),
                            .bridges_below = i > 0 ? std::span<const infill::BridgeArea>(bridges[i - 1])
                                                   : std::span<const infill::BridgeArea>{}});
@@ -487,6 +492,7 @@ PrintedLayers print_object(const Running& job, const Scopes& all_scopes, const T
   auto out = put_together(std::move(sliced).take(), areas, std::move(walled).take(), std::move(filled).take(),
                           support.held, at, notices);
   for (auto& layer : out) tools.tell(layer.beads, all_scopes);
+  if (job.sample.all()) tell_infill(all_scopes[scopes.front().of_volume.front()], out, job.report);
   return out;
 }
 

@@ -91,6 +91,20 @@ Json support_of(const Report& r) {
           {"s", rounded3(seconds)}};
 }
 
+Json infill_of(const Report::Infill& i) {
+  return {
+      {"pattern", i.pattern},
+      {"density_percent", rounded3(i.density_percent)},
+      {"density_spread_percent", rounded3(i.density_spread_percent)},
+      {"fabric", {{"h2", rounded3(i.fabric[0])}, {"h4", rounded3(i.fabric[1])}, {"h6", rounded3(i.fabric[2])}}},
+      {"over_air_percent", rounded3(i.over_air_percent)},
+      {"locality", rounded3(i.locality)},
+      {"box_dimension", rounded3(i.box_dimension)},
+      {"stiffness_percent", {{"plane", rounded3(i.stiffness_plane_percent)}, {"z", rounded3(i.stiffness_z_percent)}}},
+      {"conductivity_percent",
+       {{"plane", rounded3(i.conductivity_plane_percent)}, {"z", rounded3(i.conductivity_z_percent)}}}};
+}
+
 Json tools_of(const Report& r) {
   Json out = Json::array();
   for (const auto& t : r.tools) {
@@ -169,6 +183,7 @@ std::string to_json(const Report& r) {
                    {"currency", r.currency}};
   out["features"] = features_of(r);
   out["walls"] = walls_of(r.walls);
+  if (r.infill.mm3 > 0) out["infill"] = infill_of(r.infill);
   if (r.support.needed_mm2 > 0 || r.support.bridged_mm2 > 0) out["support"] = support_of(r);
   out["travel"] = {{"mm", rounded3(r.travel.mm)},
                    {"moves", r.travel.moves},

@@ -74,6 +74,16 @@ struct Report {
     std::size_t tips = 0, trunks = 0;                      ///< of branches: where they begin, and on what they stand
     double slenderest = 0;                                 ///< of trunks: height by width
   };
+  /// Of the object with most sparse infill; bounds are shares of the plastic's own (infill/figures.h).
+  struct Infill {
+    std::string pattern;
+    double mm3 = 0, density_percent = 0, density_spread_percent = 0;  ///< the spread between layers
+    std::array<double, 3> fabric{};                                   ///< h₂, h₄, h₆ of directions
+    double over_air_percent = 0;                                      ///< of the length
+    double locality = 0, box_dimension = 0;
+    double stiffness_plane_percent = 0, stiffness_z_percent = 0;
+    double conductivity_plane_percent = 0, conductivity_z_percent = 0;
+  };
   struct Violation {
     std::string move, feature, side, object, line_text, setting;  ///< setting: the custom G-code it came from, or ""
     std::array<double, 3> at_mm{};
@@ -114,6 +124,7 @@ struct Report {
   };
   std::optional<std::vector<Tour>> tours;  ///< one a layer, where they are asked for: put an empty list there
   Support support;
+  Infill infill;
   Travel travel;
   Audit audit;
   Notices warnings;

@@ -10,12 +10,15 @@
 #include "settings/catalogue.h"
 #include "settings/gcode_variables.h"
 #include "settings/ini.h"
+#include "settings/pattern_list.h"
 #include "settings/tools.h"
 #include "settings/value.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <stdexcept>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -185,6 +188,12 @@ std::filesystem::path canonical(const std::filesystem::path& path, const std::st
   return out;
 }
 
+/// A value that names a file, from the folder of the profile that says it; others as they are.
+std::string beside(const std::filesystem::path& profile, std::string_view key, std::string value) {
+  if (value.empty() || std::find(infill_files.begin(), infill_files.end(), key) == infill_files.end()) return value;
+  return (profile.parent_path() / value).lexically_normal().string();
+}
+
 void apply_text(Profile& profile, std::string_view text, const std::filesystem::path& path,
                 const ImportOptions& options, std::vector<std::filesystem::path>& chain) {
   const auto name = path.string();
@@ -217,7 +226,7 @@ void apply_text(Profile& profile, std::string_view text, const std::filesystem::
   }
   for (const auto& e : entries)
     if (e.key != "inherits" && !tool_of_section(e.section))
-      apply_value(profile, e.key, without_comment(e), fmt::format("{}:{}", name, e.line));
+      apply_value(profile, e.key, beside(path, e.key, without_comment(e)), fmt::format("{}:{}", name, e.line));
   for (const auto& e : entries)
     if (const auto tool = tool_of_section(e.section)) {
       if (e.key == "inherits")
@@ -383,6 +392,26 @@ void check_branches(const SupportSettings& s, const Refuse& refuse) {
            "it is how far branches lean where nothing is in their way");
 }
 
+/// Files that infill is laid by must be there, and patterns by density be some.
+template <class Refuse>
+void check_infill(const Profile& profile, const Refuse& refuse) {
+  const InfillSettings& s = profile.settings.infill;
+  const std::array files{&s.infill_density_image, &s.infill_density_field, &s.infill_direction_field};
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    std::error_code unknown;
+    if (files[i]->empty() || std::filesystem::exists(*files[i], unknown)) continue;
+    const std::string key(infill_files[i]);
+    const bool by_file = origin_of(profile, key).find(':') != std::string::npos;
+    refuse(key.c_str(), fmt::format("'{}' is not there", *files[i]),
+           by_file ? "the path is relative to this file" : "the path is relative to where weft is started");
+  }
+  try {
+    (void)parse_pattern_list(s.infill_pattern_by_density);
+  } catch (const std::invalid_argument& problem) {
+    refuse("infill_pattern_by_density", problem.what(), "as in: 0:honeycomb, 30:grid, 70:concentric");
+  }
+}
+
 }  // namespace
 
 void check_consistency(const Profile& profile) {
@@ -407,6 +436,7 @@ void check_consistency(const Profile& profile) {
   check_areas(s.machine, refuse);
   check_tools(profile);
   check_branches(s.support, refuse);
+  check_infill(profile, refuse);
   try {
     (void)parse_gcode_variables(s.gcode.gcode_variables);
   } catch (const std::invalid_argument& problem) {

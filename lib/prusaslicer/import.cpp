@@ -293,6 +293,12 @@ class Translator {
       const double layers = lines_.figure(*e).v;
       set("infill_sparse_thickness", layers > 1 ? number(std::min(layers * height_, 5.0), 3) : "auto", *e);
     }
+    const auto* highest = lines_.find("automatic_infill_combination_max_layer_height");
+    if (const auto* e = lines_.find("automatic_infill_combination"); e != nullptr && lines_.flag(*e)) {
+      const auto most = highest != nullptr ? lines_.figure(*highest) : Figure{100, true};
+      const double mm = most.percent ? nozzle_ * most.v / 100 : most.v;
+      set("infill_sparse_thickness", number(std::clamp(mm, 0.02, 5.0), 3), *e);
+    }
     if (const auto* e = lines_.find("infill_only_where_needed")) {
       set("infill_support_enabled", lines_.flag(*e) ? "true" : "false", *e);
       if (lines_.flag(*e)) set("infill_support_angle", "50", *e);

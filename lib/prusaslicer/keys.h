@@ -113,7 +113,7 @@ inline constexpr std::array choice_rows{
     ChoiceRow{"fill_pattern", "quartercubic", "quarter_cubic", ""},
     ChoiceRow{"fill_pattern", "tetrahedral", "tetrahedral", ""},
     ChoiceRow{"fill_pattern", "crosszag", "crosszag", ""},
-    ChoiceRow{"fill_pattern", "lockedzag", "zigzag", "its dense skin is not laid"},
+    ChoiceRow{"fill_pattern", "lockedzag", "lockedzag", ""},
     ChoiceRow{"fill_pattern", "crosshatch", "crosshatch", ""},
     ChoiceRow{"fill_pattern", "lateral-lattice", "lateral_lattice", ""},
     ChoiceRow{"fill_pattern", "2dlattice", "lateral_lattice", ""},

@@ -8,6 +8,7 @@
 #include "picture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -91,6 +92,54 @@ TEST_CASE("pattern: curves cross neither each other nor themselves", "[infill]")
       CAPTURE(static_cast<int>(pattern), z);
       CHECK(crossings(beads) == 0);
     }
+  // where curves all but touch; these may only become fewer
+  const std::array known{std::pair{InfillPattern::fischer_koch, 8}, std::pair{InfillPattern::voronoi_3d, 2},
+                         std::pair{InfillPattern::cross_3d, 1}};
+  for (const auto& [pattern, most] : known)
+    for (const Um z : {200, 1400, 3100, 5300}) {
+      CAPTURE(static_cast<int>(pattern), z);
+      CHECK(crossings(filled(square, {.pattern = pattern,
+                                      .density = 0.2,
+                                      .band = 420,
+                                      .angle_rad = degrees(45),
+                                      .overlap_um = 45,
+                                      .z = z,
+                                      .reach = 15'000})) <= most);
+    }
+}
+
+TEST_CASE("pattern: lines that bend where they meet cross nowhere, and hold the density", "[infill][law]") {
+  const Region square = with_hole(rectangle(-25'000, -25'000, 25'000, 25'000), -5'000, -4'000, 6'000, 7'000);
+  for (const InfillPattern pattern : {InfillPattern::grid, InfillPattern::trihexagon, InfillPattern::cubic,
+                                      InfillPattern::tetrahedral, InfillPattern::quarter_cubic})
+    for (const Um z : {200, 1400, 3100}) {
+      SparseStyle style{
+          .pattern = pattern, .density = 0.2, .band = 420, .angle_rad = degrees(45), .overlap_um = 45, .z = z};
+      const int before = crossings(filled(square, style));
+      style.bend = true;
+      const Beads beads = filled(square, style);
+      CAPTURE(static_cast<int>(pattern), z, before);
+      // cubes' planes meet in threes at some heights, where they still cross
+      CHECK(crossings(beads) <= (pattern == InfillPattern::cubic ? before / 4 : 0));
+      CHECK(covered_mm2(beads) / area_mm2(square) == Approx(0.2).epsilon(0.02));
+    }
+}
+
+TEST_CASE("pattern: medial lays one line a region, and as many beside each other where it is narrow", "[infill]") {
+  const SparseStyle style{.pattern = InfillPattern::medial, .density = 0.25, .band = 420};
+  CHECK(filled(rectangle(0, 0, 40'000, 25'000), style).size() == 1);
+  CHECK(filled(with_hole(rectangle(-25'000, -25'000, 25'000, 25'000), -9000, -9000, 12000, 15000), style).size() == 1);
+  // a wedge: lines cross a cut near its thin end as often as one near its thick end
+  const Region wedge{{{0, 0}, {60'000, 8'000}, {60'000, 12'000}, {0, 20'000}}, {}};
+  const auto met = [](const Beads& beads, Um x) {
+    int count = 0;
+    for (const Bead& bead : beads)
+      for (std::size_t i = 0; i < bead.path.size(); ++i)
+        count += (bead.path[i].at.x > x) != (bead.path[(i + 1) % bead.path.size()].at.x > x) ? 1 : 0;
+    return count;
+  };
+  const Beads beads = filled(wedge, style);
+  CHECK(std::abs(met(beads, 20'000) - met(beads, 45'000)) <= 2);
 }
 
 TEST_CASE("pattern: fermat lays one line a region, holes and branches or not", "[infill]") {
@@ -116,7 +165,8 @@ TEST_CASE("pattern: fermat lays one line a region, holes and branches or not", "
 
 TEST_CASE("pattern: lines are joined to one path where they can be", "[infill]") {
   const Region square = rectangle(-20'000, -20'000, 20'000, 20'000);
-  for (const InfillPattern pattern : {InfillPattern::lines, InfillPattern::grid, InfillPattern::zigzag})
+  for (const InfillPattern pattern : {InfillPattern::lines, InfillPattern::grid, InfillPattern::zigzag,
+                                      InfillPattern::triangles, InfillPattern::gyroid})
     for (const double density : {0.1, 0.2, 0.4}) {
       CAPTURE(static_cast<int>(pattern), density);
       CHECK(filled(square,

@@ -105,3 +105,41 @@ TEST_CASE("settings: settings that contradict each other are refused") {
   apply_value(p, "layer_height", "0.3", "--set");
   CHECK_THAT(settings_error([&] { check_consistency(p); }), Contains("layer_height") && Contains("--set"));
 }
+
+TEST_CASE("profiles: a file of densities is looked for beside the profile that names it") {
+  const Folder folder;
+  std::ofstream(folder.path / "wear.pgm") << "P2 1 1 1\n0\n";
+  const auto ini = folder.write("part.ini", "infill_density_image = wear.pgm\n");
+  Profile profile;
+  apply_file(profile, ini);
+  CHECK(profile.settings.infill.infill_density_image == (folder.path / "wear.pgm").string());
+  CHECK_NOTHROW(check_consistency(profile));
+  // one that inherits it has it from there
+  std::filesystem::create_directories(folder.path / "deeper");
+  Profile child;
+  apply_file(child, folder.write("deeper/child.ini", "inherits = ../part.ini\n"));
+  CHECK(std::filesystem::path(child.settings.infill.infill_density_image).lexically_normal() ==
+        (folder.path / "wear.pgm").lexically_normal());
+}
+
+TEST_CASE("profiles: a file of densities that is not there, and patterns that are none, are named with their line") {
+  const Folder folder;
+  const auto problem_of = [&](const std::string& text) {
+    return settings_error([&] {
+      Profile profile;
+      apply_file(profile, folder.write("my.ini", text));
+      check_consistency(profile);
+    });
+  };
+  const std::string ini = (folder.path / "my.ini").string();
+  for (const char* key : {"infill_density_image", "infill_density_field", "infill_direction_field"})
+    CHECK(problem_of("layer_height = 0.2\n" + std::string(key) + " = a.vtk\n") ==
+          ini + ":2: " + key + ": '" + (folder.path / "a.vtk").string() +
+              "' is not there; the path is relative to this file");
+  CHECK(problem_of("infill_pattern_by_density = 0:bees\n") ==
+        ini + ":1: infill_pattern_by_density: 'bees' is no pattern; as in: 0:honeycomb, 30:grid, 70:concentric");
+  Profile profile;
+  apply_value(profile, "infill_density_field", "b.csv", "--set");
+  CHECK(settings_error([&] { check_consistency(profile); }) ==
+        "--set: infill_density_field: 'b.csv' is not there; the path is relative to where weft is started");
+}

@@ -29,17 +29,17 @@ void add_pairs(double angle_rad, double slide, double period, double band, Drawi
 }  // namespace
 
 Drawing draw_lines(const PatternPlace& p) {
-  return {.families = {{0, p.spacing(), 0}}, .pitch = p.spacing(), .longer = 1};
+  return {.families = {{0, p.spacing(), 0}}, .pitch = p.spacing()};
 }
 
 Drawing draw_grid(const PatternPlace& p) {
   const double s = 2 * p.spacing();
-  return {.families = {{0, s, 0}, {quarter, s, 0}}, .pitch = s, .longer = 1};
+  return {.families = {{0, s, 0}, {quarter, s, 0}}, .pitch = s};
 }
 
 Drawing draw_triangles(const PatternPlace& p) {
   const double s = 3 * p.spacing();
-  return {.families = {{0, s, 0}, {third, s, 0}, {thirds, s, 0}}, .pitch = s, .longer = 1};
+  return {.families = {{0, s, 0}, {third, s, 0}, {thirds, s, 0}}, .pitch = s};
 }
 
 /// Every second line runs from beside one of its neighbours to beside the other, across the whole object.

@@ -62,7 +62,7 @@ Drawing cut_at(const PatternPlace& p, double period) {
 
 Drawing draw_gyroid(const PatternPlace& p) {
   const double period = gyroid_period(p.band, p.density);
-  Drawing out{.pitch = period / 2, .longer = gyroid_length_ratio(period, p.z)};
+  Drawing out{.pitch = period / 2};
   for (std::vector<Turned>& curve : gyroid_curves(p.area, period, p.z)) out.curves.push_back({std::move(curve), false});
   return out;
 }

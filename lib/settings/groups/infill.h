@@ -43,6 +43,9 @@ enum class InfillPattern {
   cross,
   cross_3d,
   lightning,
+  lockedzag,
+  medial,
+  streamlines,
 };
 constexpr auto choices_of(InfillPattern) {
   using enum InfillPattern;
@@ -81,6 +84,9 @@ constexpr auto choices_of(InfillPattern) {
       Choice<InfillPattern>{cross, "cross"},
       Choice<InfillPattern>{cross_3d, "cross_3d"},
       Choice<InfillPattern>{lightning, "lightning"},
+      Choice<InfillPattern>{lockedzag, "lockedzag"},
+      Choice<InfillPattern>{medial, "medial"},
+      Choice<InfillPattern>{streamlines, "streamlines"},
   };
 }
 
@@ -99,6 +105,27 @@ constexpr auto choices_of(DensityUnit) {
                     Choice<DensityUnit>{DensityUnit::percent, "percent"}};
 }
 
+/// What lines of two directions do where they meet.
+enum class InfillCrossings { cross, bend };
+constexpr auto choices_of(InfillCrossings) {
+  return std::array{Choice<InfillCrossings>{InfillCrossings::cross, "cross"},
+                    Choice<InfillCrossings>{InfillCrossings::bend, "bend"}};
+}
+
+/// What patterns stand still against.
+enum class InfillFrame { part, plate };
+constexpr auto choices_of(InfillFrame) {
+  return std::array{Choice<InfillFrame>{InfillFrame::part, "part"}, Choice<InfillFrame>{InfillFrame::plate, "plate"}};
+}
+
+/// How a density between two that a pattern can have is made of both.
+enum class DensityDither { none, floyd_steinberg, blue_noise };
+constexpr auto choices_of(DensityDither) {
+  using enum DensityDither;
+  return std::array{Choice<DensityDither>{none, "none"}, Choice<DensityDither>{floyd_steinberg, "floyd_steinberg"},
+                    Choice<DensityDither>{blue_noise, "blue_noise"}};
+}
+
 /// What stands inside the part between its shells.
 struct InfillSettings {
   double infill_sparse_density = 20;
@@ -108,6 +135,8 @@ struct InfillSettings {
   Numbers infill_angles;
   Um infill_offset_x = 0;
   Um infill_offset_y = 0;
+  InfillFrame infill_phase_frame = InfillFrame::part;
+  InfillCrossings infill_crossings = InfillCrossings::cross;
   LengthOrShare infill_overlap = share(15);
   bool infill_connect_lines = true;
   std::optional<Um> infill_anchor_max;
@@ -116,6 +145,9 @@ struct InfillSettings {
   std::optional<Um> infill_sparse_thickness;
   bool infill_support_enabled = false;
   double infill_support_angle = 40;
+  double lightning_infill_support_angle = 45;
+  std::string infill_pattern_by_density;
+  std::string infill_direction_field;
   ValuesAt infill_density_by_distance;
   ValuesAt infill_density_by_height;
   int gradual_infill_steps = 0;
@@ -125,10 +157,16 @@ struct InfillSettings {
   std::string infill_density_field;
   DensityUnit infill_density_field_unit = DensityUnit::fraction;
   TransferCurve infill_density_transfer;
+  DensityDither infill_density_dither = DensityDither::none;
   DensityCombine infill_density_combine = DensityCombine::max;
   double infill_density_min = 5;
   double infill_density_max = 90;
 };
+
+/// Settings that name a file: its path is relative to the profile that says it.
+inline constexpr std::array infill_files{std::string_view("infill_density_image"),
+                                         std::string_view("infill_density_field"),
+                                         std::string_view("infill_direction_field")};
 
 inline constexpr Rows infill_schema{
     setting("infill_sparse_density", Scope::region, &InfillSettings::infill_sparse_density, Unit::percent, 0, 100,
@@ -145,6 +183,13 @@ inline constexpr Rows infill_schema{
             "How far the pattern is moved along X from the middle of the object."),
     setting("infill_offset_y", Scope::region, &InfillSettings::infill_offset_y, Unit::mm, -1000_mm, 1000_mm,
             "How far the pattern is moved along Y from the middle of the object."),
+    setting(
+        "infill_phase_frame", Scope::object, &InfillSettings::infill_phase_frame,
+        "What the pattern stands still against: part, the middle of each object, so that copies are alike; plate, the "
+        "bed's zero, so that the patterns of objects that touch go on in each other."),
+    setting("infill_crossings", Scope::region, &InfillSettings::infill_crossings,
+            "Where lines of two directions meet: cross, one runs over the other; bend, both turn aside, so that the "
+            "nozzle strikes nothing. Where three meet they cross."),
     setting("infill_overlap", Scope::region, &InfillSettings::infill_overlap, Unit::mm, 0_mm, 5_mm,
             "How far the ends of skin and infill lines reach into the innermost wall, to bond with it; a share is of "
             "that wall's line width."),
@@ -164,6 +209,16 @@ inline constexpr Rows infill_schema{
             "Sparse infill only below what is solid and does not carry itself; elsewhere the inside stays hollow."),
     setting("infill_support_angle", Scope::object, &InfillSettings::infill_support_angle, Unit::degrees, 0, 90,
             "With infill_support_enabled: a shell that leans less than this from the vertical carries itself."),
+    setting("lightning_infill_support_angle", Scope::object, &InfillSettings::lightning_infill_support_angle,
+            Unit::degrees, 5, 80, "How far branches of the pattern lightning lean, against the vertical."),
+    setting("infill_pattern_by_density", Scope::region, &InfillSettings::infill_pattern_by_density,
+            "Patterns by the density that varies, %:pattern, each from its density on: 0:honeycomb, 30:grid, "
+            "70:concentric. Empty: infill_pattern everywhere."),
+    setting(
+        "infill_direction_field", Scope::region, &InfillSettings::infill_direction_field,
+        "Directions that the pattern streamlines follows: VTK's .vtk (STRUCTURED_POINTS with VECTORS or TENSORS, of "
+        "which it takes the larger principal stress), or .csv with x, y, z, sxx, syy, szz, sxy, syz, szx. The path "
+        "is relative to the file that names it."),
     setting("infill_density_by_distance", Scope::region, &InfillSettings::infill_density_by_distance, Unit::none, 0,
             1000000,
             "Density by the distance from the object's surface, mm:%, straight between: 0:60, 2:30, 8:10. A distance "
@@ -174,18 +229,25 @@ inline constexpr Rows infill_schema{
             "How often the density is halved with growing distance below what is above the infill."),
     setting("gradual_infill_step_height", Scope::region, &InfillSettings::gradual_infill_step_height, Unit::mm, 0.01_mm,
             1000_mm, "Height of one step of gradual_infill_steps."),
-    setting("infill_density_image", Scope::region, &InfillSettings::infill_density_image,
-            "A picture, .png or .pgm, seen from above: black is infill_density_max, white infill_density_min."),
+    setting(
+        "infill_density_image", Scope::region, &InfillSettings::infill_density_image,
+        "A picture, .png or .pgm, seen from above: black is infill_density_max, white infill_density_min. The path is "
+        "relative to the file that names it."),
     setting("infill_density_image_box", Scope::region, &InfillSettings::infill_density_image_box,
             "Two corners between which the picture lies on the bed; empty: the object's box."),
     setting("infill_density_field", Scope::region, &InfillSettings::infill_density_field,
-            "A grid of densities in space: VTK's .vtk (STRUCTURED_POINTS), or .csv with x, y, z, density."),
+            "A grid of densities in space: VTK's .vtk (STRUCTURED_POINTS) or .vti, or .csv with x, y, z, density. The "
+            "path is "
+            "relative to the file that names it."),
     setting("infill_density_field_unit", Scope::region, &InfillSettings::infill_density_field_unit,
             "What the numbers of infill_density_field are."),
     setting("infill_density_transfer", Scope::region, &InfillSettings::infill_density_transfer,
             "What becomes of the values of picture and grid: linear; simp:3, ramp:8, the density of the stiffness that "
             "they are; heaviside:16:0.5, sharpness and threshold; linear_spacing, exponential_spacing, where not the "
             "density but the distance of lines follows them."),
+    setting("infill_density_dither", Scope::region, &InfillSettings::infill_density_dither,
+            "Between two densities that a pattern has without changing its lines' width: none, lines get wider and "
+            "narrower; floyd_steinberg, blue_noise, cells of one and of the other, so that their mean is right."),
     setting("infill_density_combine", Scope::region, &InfillSettings::infill_density_combine,
             "Where several of these densities are asked for: max, min, or multiply, their product."),
     setting("infill_density_min", Scope::region, &InfillSettings::infill_density_min, Unit::percent, 0, 100,

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "infill/few_points.h"
+
+#include "core/stop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace weft::infill {
+namespace {
+
+constexpr std::size_t most_dropped = 256;  // points of a chord
+constexpr double corner = 0.5;             // cosine of the angle between chords from which on a point stays where it is
+
+/// What a line's points stand off a chord, to its left.
+struct Off {
+  double least = 0, most = 0;
+  double middle() const { return (least + most) / 2; }
+};
+
+/// From the first to the last point; nothing is known of points that lie beyond its ends.
+Off off_chord(std::span<const Point> points, bool& beyond) {
+  const Point a = points.front(), b = points.back();
+  const double dx = b.x - a.x, dy = b.y - a.y, length = std::max(std::hypot(dx, dy), 1e-9);
+  Off out;
+  beyond = false;
+  for (const Point p : points.subspan(1)) {
+    const double x = p.x - a.x, y = p.y - a.y, off = (dx * y - dy * x) / length, along = (x * dx + y * dy) / length;
+    out.least = std::min(out.least, off), out.most = std::max(out.most, off);
+    beyond = beyond || along < 0 || along > length;
+  }
+  return out;
+}
+
+/// A chord of the new line: where it ends in the old one, and how far it is to be moved.
+struct Chord {
+  std::size_t end = 0;
+  double aside = 0;
+};
+
+/// The chord to that point, if all between lie within the bound of where it can be moved to.
+bool reaches(std::span<const Point> line, std::size_t from, std::size_t to, double bound, Chord& chord) {
+  bool beyond = false;
+  const Off off = off_chord(line.subspan(from, to - from + 1), beyond);
+  if (beyond || off.most - off.least > 2 * bound) return false;
+  chord = {to, off.middle()};
+  return true;
+}
+
+std::vector<Chord> chords_of(std::span<const Point> line, double bound) {
+  std::vector<Chord> out;
+  StopNowAndThen stop(256);
+  for (std::size_t from = 0; from + 1 < line.size(); from = out.back().end) {
+    stop.step();
+    Chord chord{from + 1, 0};
+    const std::size_t last = std::min(line.size() - 1, from + most_dropped);
+    std::size_t fails = last + 1;  // as far as is known
+    for (std::size_t way = 2;; way *= 2) {
+      const std::size_t to = std::min(from + way, last);
+      if (to <= chord.end) break;
+      if (!reaches(line, from, to, bound, chord)) {
+        fails = to;
+        break;
+      }
+    }
+    while (chord.end + 1 < fails) {
+      const std::size_t to = (chord.end + fails) / 2;
+      if (!reaches(line, from, to, bound, chord)) fails = to;
+    }
+    out.push_back(chord);
+  }
+  return out;
+}
+
+}  // namespace
+
+Polyline few_points(std::span<const Point> line, bool closed, double bound) {
+  Polyline opened(line.begin(), line.end());
+  if (closed && line.size() > 2) {
+    std::rotate(opened.begin(), std::min_element(opened.begin(), opened.end()), opened.end());
+    opened.push_back(opened.front());
+  }
+  if (opened.size() < 3) return opened;
+  const std::vector<Chord> chords = chords_of(opened, bound);
+  const std::size_t n = chords.size();
+  if (closed && n < 3) return {line.begin(), line.end()};
+  Polyline out;
+  out.reserve(n + 1);
+  if (!closed) out.push_back(opened.front());
+  for (std::size_t i = 0; i < n; ++i) {
+    const Point at = opened[chords[i].end];
+    if (!closed && i + 1 == n) {
+      out.push_back(at);
+      break;
+    }
+    const Chord& next = chords[(i + 1) % n];
+    const Point from = i == 0 ? opened.front() : opened[chords[i - 1].end], to = opened[next.end];
+    const double ax = at.x - from.x, ay = at.y - from.y, bx = to.x - at.x, by = to.y - at.y;
+    const double a = std::max(std::hypot(ax, ay), 1e-9), b = std::max(std::hypot(bx, by), 1e-9);
+    const double nx = -ay / a - by / b, ny = ax / a + bx / b, length = std::hypot(nx, ny);
+    const double by_how_much = (chords[i].aside + next.aside) / 2;
+    if ((ax * bx + ay * by) / (a * b) < corner || length < 1e-9) {
+      out.push_back(at);
+      continue;
+    }
+    out.push_back(at + Point{rounded(by_how_much * nx / length), rounded(by_how_much * ny / length)});
+  }
+  return out;
+}
+
+}  // namespace weft::infill

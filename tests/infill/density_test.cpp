@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "infill/density.h"
+
+#include "areas.h"
+#include "infill/prepared.h"
+#include "infill/sparse.h"
+#include "settings_error.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include <catch2/catch.hpp>
+#include <unistd.h>
+
+using namespace weft;
+using namespace weft::test;
+using namespace weft::literals;
+using infill::Density;
+
+namespace {
+
+/// A block of 60 × 40 × 20 mm, hollow but for its sparse infill.
+struct Block {
+  Regions outline{rectangle(0, 0, 60'000, 40'000)};
+  std::vector<infill::ShellLayer> layers;
+  std::vector<infill::LayerAreas> areas;
+  Block() {
+    for (Um z = 200; z <= 20'000; z += 200) {
+      layers.push_back({z, 200, &outline, &outline});
+      infill::PartAreas part;
+      part.sparse = outline;
+      areas.push_back({part});
+    }
+  }
+  infill::ShellObject object() const { return {layers, infill::box_of(layers), 400_um}; }
+};
+
+struct File {
+  std::filesystem::path path;
+  File(const std::string& name, const std::string& text)
+      : path(std::filesystem::temp_directory_path() / (std::to_string(::getpid()) + name)) {
+    std::ofstream(path, std::ios::binary) << text;
+  }
+  ~File() { std::filesystem::remove(path); }
+};
+
+Density density_of(const InfillSettings& infill, const Block& block, Point on_bed = {}) {
+  return Density(infill, block.object(), block.areas, on_bed);
+}
+
+/// Plastic over area of what lies left of a place and right of it.
+std::pair<double, double> halves(const Beads& beads, Um x) {
+  double left = 0, right = 0;
+  for (const Bead& bead : beads)
+    for (std::size_t i = 0; i + (bead.closed ? 0U : 1U) < bead.path.size(); ++i) {
+      const Junction &a = bead.path[i], &b = bead.path[(i + 1) % bead.path.size()];
+      constexpr int pieces = 64;
+      for (int k = 0; k < pieces; ++k) {
+        const double t = (k + 0.5) / pieces,
+                     mm2 = std::lerp(a.width, b.width, t) * distance(a.at, b.at) / pieces * 1e-6;
+        (std::lerp(a.at.x, b.at.x, t) < x ? left : right) += mm2;
+      }
+    }
+  return {left, right};
+}
+
+}  // namespace
+
+TEST_CASE("density: by height, by distance, by gradual steps", "[infill]") {
+  const Block block;
+  InfillSettings s;
+  s.infill_density_by_height = {{0, 40}, {10, 20}};
+  CHECK(density_of(s, block).at({30'000, 20'000}, 5'000) == Approx(0.3));
+  CHECK(density_of(s, block).at({30'000, 20'000}, 15'000) == Approx(0.2));
+  s = {};
+  s.infill_density_by_distance = {{0, 60}, {8, 20}};
+  // 4 mm from the nearest face, half a cell of half a millimetre off at most
+  CHECK(density_of(s, block).at({4'000, 20'000}, 10'000) == Approx(0.4).margin(0.02));
+  CHECK(density_of(s, block).at({30'000, 20'000}, 10'000) == Approx(0.2).margin(0.005));
+  s = {};
+  s.gradual_infill_steps = 2, s.gradual_infill_step_height = 2'000, s.infill_density_min = 1;
+  CHECK(density_of(s, block).at({30'000, 20'000}, 19'000) == Approx(0.2));
+  CHECK(density_of(s, block).at({30'000, 20'000}, 17'000) == Approx(0.1));
+  CHECK(density_of(s, block).at({30'000, 20'000}, 5'000) == Approx(0.05));
+}
+
+TEST_CASE("density: transfer curves are the inverses of what they are named after", "[infill][law]") {
+  const Block block;
+  const File csv("v.csv", "0,0,0,0.2\n60,0,0,0.8\n");
+  InfillSettings s;
+  s.infill_density_field = csv.path.string(), s.infill_density_min = 0, s.infill_density_max = 100;
+  const auto at = [&](const char* curve, Um x) {
+    value::parse(curve, Unit::none, s.infill_density_transfer);
+    return density_of(s, block).at({x, 20'000}, 10'000);
+  };
+  for (const Um x : {0, 20'000, 60'000}) {
+    const double v = 0.2 + 0.6 * x / 60'000;
+    CHECK(at("linear", x) == Approx(v));
+    CHECK(std::pow(at("simp:3", x), 3) == Approx(v));  // E/E₀ = ρᵖ
+    const double rho = at("ramp:8", x);
+    CHECK(rho / (1 + 8 * (1 - rho)) == Approx(v));  // E/E₀ = ρ/(1 + q(1 − ρ))
+  }
+  CHECK(at("heaviside:16:0.5", 0) < 0.02);
+  CHECK(at("heaviside:16:0.5", 60'000) > 0.98);
+  CHECK(at("heaviside:16:0.5", 30'000) == Approx(0.5));
+  s.infill_density_min = 10, s.infill_density_max = 50;
+  CHECK(1 / at("linear_spacing", 30'000) == Approx((1 / 0.1 + 1 / 0.5) / 2));
+  CHECK(at("exponential_spacing", 30'000) == Approx(std::sqrt(0.1 * 0.5)));
+}
+
+TEST_CASE("density: a field that misses the object is refused with both places", "[infill]") {
+  const Block block;
+  const File csv("m.csv", "0,0,0,0.2\n10,0,0,0.8\n0,10,0,0.2\n10,10,0,0.2\n");
+  InfillSettings s;
+  s.infill_density_field = csv.path.string();
+  CHECK(settings_error([&] {
+          (void)density_of(s, block, {80'000, 80'000});
+        }) == csv.path.string() +
+                  ": 0…10, 0…10, 0…0 misses the object at 80…140, 80…120, 0…20; is it in metres or another frame?");
+}
+
+TEST_CASE("density: a wedge of densities is laid as it is asked for, by every way of making it", "[infill][law]") {
+  const Block block;
+  const File csv("w.csv", "0,0,0,0.1\n60,0,0,0.4\n");
+  for (const DensityDither dither : {DensityDither::none, DensityDither::floyd_steinberg, DensityDither::blue_noise})
+    for (const InfillPattern pattern : {InfillPattern::grid, InfillPattern::gyroid}) {
+      InfillSettings s;
+      s.infill_density_field = csv.path.string(), s.infill_density_dither = dither, s.infill_pattern = pattern;
+      infill::Prepared prepared;
+      prepared.density.emplace(s, block.object(), block.areas, Point{});
+      double left = 0, right = 0;
+      constexpr std::size_t layers = 6;  // cells of two densities are right on average
+      for (std::size_t i = 0; i < layers; ++i) {
+        Beads beads;
+        const Um z = static_cast<Um>(2'000 + 200 * i);
+        for (const Density::Part& part : prepared.density->parts(block.outline.front(), z, i)) {
+          const std::size_t from = beads.size();
+          infill::fill_sparse(part.region,
+                              {.pattern = part.pattern,
+                               .density = part.level,
+                               .band = 420,
+                               .angle_rad = degrees(45),
+                               .overlap_um = 45,
+                               .z = z,
+                               .origin = {30'000, 20'000},
+                               .reach = 30'000},
+                              beads);
+          if (!part.dithered) prepared.density->follow(part.level, z, from, beads);
+        }
+        const auto [l, r] = halves(beads, 30'000);
+        left += l / 1'200 / layers, right += r / 1'200 / layers;
+      }
+      CAPTURE(static_cast<int>(dither), static_cast<int>(pattern));
+      CHECK(left == Approx(0.175).epsilon(0.08));
+      CHECK(right == Approx(0.325).epsilon(0.08));
+    }
+}
+
+TEST_CASE("density: patterns go by it", "[infill]") {
+  const Block block;
+  const File csv("p.csv", "0,0,0,0.1\n60,0,0,0.4\n");
+  InfillSettings s;
+  s.infill_density_field = csv.path.string(), s.infill_pattern_by_density = "0:gyroid, 25:grid";
+  const Density density = density_of(s, block);
+  for (const Density::Part& part : density.parts(block.outline.front(), 10'000, 0)) {
+    const Point middle = box_of(part.region.outer).centre();
+    // 25 % lies at x = 30 mm
+    CHECK(part.pattern == (middle.x < 30'000 ? InfillPattern::gyroid : InfillPattern::grid));
+  }
+}
