@@ -165,23 +165,40 @@ class LayerText {
       job_.comments.feature(out_, bead.role);
     }
     accelerate(bead.acceleration_mm_s2, false);
-    const double height_mm = to_mm(bead.height);
     const bool varies = !bead.segment_speed_mm_s.empty(), flow_comments = job_.settings.gcode.gcode_flow_comments;
-    for_each_move(bead.path, height_mm, [&](const BeadMove& move) {
+    const auto speed = [&](std::size_t piece) {
+      return varies ? static_cast<double>(bead.segment_speed_mm_s[piece - 1]) : bead.speed_mm_s;
+    };
+    const auto line = [&](const BeadMove& move) {
       const auto &a = bead.path[move.piece - 1], &b = bead.path[move.piece];
       if (job_.comments.says_sizes()) sizes(size_of(bead, a, b));
       out_ << "G1";
       const Point3 to = place_of(bead, move.to, job_.plan.z);
       axes(to);
       filament(move.volume_mm3 * e_per_mm3_);
-      feed(varies ? static_cast<double>(bead.segment_speed_mm_s[move.piece - 1]) : bead.speed_mm_s);
+      feed(speed(move.piece));
       if (flow_comments && (a.flow != 1.F || b.flow != 1.F)) {
         out_ << " ; flow ";
         out_.spelled(rounded(500.0 * static_cast<double>(a.flow + b.flow)));
       }
       out_ << '\n';
       state_.at = to;
-    });
+    };
+    for_each_move(bead, line,
+                  [&](const Arc& arc, double volume_mm3) { curve(bead, arc, volume_mm3, speed(arc.last)); });
+  }
+
+  /// Both axes are said, and the centre from where it begins: what every firmware reads.
+  void curve(const Extrude& bead, const Arc& arc, double volume_mm3, double speed_mm_s) {
+    const auto &a = bead.path[arc.first], &b = bead.path[arc.last];
+    if (job_.comments.says_sizes()) sizes(size_of(bead, a, b));
+    const Point from_centre = arc.centre - a.at;
+    ((out_ << (arc.ccw ? "G3 X" : "G2 X")).length(b.at.x - offset_.x) << " Y").length(b.at.y - offset_.y);
+    ((out_ << " I").length(from_centre.x) << " J").length(from_centre.y);
+    filament(volume_mm3 * e_per_mm3_);
+    feed(speed_mm_s);
+    out_ << '\n';
+    state_.at = place_of(bead, arc.last, job_.plan.z);
   }
 
   /// Where it changes by more than a viewer sees.

@@ -3,6 +3,7 @@
 
 #include "core/stop.h"
 #include "model/flow.h"
+#include "motion/arcs.h"
 #include "motion/resample.h"
 
 #include <algorithm>
@@ -190,6 +191,7 @@ void set_speeds(AllRules all, LayerPlan& layer, std::optional<Point3> start) {
     travel.z_speed_mm_s = std::min(rules.speeds.speed_z_hop, rules.machine.machine_max_speed_z);
     travel.acceleration_mm_s2 = write_accelerations ? travel_acceleration_mm_s2(rules) : 0;
   };
+  const Box arc_room = rules.arc_tolerance ? box_of(reach_area(rules.machine)).grown(-2 * *rules.arc_tolerance) : Box{};
   std::vector<Step> steps;
   steps.reserve(layer.steps.size() + 8);
   auto at = start;
@@ -208,6 +210,7 @@ void set_speeds(AllRules all, LayerPlan& layer, std::optional<Point3> start) {
         const Rules& own = of_scope(all, bead.scope);
         set_bead_speed(own, bead);
         bead.acceleration_mm_s2 = write_accelerations ? feature_acceleration_mm_s2(own, bead.role) : 0;
+        if (rules.arc_tolerance) fit_arcs({*rules.arc_tolerance, arc_room}, bead);
         at = place_of(bead, bead.path.size() - 1, layer.z);
         return true;
       },

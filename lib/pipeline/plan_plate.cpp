@@ -14,6 +14,7 @@
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
 #include "pipeline/support_object.h"
+#include "pipeline/vase.h"
 #include "tasks/parallel.h"
 #include "travel/travel.h"
 
@@ -257,6 +258,7 @@ struct MovesOf {
   const ToolScopes& tools;
   const Passes& passes;
   const std::vector<std::vector<Pause>>& pauses;  ///< of each layer
+  const Vase& vase;
 };
 
 /// Where each pass begins, as far as it is known: after another tool was loaded the nozzle may be anywhere.
@@ -303,6 +305,8 @@ std::vector<PackedLayer> plan_moves(const MovesOf& of, std::vector<travel::Prepa
   if (of.tools.several())
     for (const auto& tool : of.tools.tools()) of_tools.push_back(motion::rules_of(tool));
   std::vector<travel::Routed> departures(prepared.size());  // without their plans, which go on
+  travel::Spiral spiral(settings.layers.smooth_spiralized_contours);
+  std::vector<Bead> turns(of.vase.end);  // walls that become turns, by layer
   struct Begun {
     LayerPlan plan;
     std::optional<Point3> start;
@@ -318,6 +322,7 @@ std::vector<PackedLayer> plan_moves(const MovesOf& of, std::vector<travel::Prepa
           travel::prepare_ways(settings.travel, layer);
           const auto& retraction = scopes[of.tools.several() ? layer.input.scope : 0].retraction;
           auto routed = travel::route(settings.travel, retraction, layer, ordered[p], from[p]);
+          if (of.vase.has(i)) turns[i] = wall_of(layer.input);
           overhangs::mark(strands, over_air_of(layer.input), routed.plan);
           departures[p].departures = routed.departures;
           plans.push_back(std::move(routed.plan));
@@ -326,6 +331,7 @@ std::vector<PackedLayer> plan_moves(const MovesOf& of, std::vector<travel::Prepa
       },
       [&](std::size_t i, LayerPlan plan) {
         const auto& passes = of.passes;
+        if (of.vase.has(i)) wind(of.vase, i, turns[i], spiral, plan);
         const ToolId loaded = i > 0 ? passes.passes[passes.begin[i] - 1].tool : any_tool;
         Begun layer{std::move(plan), at, loaded};
         at = motion::start_after(layer.plan, at);
@@ -412,6 +418,7 @@ PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, c
     input.nozzle = settings.machine.nozzle_diameter;
   }
   for (auto& notice : check(settings)) plan.notices.push_back(std::move(notice));
+  const Vase vase = settings.layers.magic_spiralize ? vase_of(settings, inputs, plan.notices) : Vase{};
   inputs = split(passes, settings, tools, scopes, std::move(inputs));
 
   auto [prepared_passes, linked_passes] = prepared_and_linked(settings.travel, std::move(inputs));
@@ -422,7 +429,7 @@ PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, c
   if (report.tours) *report.tours = tours_of(prepared, ordered);
   const auto pauses = pauses_of(settings.tools, timeline, plan.notices);
   auto planned =
-      plan_moves({scopes, tools, passes, pauses}, std::move(prepared), std::move(ordered), plan.notices, use);
+      plan_moves({scopes, tools, passes, pauses, vase}, std::move(prepared), std::move(ordered), plan.notices, use);
   for (std::size_t i = 0; i < planned.size(); ++i) {
     auto& layer = planned[i];
     out.statistics.append(layer.statistics);

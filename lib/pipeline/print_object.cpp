@@ -365,6 +365,7 @@ Fills fill_object(const FillHands& handed, const WallHands& walled, const Scopes
                            .origin = origin,
                            .reach = box.empty() ? 0 : std::max(box.size().x, box.size().y) / 2,
                            .prepared = prepared.of(object.scope_of(scope)),
+                           .topmost = i + 1 == cuts.size(),
                            .bridges_below = i > 0 ? std::span<const infill::BridgeArea>(bridges[i - 1])
                                                   : std::span<const infill::BridgeArea>{}});
     };
