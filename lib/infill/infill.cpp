@@ -178,6 +178,19 @@ Regions ironed(const ShellSettings& shells, const FillInput& input, const PartAr
   return geometry::offset(out, {.by = -shells.ironing_inset.value_or(input.nozzle / 2)});
 }
 
+/// @param across of a region: the direction across the lines of its skin
+template <class Across>
+void iron(const ShellSettings& shells, const FillInput& input, const PartAreas& areas, SolidStyle style,
+          std::uint32_t& sequence, Beads& beads, const Across& across) {
+  style.part = areas.part;
+  for (const Region& region : ironed(shells, input, areas)) {
+    stop_if_asked();
+    style.sequence = ++sequence;
+    style.angle_rad = shells.ironing_angle ? radians(*shells.ironing_angle) : across(region);
+    fill_solid(region, style, beads);
+  }
+}
+
 /// How the areas of a layer are filled, but for what differs from area to area.
 struct Styles {
   SolidStyle solid, top, bridge, ironing;
@@ -285,15 +298,9 @@ FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const 
     spread_out(flow::spread(input.height, input.overlap_factor), from, layer.beads);
     fill_all(areas.solid, styles.solid, styles.solid_winds, areas.part, solid_angle);
     fill_all(areas.top, styles.top, styles.top_winds, areas.part, own_angle);
-    if (!shells.ironing_enabled) continue;
-    for (const Region& region : ironed(shells, input, areas)) {
-      stop_if_asked();
-      SolidStyle style = styles.ironing;
-      style.part = areas.part, style.sequence = ++sequence;
-      style.angle_rad =
-          shells.ironing_angle ? radians(*shells.ironing_angle) : own_angle(styles.top, region) + radians(90);
-      fill_solid(region, style, layer.beads);
-    }
+    if (shells.ironing_enabled)
+      iron(shells, input, areas, styles.ironing, sequence, layer.beads,
+           [&](const Region& region) { return own_angle(styles.top, region) + radians(90); });
   }
   return layer;
 }

@@ -83,6 +83,41 @@ double filament_per_mm3(const Rules& rules) {
   return rules.material.material_flow / 100 / (std::numbers::pi / 4 * d * d);
 }
 
+/// What a bead is laid with.
+struct Laying {
+  double acceleration_mm_s2;  ///< where it has none of its own
+  double e_per_mm3;
+  std::uint32_t step;
+};
+
+void add_bead(const Extrude& bead, Um z, const Laying& by, Collector& out) {
+  if (bead.path.size() < 2) return;
+  const double a = bead.acceleration_mm_s2 > 0 ? bead.acceleration_mm_s2 : by.acceleration_mm_s2;
+  const auto speed = [&](std::size_t piece) {
+    return bead.segment_speed_mm_s.empty() ? bead.speed_mm_s : static_cast<double>(bead.segment_speed_mm_s[piece - 1]);
+  };
+  out.go(place_of(bead, 0, z), bead.speed_mm_s, a, by.step, true);
+  const auto straight = [&](const BeadMove& move) {
+    out.go(place_of(bead, move.to, z), speed(move.piece), a, by.step, true, move.volume_mm3 * by.e_per_mm3);
+  };
+  for_each_move(bead, straight, [&](const Arc& arc, double volume_mm3) {
+    const auto chords = chords_of(out.machine.firmware, bead, arc);
+    const double e_mm = volume_mm3 * by.e_per_mm3 / static_cast<double>(chords.size());
+    for (const Point p : chords) out.go({p.x, p.y, z}, speed(arc.last), a, by.step, true, e_mm);
+  });
+}
+
+/// @param e_mm of filament along the wipe
+void add_wipe(const Retract& retract, double e_mm, Um z, double acceleration_mm_s2, std::uint32_t step,
+              Collector& out) {
+  if (retract.wipe.empty()) return;
+  const double um = (out.at ? distance(flat(*out.at), retract.wipe.front()) : 0) + length_of(retract.wipe);
+  for (const Point p : retract.wipe) {
+    const double share = out.at && um > 0 ? distance(flat(*out.at), p) / um : 0;
+    out.go({p.x, p.y, out.at ? out.at->z : z}, retract.wipe_speed_mm_s, acceleration_mm_s2, step, false, e_mm * share);
+  }
+}
+
 /// What is drawn back of the tools' filaments, mm, in the course of a layer.
 class DrawnBack {
  public:
@@ -141,25 +176,7 @@ std::vector<Move> moves_of(const AllRules& all, const LayerPlan& layer, std::opt
   std::uint32_t i = 0;
   const overloaded add{
       [&](const Extrude& bead) {
-        const double a = bead.acceleration_mm_s2 > 0 ? bead.acceleration_mm_s2 : unset;
-        const bool varies = !bead.segment_speed_mm_s.empty();
-        if (bead.path.size() < 2) return;
-        out.go(place_of(bead, 0, layer.z), bead.speed_mm_s, a, i, true);
-        const double e_per_mm3 = filament_per_mm3(drawn.rules());
-        const auto speed = [&](std::size_t piece) {
-          return varies ? static_cast<double>(bead.segment_speed_mm_s[piece - 1]) : bead.speed_mm_s;
-        };
-        for_each_move(
-            bead,
-            [&](const BeadMove& move) {
-              out.go(place_of(bead, move.to, layer.z), speed(move.piece), a, i, true, move.volume_mm3 * e_per_mm3);
-            },
-            [&](const Arc& arc, double volume_mm3) {
-              const auto chords = chords_of(rules.machine.firmware, bead, arc);
-              for (const Point p : chords)
-                out.go({p.x, p.y, layer.z}, speed(arc.first + 1), a, i, true,
-                       volume_mm3 * e_per_mm3 / static_cast<double>(chords.size()));
-            });
+        add_bead(bead, layer.z, {unset, filament_per_mm3(drawn.rules()), i}, out);
       },
       [&](const Travel& travel) {
         for (const Point3 to : travel.path)
@@ -172,12 +189,7 @@ std::vector<Move> moves_of(const AllRules& all, const LayerPlan& layer, std::opt
           out.pause(
               extruder_s(mm * retract.before_wipe, drawn.rules().retraction.retraction_retract_speed, rules.machine),
               i);
-        const double um = (out.at && !retract.wipe.empty() ? distance(flat(*out.at), retract.wipe.front()) : 0) +
-                          length_of(retract.wipe);
-        const double e_per_um = um > 0 ? -mm * (1 - retract.before_wipe) / um : 0;
-        for (const Point p : retract.wipe)
-          out.go({p.x, p.y, out.at ? out.at->z : layer.z}, retract.wipe_speed_mm_s, travel_acceleration_mm_s2(rules), i,
-                 false, out.at ? e_per_um * distance(flat(*out.at), p) : 0);
+        add_wipe(retract, -mm * (1 - retract.before_wipe), layer.z, travel_acceleration_mm_s2(rules), i, out);
       },
       [&](const Prime&) {
         const auto& r = drawn.rules().retraction;
