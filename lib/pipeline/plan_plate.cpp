@@ -357,6 +357,28 @@ std::vector<Report::Tour> tours_of(const std::vector<travel::Prepared>& prepared
   });
 }
 
+/// Plastic that stands in the melt for minutes creeps upwards: clogs, and none at the next wall.
+void tell_slow_ironing(const std::vector<PackedLayer>& layers, Notices& notices) {
+  constexpr double long_s = 180, slow_mm3_s = 0.1;
+  const PackedLayer* worst = nullptr;
+  const auto ironing = [](const PackedLayer& layer) {
+    return layer.statistics.features[static_cast<std::size_t>(Role::ironing)];
+  };
+  for (const auto& layer : layers) {
+    const auto own = ironing(layer);
+    if (own.s > long_s && own.mm3 < slow_mm3_s * own.s && (worst == nullptr || own.s > ironing(*worst).s))
+      worst = &layer;
+  }
+  if (worst == nullptr) return;
+  const auto own = ironing(*worst);
+  notices.push_back(
+      {"ironing_slow",
+       fmt::format("ironing_enabled: at z {:.3f} the nozzle irons for {:.0f} minutes at {:.3f} mm³/s: filament that "
+                   "stands in the melt so long may clog; a larger ironing_flow, ironing_line_spacing or speed_ironing "
+                   "is quicker through it",
+                   to_mm(worst->bare.z), own.s / 60, own.mm3 / own.s)});
+}
+
 /// Does one of the first so many objects, which are models, begin there?
 bool has_bottom(const TimelineLayer& layer, std::size_t models) {
   return std::any_of(layer.parts.begin(), layer.parts.end(),
@@ -430,6 +452,7 @@ PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, c
   const auto pauses = pauses_of(settings.tools, timeline, plan.notices);
   auto planned =
       plan_moves({scopes, tools, passes, pauses, vase}, std::move(prepared), std::move(ordered), plan.notices, use);
+  tell_slow_ironing(planned, plan.notices);
   for (std::size_t i = 0; i < planned.size(); ++i) {
     auto& layer = planned[i];
     out.statistics.append(layer.statistics);

@@ -163,6 +163,19 @@ TEST_CASE("surfaces: ironing comes last on its layer, and is told as what it is"
   CHECK_THAT(plain, !Contains(";TYPE:Ironing"));
 }
 
+TEST_CASE("surfaces: ironing that lets plastic stand in the melt for minutes is told") {
+  const Print print;
+  print.scratch.write("plate.stl", box_stl(60, 60, 1));
+  print.slice({"plate.stl", "--set", "ironing_enabled=true"});
+  const auto told = [&] {
+    const auto warnings = print.report()["warnings"];
+    return std::any_of(warnings.begin(), warnings.end(), [](const json& w) { return w["code"] == "ironing_slow"; });
+  };
+  CHECK(told());
+  print.slice({"plate.stl", "--set", "ironing_enabled=true", "--set", "ironing_flow=60"});
+  CHECK_FALSE(told());
+}
+
 TEST_CASE("surfaces: rough walls are the same for any number of threads, and off they change nothing") {
   const Print print;
   const auto plain = print.slice({"pot.stl"});
