@@ -52,6 +52,21 @@ Size size_of(const Extrude& bead, const Junction& a, const Junction& b) {
   return {flow::line_width(rounded(band * flow * bead.height / height), height), height};
 }
 
+/// About how long a step takes: at its speed, all along.
+double seconds_at_speed(const Step& step) {
+  double s = 0;
+  if (const auto* bead = std::get_if<Extrude>(&step))
+    for (std::size_t i = 1; i < bead->path.size(); ++i) {
+      const double mm_s =
+          bead->segment_speed_mm_s.empty() ? bead->speed_mm_s : static_cast<double>(bead->segment_speed_mm_s[i - 1]);
+      s += distance(bead->path[i - 1].at, bead->path[i].at) / 1000 / std::max(mm_s, 1e-3);
+    }
+  if (const auto* travel = std::get_if<Travel>(&step))
+    for (std::size_t i = 1; i < travel->path.size(); ++i)
+      s += distance(flat(travel->path[i - 1]), flat(travel->path[i])) / 1000 / std::max(travel->speed_mm_s, 1e-3);
+  return s;
+}
+
 class LayerText {
  public:
   explicit LayerText(const LayerJob& job) : job_(job), state_(job.entry), out_(expected_bytes(job.plan)) {
@@ -70,6 +85,7 @@ class LayerText {
         arrived = true;
       }
       std::visit([&](const auto& s) { print(s); }, step);
+      if (!job_.timed.empty()) say_timed(seconds_at_speed(step));
     }
     if (job_.comments.dialect == CommentDialect::cura)
       out_ << ";TIME_ELAPSED:" << fmt::format("{:.6f}", job_.end_s) << '\n';
@@ -88,6 +104,15 @@ class LayerText {
     const double area_mm2 = std::numbers::pi / 4 * diameter_mm * diameter_mm;
     e_per_mm3_ = material.material_flow / 100.0 / (volumetric ? 1 : area_mm2) * units_per_mm;
     e_per_mm_ = (volumetric ? area_mm2 : 1) * units_per_mm;
+  }
+
+  /// What is due when a step is done that takes so long.
+  void say_timed(double seconds) {
+    if (all_s_ == 0)
+      for (const auto& step : job_.plan.steps) all_s_ += seconds_at_speed(step);
+    done_s_ += seconds;
+    for (; timed_ < job_.timed.size() && job_.timed[timed_].share * all_s_ <= done_s_; ++timed_)
+      out_ << job_.timed[timed_].text;
   }
 
   void head() {
@@ -360,7 +385,8 @@ class LayerText {
   std::int64_t e_written_ = 0;  // likewise
   std::int64_t feed_ = 0;       // 0: not said in this layer
   int role_ = -1;
-  std::size_t tool_changes_ = 0, pauses_ = 0;
+  std::size_t tool_changes_ = 0, pauses_ = 0, timed_ = 0;
+  double all_s_ = 0, done_s_ = 0;  ///< of the steps
   Um height_ = 0, width_ = 0;
 };
 

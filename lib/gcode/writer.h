@@ -32,6 +32,8 @@ struct Job {
   std::vector<Settings> tools{};  ///< of each; empty: there is one
 };
 
+struct TimedLine;
+
 /// The file in pieces, which put together in order are the whole: head, each layer, tail. Layers do not depend on each
 /// other and may be written in any order and on any thread. With absolute E each begins with G92 E0.
 /// E is rounded to 10⁻⁵ mm and the rounding error is carried along: the sum over a layer is right to half of that.
@@ -55,6 +57,7 @@ class Writer {
   void begin_where_start_ends();
   void heat_at_start(Text& out, bool wait) const;
   std::string heat_after_first_layer(std::size_t index, bool first) const;
+  std::vector<TimedLine> progress_within(std::size_t index) const;
 
   const Job& job_;
   bool lenient_;            // a trial: the figures of the print are not the real ones

@@ -176,6 +176,25 @@ TEST_CASE("surfaces: ironing that lets plastic stand in the melt for minutes is 
   CHECK_FALSE(told());
 }
 
+TEST_CASE("surfaces: in a layer of many minutes M73 goes on counting") {
+  const Print print;
+  print.scratch.write("plate.stl", box_stl(100, 100, 0.4F));
+  const auto gcode = print.slice({"plate.stl", "--set", "speed_topbottom=20", "--set", "speed_top_skin=20"});
+  std::size_t within = 0;
+  int minutes = 1'000'000;
+  bool moved = false;
+  for (const auto& line : lines_of(gcode)) {
+    if (line.starts_with(";LAYER_CHANGE")) moved = false;
+    if (line.starts_with("G1 ") && line.find(" E") != std::string::npos) moved = true;
+    if (!line.starts_with("M73 ")) continue;
+    const int left = std::stoi(line.substr(line.find('R') + 1));
+    CHECK(left <= minutes);
+    minutes = left;
+    within += moved ? 1 : 0;
+  }
+  CHECK(within > 10);
+}
+
 TEST_CASE("surfaces: rough walls are the same for any number of threads, and off they change nothing") {
   const Print print;
   const auto plain = print.slice({"pot.stl"});
