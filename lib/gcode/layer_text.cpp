@@ -53,6 +53,21 @@ Size size_of(const Extrude& bead, const Junction& a, const Junction& b) {
   return {flow::line_width(rounded(band * flow * bead.height / height), height), height};
 }
 
+/// About how long a step takes: at its speed, all along.
+double seconds_at_speed(const Step& step) {
+  double s = 0;
+  if (const auto* bead = std::get_if<Extrude>(&step))
+    for (std::size_t i = 1; i < bead->path.size(); ++i) {
+      const double mm_s =
+          bead->segment_speed_mm_s.empty() ? bead->speed_mm_s : static_cast<double>(bead->segment_speed_mm_s[i - 1]);
+      s += distance(bead->path[i - 1].at, bead->path[i].at) / 1000 / std::max(mm_s, 1e-3);
+    }
+  if (const auto* travel = std::get_if<Travel>(&step))
+    for (std::size_t i = 1; i < travel->path.size(); ++i)
+      s += distance(flat(travel->path[i - 1]), flat(travel->path[i])) / 1000 / std::max(travel->speed_mm_s, 1e-3);
+  return s;
+}
+
 class LayerText {
  public:
   explicit LayerText(const LayerJob& job) : job_(job), state_(job.entry), out_(expected_bytes(job.plan)) {
@@ -71,6 +86,7 @@ class LayerText {
         arrived = true;
       }
       std::visit([&](const auto& s) { print(s); }, step);
+      if (!job_.timed.empty()) say_timed(seconds_at_speed(step));
     }
     if (job_.comments.dialect == CommentDialect::cura)
       out_ << ";TIME_ELAPSED:" << fmt::format("{:.6f}", job_.end_s) << '\n';
@@ -89,6 +105,15 @@ class LayerText {
     const double area_mm2 = std::numbers::pi / 4 * diameter_mm * diameter_mm;
     e_per_mm3_ = material.material_flow / 100.0 / (volumetric ? 1 : area_mm2) * units_per_mm;
     e_per_mm_ = (volumetric ? area_mm2 : 1) * units_per_mm;
+  }
+
+  /// What is due when a step is done that takes so long.
+  void say_timed(double seconds) {
+    if (all_s_ == 0)
+      for (const auto& step : job_.plan.steps) all_s_ += seconds_at_speed(step);
+    done_s_ += seconds;
+    for (; timed_ < job_.timed.size() && job_.timed[timed_].share * all_s_ <= done_s_; ++timed_)
+      out_ << job_.timed[timed_].text;
   }
 
   void head() {
@@ -166,23 +191,40 @@ class LayerText {
       job_.comments.feature(out_, bead.role);
     }
     accelerate(bead.acceleration_mm_s2, false);
-    const double height_mm = to_mm(bead.height);
     const bool varies = !bead.segment_speed_mm_s.empty(), flow_comments = job_.settings.gcode.gcode_flow_comments;
-    for_each_move(bead.path, height_mm, [&](const BeadMove& move) {
+    const auto speed = [&](std::size_t piece) {
+      return varies ? static_cast<double>(bead.segment_speed_mm_s[piece - 1]) : bead.speed_mm_s;
+    };
+    const auto line = [&](const BeadMove& move) {
       const auto &a = bead.path[move.piece - 1], &b = bead.path[move.piece];
       if (job_.comments.says_sizes()) sizes(size_of(bead, a, b));
       out_ << "G1";
       const Point3 to = place_of(bead, move.to, job_.plan.z);
       axes(to);
       filament(move.volume_mm3 * e_per_mm3_);
-      feed(varies ? static_cast<double>(bead.segment_speed_mm_s[move.piece - 1]) : bead.speed_mm_s);
+      feed(speed(move.piece));
       if (flow_comments && (a.flow != 1.F || b.flow != 1.F)) {
         out_ << " ; flow ";
         out_.spelled(rounded(500.0 * static_cast<double>(a.flow + b.flow)));
       }
       out_ << '\n';
       state_.at = to;
-    });
+    };
+    for_each_move(bead, line,
+                  [&](const Arc& arc, double volume_mm3) { curve(bead, arc, volume_mm3, speed(arc.last)); });
+  }
+
+  /// Both axes are said, and the centre from where it begins: what every firmware reads.
+  void curve(const Extrude& bead, const Arc& arc, double volume_mm3, double speed_mm_s) {
+    const auto &a = bead.path[arc.first], &b = bead.path[arc.last];
+    if (job_.comments.says_sizes()) sizes(size_of(bead, a, b));
+    const Point from_centre = arc.centre - a.at;
+    ((out_ << (arc.ccw ? "G3 X" : "G2 X")).length(b.at.x - offset_.x) << " Y").length(b.at.y - offset_.y);
+    ((out_ << " I").length(from_centre.x) << " J").length(from_centre.y);
+    filament(volume_mm3 * e_per_mm3_);
+    feed(speed_mm_s);
+    out_ << '\n';
+    state_.at = place_of(bead, arc.last, job_.plan.z);
   }
 
   /// Where it changes by more than a viewer sees.
@@ -364,7 +406,8 @@ class LayerText {
   std::int64_t e_written_ = 0;  // likewise
   std::int64_t feed_ = 0;       // 0: not said in this layer
   int role_ = -1;
-  std::size_t tool_changes_ = 0, pauses_ = 0;
+  std::size_t tool_changes_ = 0, pauses_ = 0, timed_ = 0;
+  double all_s_ = 0, done_s_ = 0;  ///< of the steps
   Um height_ = 0, width_ = 0;
 };
 

@@ -3,9 +3,17 @@
 #include "gcode/comments.h"
 #include "gcode/writer.h"
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace weft::gcode {
+
+/// What is said when so much of a layer's time is over.
+struct TimedLine {
+  double share = 0;
+  std::string text;
+};
 
 /// What the text of one layer is made of.
 struct LayerJob {
@@ -25,6 +33,7 @@ struct LayerJob {
   const std::vector<std::string>& pauses;        ///< likewise
   bool first_is_chosen = false;                  ///< start G-code has chosen the first tool
   double end_s = 0;                              ///< time of the print when the layer is done
+  std::vector<TimedLine> timed{};                ///< between its steps, in order
 };
 
 std::string layer_text(const LayerJob& job);

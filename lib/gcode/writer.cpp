@@ -217,6 +217,21 @@ std::string Writer::mixing(std::size_t index) const {
   return index > 0 && told(index - 1) == now ? std::string() : now;
 }
 
+/// Displays shall not stand still during a layer that takes minutes.
+std::vector<TimedLine> Writer::progress_within(std::size_t index) const {
+  constexpr double long_s = 60, every_s = 30;
+  std::vector<TimedLine> out;
+  const double begin = elapsed_s_[index], end = elapsed_s_[index + 1];
+  if (!job_.settings.gcode.gcode_progress || end - begin < long_s) return out;
+  auto said = progress(begin, elapsed_s_.back());
+  for (double t = begin + every_s; t + every_s / 2 < end; t += every_s) {
+    const auto now = progress(t, elapsed_s_.back());
+    if (now != said) out.push_back({(t - begin) / (end - begin), dialect_.progress(now)});
+    said = now;
+  }
+  return out;
+}
+
 std::string Writer::layer(std::size_t index) const {
   const auto& m = used_.empty() ? job_.settings.material : job_.tools[used_.front()].material;
   std::string preamble;
@@ -250,7 +265,8 @@ std::string Writer::layer(std::size_t index) const {
                           .loaded = loaded_[index],
                           .pauses = pauses_[index],
                           .first_is_chosen = start_selects_ && index == 0,
-                          .end_s = elapsed_s_[index + 1]});
+                          .end_s = elapsed_s_[index + 1],
+                          .timed = progress_within(index)});
   return substitutions_.done(std::move(text));
 }
 

@@ -33,6 +33,8 @@ struct Job {
   std::vector<ToolId> cold_at_start{};  ///< their nozzles are heated later
 };
 
+struct TimedLine;
+
 /// The file in pieces, which put together in order are the whole: head, each layer, tail. Layers do not depend on each
 /// other and may be written in any order and on any thread. With absolute E each begins with G92 E0.
 /// E is rounded to 10⁻⁵ mm and the rounding error is carried along: the sum over a layer is right to half of that.
@@ -57,6 +59,7 @@ class Writer {
   void heat_at_start(Text& out, bool wait) const;
   std::string mixing(std::size_t index) const;
   std::string heat_after_first_layer(std::size_t index, bool first) const;
+  std::vector<TimedLine> progress_within(std::size_t index) const;
 
   const Job& job_;
   bool lenient_;            // a trial: the figures of the print are not the real ones

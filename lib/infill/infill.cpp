@@ -168,9 +168,33 @@ void fill_winding(const Region& region, InfillPattern pattern, const SolidStyle&
   for (const Region& rest : geometry::subtract({region}, wide)) fill_solid(rest, style, beads);
 }
 
+/// What of a part's areas is ironed: what keeps off their edge by the inset.
+Regions ironed(const ShellSettings& shells, const FillInput& input, const PartAreas& areas) {
+  if (shells.ironing_surfaces == IroningSurfaces::topmost && !input.topmost) return {};
+  Regions out = areas.top;
+  if (shells.ironing_surfaces == IroningSurfaces::solid) {
+    out = geometry::unite(out, areas.solid);
+    out = geometry::unite(out, areas.belted);
+  }
+  return geometry::offset(out, {.by = -shells.ironing_inset.value_or(input.nozzle / 2)});
+}
+
+/// @param across of a region: the direction across the lines of its skin
+template <class Across>
+void iron(const ShellSettings& shells, const FillInput& input, const PartAreas& areas, SolidStyle style,
+          std::uint32_t& sequence, Beads& beads, const Across& across) {
+  style.part = areas.part;
+  for (const Region& region : ironed(shells, input, areas)) {
+    stop_if_asked();
+    style.sequence = ++sequence;
+    style.angle_rad = shells.ironing_angle ? radians(*shells.ironing_angle) : across(region);
+    fill_solid(region, style, beads);
+  }
+}
+
 /// How the areas of a layer are filled, but for what differs from area to area.
 struct Styles {
-  SolidStyle solid, top, bridge;
+  SolidStyle solid, top, bridge, ironing;
   std::optional<InfillPattern> solid_winds, top_winds;
   SparseStyle sparse;
 };
@@ -197,7 +221,9 @@ Styles styles_of(const InfillSettings& infill, const ShellSettings& shells, cons
                .gaps = shells.gap_fill_enabled,
                .part = 0,
                .sequence = 0};
-  out.top = out.bridge = out.solid;
+  out.top = out.bridge = out.ironing = out.solid;
+  out.ironing.role = Role::ironing, out.ironing.band = shells.ironing_line_spacing;
+  out.ironing.overlap_um = 0, out.ironing.gaps = false, out.ironing.flow = shells.ironing_flow / 100;
   out.top.role = Role::top_skin, out.top.band = band(length_or(shells.top_skin_line_width, input.nozzle, input.nozzle));
   apply(shells.bottom_pattern, out.solid);
   apply(shells.top_pattern, out.top);
@@ -273,6 +299,9 @@ FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const 
     spread_out(flow::spread(input.height, input.overlap_factor), from, layer.beads);
     fill_all(areas.solid, styles.solid, styles.solid_winds, areas.part, solid_angle);
     fill_all(areas.top, styles.top, styles.top_winds, areas.part, own_angle);
+    if (shells.ironing_enabled)
+      iron(shells, input, areas, styles.ironing, sequence, layer.beads,
+           [&](const Region& region) { return own_angle(styles.top, region) + radians(90); });
   }
   return layer;
 }

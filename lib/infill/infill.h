@@ -26,6 +26,7 @@ struct FillInput {
   Point origin{};                               ///< where patterns are anchored: one point for all layers of an object
   Um reach = 0;                                 ///< how far the object goes from there, along either axis
   const Prepared* prepared = nullptr;           ///< of the object (infill/prepared.h)
+  bool topmost = false;                         ///< no layer lies above
   std::span<const BridgeArea> bridges_below{};  ///< of the layer below: solid lines cross their strands
 };
 

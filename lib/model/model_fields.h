@@ -23,10 +23,12 @@ template <>
 inline constexpr auto fields<FillLayer> = listed(&FillLayer::beads, &FillLayer::notices);
 
 template <>
+inline constexpr auto fields<Arc> = listed(&Arc::first, &Arc::last, &Arc::centre, &Arc::ccw);
+template <>
 inline constexpr auto fields<Extrude> = listed(&Extrude::path, &Extrude::role, &Extrude::tool, &Extrude::scope,
                                                &Extrude::height, &Extrude::speed_mm_s, &Extrude::segment_speed_mm_s,
                                                &Extrude::acceleration_mm_s2, &Extrude::below, &Extrude::air_quarters,
-                                               &Extrude::loop_length, &Extrude::on_support);
+                                               &Extrude::loop_length, &Extrude::on_support, &Extrude::arcs);
 template <>
 inline constexpr auto fields<Travel> = listed(&Travel::path, &Travel::speed_mm_s, &Travel::crosses_wall,
                                               &Travel::z_speed_mm_s, &Travel::acceleration_mm_s2);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "core/tolerances.h"
-#include "model/bead.h"
+#include "model/plan.h"
 
 #include <cmath>
 #include <cstddef>
-#include <vector>
+#include <span>
 
 /// Which moves a bead is printed with: what the writer writes, and what the estimate of time counts.
 namespace weft {
@@ -20,7 +20,7 @@ struct BeadMove {
 /// tolerances::least_move tells of. Pre: at least two junctions. Post: the last ends at the path's last place, no
 /// junction lies further off than `straight_um`, the volumes sum up to that of all pieces.
 template <class F>
-void for_each_move(const std::vector<Junction>& path, double height_mm, F f) {
+void for_each_move(std::span<const Junction> path, double height_mm, F f) {
   constexpr double straight_um = 1;
   const std::size_t last = path.size() - 1;
   const auto length = [&](std::size_t i) { return distance(path[i - 1].at, path[i].at); };
@@ -58,6 +58,31 @@ void for_each_move(const std::vector<Junction>& path, double height_mm, F f) {
     here = ahead;
     from = i = to;
   }
+}
+
+/// The same for a bead: `f` for each straight move, `on_arc(arc, volume_mm3)` for each of its arcs, in order.
+template <class F, class G>
+void for_each_move(const Extrude& bead, F f, G on_arc) {
+  const double height_mm = to_mm(bead.height);
+  const std::span<const Junction> path(bead.path);
+  if (bead.arcs.empty()) return for_each_move(path, height_mm, f);
+  std::size_t at = 0;
+  const auto straight_to = [&](std::size_t to) {
+    if (to > at)
+      for_each_move(path.subspan(at, to - at + 1), height_mm, [&](BeadMove move) {
+        move.piece += at, move.to += at;
+        f(move);
+      });
+  };
+  for (const Arc& arc : bead.arcs) {
+    straight_to(arc.first);
+    double volume = 0;
+    for (std::size_t i = arc.first + std::size_t{1}; i <= arc.last; ++i)
+      volume += distance(path[i - 1].at, path[i].at) / 1000.0 * mean_area_mm2(path[i - 1], path[i], height_mm);
+    on_arc(arc, volume);
+    at = arc.last;
+  }
+  straight_to(path.size() - 1);
 }
 
 }  // namespace weft

@@ -11,6 +11,14 @@
 
 namespace weft {
 
+/// A run of a bead's pieces that is written as one arc, in the plane of the layer.
+struct Arc {
+  std::uint32_t first = 0, last = 0;  ///< junctions that it begins and ends at
+  Point centre;
+  bool ccw = false;  ///< it turns left
+  friend bool operator==(const Arc&, const Arc&) = default;
+};
+
 /// Lays a bead down from its first junction to its last (a closed bead has its first junction repeated at the end
 /// here).
 struct Extrude {
@@ -31,6 +39,8 @@ struct Extrude {
   /// Of a piece that was cut out of a closed bead: the length of all of it; 0: the path is the whole bead.
   Um loop_length = 0;
   bool on_support = false;  ///< skin that rests on support
+  /// Set by motion: in order, without overlap. The path stays what is meant; an arc is how it is told.
+  std::vector<Arc> arcs{};
 };
 
 /// Where junction i of a bead lies, on a layer at z.

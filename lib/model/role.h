@@ -28,6 +28,7 @@ enum class Role : std::uint8_t {
   support,
   support_interface,
   wipe_tower,
+  ironing,  ///< over skin, for its gloss
 };
 
 /// What roles have in common.
@@ -163,6 +164,13 @@ inline constexpr auto roles = [] {
               .speed = {&S::speed_infill},
               .acceleration = {},
               .colour = {170, 190, 150}},
+      RoleRow{.role = Role::ironing,
+              .key = "ironing",
+              .kind = skin,
+              .comments = {{{"Ironing"}, {"SKIN", "ironing"}, {"Ironing"}}},
+              .speed = {&S::speed_ironing},
+              .acceleration = {&S::acceleration_top_skin, &S::acceleration_topbottom},
+              .colour = {255, 140, 180}},
   };
 }();
 static_assert(in_order(roles, &RoleRow::role), "row i of roles is role i");

@@ -23,6 +23,9 @@ void Statistics::append(const Statistics& later) {
   for (std::size_t i = 0; i < walls.over_air_mm.size(); ++i) walls.over_air_mm[i] += later.walls.over_air_mm[i];
   walls.whole_over_air_mm += later.walls.whole_over_air_mm;
   walls.min_width = std::min(walls.min_width, later.walls.min_width);
+  arcs.count += later.arcs.count;
+  arcs.pieces += later.arcs.pieces;
+  arcs.worst_um = std::max(arcs.worst_um, later.arcs.worst_um);
   travel.mm += later.travel.mm;
   travel.s += later.travel.s;
   travel.moves += later.travel.moves;

@@ -25,6 +25,11 @@ struct Statistics {
     double whole_over_air_mm = 0;         ///< of the last of them: with all of it
   } walls;
 
+  struct Arcs {
+    std::int64_t count = 0, pieces = 0;  ///< and the pieces of paths that they stand for
+    double worst_um = 0;                 ///< how far one of these is from its arc
+  } arcs;
+
   struct Travels {
     double mm = 0, s = 0;
     std::int64_t moves = 0;  ///< Travel steps

@@ -14,6 +14,8 @@ struct Move {
   double ux = 0, uy = 0, uz = 0;  ///< unit vector
   double speed_mm_s = 0;
   double acceleration_mm_s2 = 0;
+  double asked_mm_s2 = 0;  ///< of it, before the axes bound it
+  double e_per_mm = 0;     ///< filament, mm a mm; < 0: drawn back
   double pause_s = 0;      ///< at rest: length is 0
   std::uint32_t step = 0;  ///< of the layer
   bool prints = false;     ///< may be slowed down to let a layer set
@@ -31,12 +33,16 @@ struct Slowdown {
   bool slows() const { return most_mm_s != std::numeric_limits<double>::infinity(); }
 };
 
-/// Seconds that each move takes, from rest to rest, with look-ahead over all of them: trapezoids whose speed in a
-/// corner is bounded by jerk per axis (Marlin, RepRapFirmware: moves also begin and end at what jerk allows), by
-/// junction deviation where machine_junction_deviation is set, or by Klipper's square corner velocity
-/// (machine_max_jerk) and minimum cruise ratio (of each move on its own, which is near Klipper's smoothed look-ahead).
-/// Source: Marlin planner.cpp; Klipper docs/Kinematics.md ("Look-ahead", "Junction speed"); S. Jeon 2011, junction
-/// deviation. Cost: O(moves).
+/// Seconds that each move takes, from rest to rest, as the machine's firmware plans it: trapezoids whose speed at a
+/// corner is bounded
+///   Klipper   by square corner velocity, by an arc that leaves both moves within their middles, and by what the
+///             filament's speed may change at once; and whose peaks keep the minimum cruise ratio, of a run of moves;
+///   Marlin    by jerk per axis, the filament's too (moves also begin and end at what jerk allows), or by junction
+///             deviation where machine_junction_deviation is set; with as many moves seen ahead as its buffer holds;
+///   RepRapFirmware  by jerk per axis, at one speed for both moves.
+/// Source: Klipper docs/Kinematics.md ("Look-ahead", "Junction speed", "Smoothed look-ahead"), Config_Reference.md;
+/// Marlin docs "Configuring Marlin: Jerk, Junction Deviation", planner; S. Jeon 2011, junction deviation;
+/// RepRapFirmware docs M566. Cost: O(moves).
 void seconds_of(const MachineSettings& machine, const std::vector<Move>& moves, const Slowdown& slowdown,
                 std::vector<double>& seconds);
 

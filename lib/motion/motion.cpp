@@ -3,6 +3,7 @@
 
 #include "core/stop.h"
 #include "model/flow.h"
+#include "motion/arcs.h"
 #include "motion/cooling.h"
 #include "motion/kinematics.h"
 #include "motion/speeds.h"
@@ -38,6 +39,11 @@ double count_bead(const Extrude& bead, bool goes_on, Statistics& s) {
       s.walls.min_flow_ratio = std::min(s.walls.min_flow_ratio, static_cast<double>(j.flow));
       s.walls.min_width = std::min(s.walls.min_width, flow::line_width(j.width, bead.height));
     }
+  for (const Arc& arc : bead.arcs) {
+    ++s.arcs.count;
+    s.arcs.pieces += arc.last - arc.first;
+    s.arcs.worst_um = std::max(s.arcs.worst_um, deviation_um(bead, arc));
+  }
   if (bead.air_quarters > 0) s.walls.over_air_mm.at(bead.air_quarters - 1U) += mm;
   if (bead.role == Role::overhang_wall) s.walls.whole_over_air_mm += mm;
   feature.mm += mm;
@@ -204,7 +210,8 @@ Rules rules_of(const Settings& s, const Settings* above) {
           usual.speeds.speed_travel,
           s.tools.tool_change_time,
           s.tools.switch_extruder_retraction_amount,
-          s.tools.switch_extruder_extra_prime_amount};
+          s.tools.switch_extruder_extra_prime_amount,
+          s.gcode.arc_fitting ? std::optional(s.gcode.arc_tolerance) : std::nullopt};
 }
 
 PlannedLayer plan_layer(AllRules all, LayerPlan layer, std::optional<Point3> start) {

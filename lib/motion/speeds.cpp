@@ -3,6 +3,7 @@
 
 #include "core/stop.h"
 #include "model/flow.h"
+#include "motion/arcs.h"
 #include "motion/resample.h"
 
 #include <algorithm>
@@ -179,6 +180,14 @@ void set_wipe(const Rules& rules, double speed_mm_s, std::optional<Point3> at, R
                             ? 1
                             : std::max(rules.retraction.retract_before_wipe / 100.0, 1 - while_wiping_mm / amount_mm);
 }
+
+/// Moves, speed and arcs.
+void set_bead(const Rules& rules, const Box& arc_room, Extrude& bead) {
+  if (bead.below.empty()) resample(bead.path);
+  set_bead_speed(rules, bead);
+  bead.acceleration_mm_s2 = rules.speeds.acceleration_enabled ? feature_acceleration_mm_s2(rules, bead.role) : 0;
+  if (rules.arc_tolerance) fit_arcs({*rules.arc_tolerance, arc_room}, bead);
+}
 }  // namespace
 
 void set_speeds(AllRules all, LayerPlan& layer, std::optional<Point3> start) {
@@ -190,6 +199,7 @@ void set_speeds(AllRules all, LayerPlan& layer, std::optional<Point3> start) {
     travel.z_speed_mm_s = std::min(rules.speeds.speed_z_hop, rules.machine.machine_max_speed_z);
     travel.acceleration_mm_s2 = write_accelerations ? travel_acceleration_mm_s2(rules) : 0;
   };
+  const Box arc_room = rules.arc_tolerance ? box_of(reach_area(rules.machine)).grown(-2 * *rules.arc_tolerance) : Box{};
   std::vector<Step> steps;
   steps.reserve(layer.steps.size() + 8);
   auto at = start;
@@ -204,10 +214,7 @@ void set_speeds(AllRules all, LayerPlan& layer, std::optional<Point3> start) {
           set_travel(travel);
           steps.emplace_back(std::move(travel));
         }
-        if (bead.below.empty()) resample(bead.path);
-        const Rules& own = of_scope(all, bead.scope);
-        set_bead_speed(own, bead);
-        bead.acceleration_mm_s2 = write_accelerations ? feature_acceleration_mm_s2(own, bead.role) : 0;
+        set_bead(of_scope(all, bead.scope), arc_room, bead);
         at = place_of(bead, bead.path.size() - 1, layer.z);
         return true;
       },

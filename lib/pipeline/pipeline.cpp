@@ -20,6 +20,7 @@
 #include "pipeline/stopwatch.h"
 #include "pipeline/support_object.h"
 #include "pipeline/toolpath_pictures.h"
+#include "pipeline/vase.h"
 #include "preview/thumbnail.h"
 #include "settings/catalogue.h"
 #include "settings/tools.h"
@@ -103,6 +104,7 @@ void note_statistics(const Settings& settings, const Statistics& s, Report& repo
                   s.walls.min_width == max_coord ? 0.0 : to_mm(s.walls.min_width),
                   s.walls.over_air_mm,
                   s.walls.whole_over_air_mm};
+  report.arcs = {static_cast<std::size_t>(s.arcs.count), static_cast<std::size_t>(s.arcs.pieces), s.arcs.worst_um};
   report.travel = {s.travel.mm, static_cast<std::size_t>(s.travel.moves),
                    static_cast<std::size_t>(s.travel.retractions), static_cast<std::size_t>(s.travel.wall_crossings)};
 }
@@ -204,7 +206,9 @@ void keep(const Sample& sample, std::size_t at_least, PrintedLayers& layers) {
 /// From the plate to its plan.
 Planned plan(const Job& job, Printing& what, const Running& running, PlanFor use) {
   auto& plate = what.plate;
-  Scopes scopes(job.settings);
+  const bool vase = job.settings.layers.magic_spiralize;
+  if (vase) check_vase(job.settings, plate);
+  Scopes scopes(vase ? of_vase(job.settings) : job.settings);
   ToolScopes tools(job.settings);
   std::vector<ObjectScopes> of_object;
   for (const auto& object : plate.objects) of_object.push_back(scopes_of(object, tools, scopes));
@@ -294,7 +298,8 @@ std::size_t layers_of(const Settings& settings, const Plate& plate) {
 /// The same without an end, and unless asked for all of them, with beads on some layers only.
 std::size_t figure(const Job& job, Printing what, const EstimateOptions& options, const Watch& watch, Report& report,
                    StageCache* cache) {
-  const bool all = options.exact || layers_of(job.settings, what.plate) < few_layers;
+  const bool all =
+      options.exact || job.settings.layers.magic_spiralize || layers_of(job.settings, what.plate) < few_layers;
   const Sample sample{all ? 1 : estimate_stride};
   SampleMeasure measure;
   const auto planned = plan(job, what, {watch, report, cache, sample, &measure}, PlanFor::figures).plate;

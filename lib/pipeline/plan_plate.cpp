@@ -16,6 +16,7 @@
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
 #include "pipeline/support_object.h"
+#include "pipeline/vase.h"
 #include "tasks/parallel.h"
 #include "travel/travel.h"
 
@@ -260,6 +261,7 @@ struct MovesOf {
   const ToolScopes& tools;
   const Passes& passes;
   const std::vector<std::vector<Pause>>& pauses;  ///< of each layer
+  const Vase& vase;
 };
 
 /// Where each pass begins, as far as it is known: after another tool was loaded the nozzle may be anywhere.
@@ -306,6 +308,8 @@ std::vector<PackedLayer> plan_moves(const MovesOf& of, std::vector<travel::Prepa
   if (of.tools.several())
     for (const auto& tool : of.tools.tools()) of_tools.push_back(motion::rules_of(tool));
   std::vector<travel::Routed> departures(prepared.size());  // without their plans, which go on
+  travel::Spiral spiral(settings.layers.smooth_spiralized_contours);
+  std::vector<Bead> turns(of.vase.end);  // walls that become turns, by layer
   struct Begun {
     LayerPlan plan;
     std::optional<Point3> start;
@@ -321,6 +325,7 @@ std::vector<PackedLayer> plan_moves(const MovesOf& of, std::vector<travel::Prepa
           travel::prepare_ways(settings.travel, layer);
           const auto& retraction = scopes[of.tools.several() ? layer.input.scope : 0].retraction;
           auto routed = travel::route(settings.travel, retraction, layer, ordered[p], from[p]);
+          if (of.vase.has(i)) turns[i] = wall_of(layer.input);
           overhangs::mark(strands, over_air_of(layer.input), routed.plan);
           departures[p].departures = routed.departures;
           plans.push_back(std::move(routed.plan));
@@ -329,6 +334,7 @@ std::vector<PackedLayer> plan_moves(const MovesOf& of, std::vector<travel::Prepa
       },
       [&](std::size_t i, LayerPlan plan) {
         const auto& passes = of.passes;
+        if (of.vase.has(i)) wind(of.vase, i, turns[i], spiral, plan);
         const ToolId loaded = i > 0 ? passes.passes[passes.begin[i] - 1].tool : any_tool;
         Begun layer{std::move(plan), at, loaded};
         at = motion::start_after(layer.plan, at);
@@ -356,6 +362,28 @@ std::vector<Report::Tour> tours_of(const std::vector<travel::Prepared>& prepared
     const auto gap = travel::gap_of(prepared[i], ordered[i], i > 0 ? ordered[i - 1].end : std::nullopt);
     return Report::Tour{gap.way_um / 1000, gap.least_um / 1000};
   });
+}
+
+/// Plastic that stands in the melt for minutes creeps upwards: clogs, and none at the next wall.
+void tell_slow_ironing(const std::vector<PackedLayer>& layers, Notices& notices) {
+  constexpr double long_s = 180, slow_mm3_s = 0.1;
+  const PackedLayer* worst = nullptr;
+  const auto ironing = [](const PackedLayer& layer) {
+    return layer.statistics.features[static_cast<std::size_t>(Role::ironing)];
+  };
+  for (const auto& layer : layers) {
+    const auto own = ironing(layer);
+    if (own.s > long_s && own.mm3 < slow_mm3_s * own.s && (worst == nullptr || own.s > ironing(*worst).s))
+      worst = &layer;
+  }
+  if (worst == nullptr) return;
+  const auto own = ironing(*worst);
+  notices.push_back(
+      {"ironing_slow",
+       fmt::format("ironing_enabled: at z {:.3f} the nozzle irons for {:.0f} minutes at {:.3f} mm³/s: filament that "
+                   "stands in the melt so long may clog; a larger ironing_flow, ironing_line_spacing or speed_ironing "
+                   "is quicker through it",
+                   to_mm(worst->bare.z), own.s / 60, own.mm3 / own.s)});
 }
 
 /// Does one of the first so many objects, which are models, begin there?
@@ -422,6 +450,7 @@ PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, c
     input.nozzle = settings.machine.nozzle_diameter;
   }
   for (auto& notice : check(settings)) plan.notices.push_back(std::move(notice));
+  const Vase vase = settings.layers.magic_spiralize ? vase_of(settings, inputs, plan.notices) : Vase{};
   inputs = split(passes, settings, tools, scopes, std::move(inputs));
 
   auto [prepared_passes, linked_passes] = prepared_and_linked(settings.travel, std::move(inputs));
@@ -432,8 +461,9 @@ PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, c
   if (report.tours) *report.tours = tours_of(prepared, ordered);
   const auto pauses = pauses_of(settings.tools, timeline, plan.notices);
   auto planned =
-      plan_moves({scopes, tools, passes, pauses}, std::move(prepared), std::move(ordered), plan.notices, use);
+      plan_moves({scopes, tools, passes, pauses, vase}, std::move(prepared), std::move(ordered), plan.notices, use);
   out.purge_wanted_mm3 = passes.purged.wanted_mm3;
+  tell_slow_ironing(planned, plan.notices);
   std::vector<LayerTimes> times;
   for (std::size_t i = 0; i < planned.size(); ++i) {
     auto& layer = planned[i];

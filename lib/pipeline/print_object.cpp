@@ -370,6 +370,7 @@ Fills fill_object(const FillHands& handed, const WallHands& walled, const Scopes
                            .origin = origin,
                            .reach = reach,
                            .prepared = prepared.of(object.scope_of(scope)),
+                           .topmost = i + 1 == cuts.size(),
                            .bridges_below = i > 0 ? std::span<const infill::BridgeArea>(bridges[i - 1])
                                                   : std::span<const infill::BridgeArea>{}});
     };

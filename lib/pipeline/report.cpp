@@ -185,6 +185,8 @@ std::string to_json(const Report& r) {
   out["walls"] = walls_of(r.walls);
   if (r.infill.mm3 > 0) out["infill"] = infill_of(r.infill);
   if (r.support.needed_mm2 > 0 || r.support.bridged_mm2 > 0) out["support"] = support_of(r);
+  if (r.arcs.count > 0)
+    out["arcs"] = {{"count", r.arcs.count}, {"moves", r.arcs.pieces}, {"worst_um", rounded3(r.arcs.worst_um)}};
   out["travel"] = {{"mm", rounded3(r.travel.mm)},
                    {"moves", r.travel.moves},
                    {"retractions", r.travel.retractions},

@@ -56,6 +56,10 @@ struct Report {
     std::array<double, 4> over_air_mm{};
     double whole_over_air_mm = 0;  ///< of the last of them: with all of it
   };
+  struct Arcs {
+    std::size_t count = 0, pieces = 0;  ///< and the pieces of paths that they stand for
+    double worst_um = 0;                ///< how far one of these is from its arc
+  };
   struct Tool {
     double filament_mm = 0, filament_mm3 = 0, filament_g = 0;
     double s = 0;             ///< while it is loaded
@@ -118,6 +122,7 @@ struct Report {
   std::vector<Tool> tools;      ///< by number, T0 first; empty where the plan names none
   double purge_wanted_mm3 = 0;  ///< at changes of the tool: purge_volumes, or by colour
   Walls walls;
+  Arcs arcs;
   /// The travels of a layer in their order, and a bound that no order could go below.
   struct Tour {
     double mm = 0, least_mm = 0;

@@ -21,6 +21,7 @@ std::optional<Growth> growth_of(Role role) {
     case Role::solid_infill:
       return Growth::solid;
     case Role::top_skin:
+    case Role::ironing:
       return Growth::top;
     case Role::bridge:
       return Growth::bridge;

@@ -51,6 +51,7 @@ class Doubts {
     cooling();
     reach();
     custom();
+    surfaces();
     return std::move(out_);
   }
 
@@ -200,6 +201,23 @@ class Doubts {
     else if (s_.machine.firmware != Firmware::klipper && !commands(g.machine_start_gcode, "G28"))
       doubt("profile_custom_gcode", "machine_start_gcode",
             "has no G28: the printer is not homed, unless a macro does it");
+  }
+
+  void surfaces() {
+    if (s_.gcode.arc_fitting && s_.machine.firmware == Firmware::klipper)
+      doubt("profile_arcs", "arc_fitting",
+            "klipper needs [gcode_arcs]; its pieces of 1 mm leave arcs below 10 mm radius as lines");
+    if (s_.gcode.arc_fitting && s_.machine.firmware == Firmware::repetier)
+      doubt("profile_arcs", "arc_fitting", "many builds of Repetier read no arcs");
+    const auto& w = s_.walls;
+    if (w.magic_fuzzy_skin_enabled && w.magic_fuzzy_skin_thickness > s_.machine.nozzle_diameter)
+      doubt("profile_fuzzy_skin", "magic_fuzzy_skin_thickness",
+            fmt::format("{} mm is more than nozzle_diameter, {} mm: rough walls part from those behind them",
+                        to_mm(w.magic_fuzzy_skin_thickness), to_mm(s_.machine.nozzle_diameter)));
+    if (s_.shells.ironing_enabled && s_.shells.ironing_line_spacing > s_.machine.nozzle_diameter)
+      doubt("profile_ironing", "ironing_line_spacing",
+            fmt::format("{} mm is more than nozzle_diameter, {} mm: what lies between the lines stays rough",
+                        to_mm(s_.shells.ironing_line_spacing), to_mm(s_.machine.nozzle_diameter)));
   }
 
   const Profile& profile_;

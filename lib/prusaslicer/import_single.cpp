@@ -135,6 +135,15 @@ void cooling(Lines& lines, const Outlet& out) {
   }
 }
 
+/// Which walls are rough.
+void fuzzy_skin(Lines& lines, const Outlet& out) {
+  const auto* e = lines.find("fuzzy_skin");
+  if (!e) return;
+  if (e->value != "none" && e->value != "external" && e->value != "all") lines.refuse(*e, "one of none, external, all");
+  out.set("magic_fuzzy_skin_enabled", e->value == "none" ? "false" : "true", *e);
+  if (e->value != "none") out.set("magic_fuzzy_skin_outside_only", e->value == "external" ? "true" : "false", *e);
+}
+
 struct Remarked {
   std::string_view key, neutral, why;
 };
@@ -171,6 +180,7 @@ void import_single_keys(Lines& lines, double infill_mm_s, double solid_mm_s, con
   ramping_lift(lines, out);
   cooling(lines, out);
   substitutions(lines, out);
+  fuzzy_skin(lines, out);
   for (const auto& row : remarked)
     if (const auto* e = lines.find(row.key); e && !says_one_of(row.neutral, e->key, e->value))
       out.approximate(*e, std::string(row.why));

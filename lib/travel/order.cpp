@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 namespace weft::travel {
 namespace {
@@ -35,11 +36,13 @@ class BlockOrder {
       first_fills.swap(last_fills);
     else
       find_bridges_under_walls(first_fills, last_fills);
+    const auto ironing = taken(first_fills, last_fills);
     if (!first_fills.empty()) at = fills(first_fills, at, linked_.places[index_]);
-    const bool walls_last = last_fills.empty();
+    const bool walls_last = last_fills.empty() && ironing.empty();
     const auto walls = order_walls(settings_, layer_, linked_, index_, at, walls_last ? then : std::nullopt);
     for (const auto& turn : walls) at = append(turn);
     if (!last_fills.empty()) at = fills(last_fills, at, then);
+    if (!ironing.empty()) at = fills(ironing, at, then);
     if (settings_.path_order == PathOrder::nearest) return at;
     fit_open_walls(beads_, std::span(turns_).subspan(first), {from, then});
     return turns_.size() > first ? std::optional(end_of(beads_[turns_.back().bead], turns_.back())) : at;
@@ -51,6 +54,17 @@ class BlockOrder {
   std::optional<Point> append(const Turn& turn) {
     turns_.push_back(turn);
     return end_of(beads_[turn.bead], turn);
+  }
+
+  /// Ironing goes over all that a part holds.
+  std::vector<std::uint32_t> taken(std::vector<std::uint32_t>& first, std::vector<std::uint32_t>& last) const {
+    std::vector<std::uint32_t> out;
+    for (auto* fills : {&first, &last}) {
+      const auto irons = [&](std::uint32_t b) { return beads_[b].role == Role::ironing; };
+      std::copy_if(fills->begin(), fills->end(), std::back_inserter(out), irons);
+      std::erase_if(*fills, irons);
+    }
+    return out;
   }
 
   std::optional<Point> in_list_order(const std::vector<std::uint32_t>& beads, std::optional<Point> at) {
@@ -88,7 +102,7 @@ class BlockOrder {
   /// on the one before. Inside a part, and for a strip's only line, the shortest way is the better order.
   bool in_sequence(const Bead& bead) const {
     if (bead.sequence == 0) return false;
-    return bead.role == Role::top_skin || bead.role == Role::bridge ||
+    return bead.role == Role::top_skin || bead.role == Role::bridge || bead.role == Role::ironing ||
            (layer_.input.time.first() && bead.role != Role::gap_fill);
   }
 

@@ -4,7 +4,9 @@
 #include "core/stop.h"
 #include "model/flow.h"
 #include "walls/finish.h"
+#include "walls/fuzzy.h"
 #include "walls/kinds_of_parts.h"
+#include "walls/one_wall.h"
 #include "walls/outline.h"
 #include "walls/part.h"
 #include "walls/slopes.h"
@@ -23,19 +25,31 @@ bool inside(const Region& region, Point p) {
                       [&](const Ring& hole) { return side_of(hole, p) == Side::inside; });
 }
 
+/// Does a point lie in one of the regions?
+class InAnyOf {
+ public:
+  explicit InAnyOf(const Regions& regions) : regions_(regions), box_(box_of(regions)) {
+    boxes_.reserve(regions.size());
+    for (const Region& region : regions) boxes_.push_back(box_of(region.outer));
+  }
+  bool never() const { return box_.empty(); }
+  bool operator()(Point p) const {
+    if (!box_.contains(p)) return false;
+    for (std::size_t i = 0; i < boxes_.size(); ++i)
+      if (boxes_[i].contains(p) && inside(regions_[i], p)) return true;
+    return false;
+  }
+
+ private:
+  const Regions& regions_;
+  Box box_;
+  std::vector<Box> boxes_;
+};
+
 /// Over air there is nothing to press a bead against: it keeps the width the nozzle gives it.
 void steady_over_air(const Regions& over_air, const Widths& widths, Beads& beads) {
-  const Box box = box_of(over_air);
-  if (box.empty()) return;
-  std::vector<Box> boxes;
-  boxes.reserve(over_air.size());
-  for (const Region& region : over_air) boxes.push_back(box_of(region.outer));
-  const auto over = [&](Point p) {
-    if (!box.contains(p)) return false;
-    for (std::size_t i = 0; i < boxes.size(); ++i)
-      if (boxes[i].contains(p) && inside(over_air[i], p)) return true;
-    return false;
-  };
+  const InAnyOf over(over_air);
+  if (over.never()) return;
   for (Bead& bead : beads)
     for (Junction& j : bead.path)
       if (j.flow == 1.F && over(j.at)) j.width = rounded(bead.inset == 0 ? widths.outer : widths.inner);
@@ -72,6 +86,21 @@ Part whole_part(const WallSettings& settings, Widths widths, const Region& regio
   return out;
 }
 
+/// The same where top_one_wall asks what lies above.
+Part part_seen(const WallSettings& settings, const Widths& widths, const Region& region, const WallInput& input,
+               std::uint32_t index) {
+  if (settings.top_one_wall != OneWall::top || input.above == nullptr || widths.walls < 2)
+    return whole_part(settings, widths, region, input, index);
+  Widths single = widths;
+  single.walls = 1;
+  Part part = whole_part(settings, single, region, input, index);
+  const Regions seen = seen_from_above(widths, part.inside, *input.above);
+  if (seen.empty()) return whole_part(settings, widths, region, input, index);
+  add_covered_walls(settings, widths, seen, input.nozzle_diameter, index, part);
+  keep_flow(settings, part.beads);
+  return part;
+}
+
 /// Planned so far apart that they overlap less, beads are as wide as before.
 void spread_out(const WallSettings& settings, Um height, Beads& beads) {
   const Um by = flow::spread(height, settings.overlap_factor);
@@ -79,6 +108,22 @@ void spread_out(const WallSettings& settings, Um height, Beads& beads) {
   for (Bead& bead : beads)
     for (Junction& j : bead.path)
       if (j.width > height) j.width = std::max(j.width - by, rounded(height * (1 - flow::rounding)));
+}
+
+/// Rough walls, above the first layer. Over air nothing holds what stands off.
+void make_fuzzy(const WallSettings& settings, const WallInput& input, Beads& beads) {
+  if (!settings.magic_fuzzy_skin_enabled || input.index == 0) return;
+  const Regions nothing;
+  const InAnyOf over(input.over_air != nullptr ? *input.over_air : nothing);
+  for (std::size_t i = 0; i < beads.size(); ++i)
+    if (beads[i].inset == 0 && beads[i].closed && (!settings.magic_fuzzy_skin_outside_only || runs_outside(beads[i])))
+      roughen(settings, input.index, i, over, beads[i]);
+}
+
+/// Does all of the layer get a single wall?
+bool single_wall(const WallSettings& settings, const WallInput& input) {
+  return (settings.initial_layer_one_wall && input.index == 0) ||
+         (settings.top_one_wall != OneWall::none && input.above == nullptr);
 }
 
 PlacedNotice notice_of(const char* code, const WallInput& input, const Region& region, const std::string& what) {
@@ -100,7 +145,8 @@ void add_left_out(const WallInput& input, const Region& region, std::vector<Plac
 WallLayer build(const WallSettings& settings, const WallInput& input) {
   constexpr double worth_a_notice_mm = 0.5;  // the last bit of every tip is thinner than any bead
   WallLayer out;
-  const Widths widths = widths_of(settings, input.nozzle_diameter, input.layer.height, input.index);
+  Widths widths = widths_of(settings, input.nozzle_diameter, input.layer.height, input.index);
+  if (widths.walls > 1 && single_wall(settings, input)) widths.walls = 1;
   const Um foot = input.settings_above != nullptr ? input.settings_above->xy_offset - settings.xy_offset : 0;
   const Regions regions =
       foot > 0 ? drawn_in(settings, input.layer.regions, foot, rounded(2 * widths.outer) + 2 * widths.bulge)
@@ -116,13 +162,14 @@ WallLayer build(const WallSettings& settings, const WallInput& input) {
                 offset_outlines(input.settings_above != nullptr ? *input.settings_above : settings, *input.above))
           : std::vector<int>(regions.size(), 0);
   KindsOfParts kinds;
+  const bool looks_up = settings.top_one_wall == OneWall::top && input.above != nullptr;  // parts alike differ in that
   for (std::uint32_t i = 0; i < regions.size(); ++i) {
     stop_if_asked();
-    auto again = extra[i] == 0 ? kinds.again(regions[i], i) : std::nullopt;
+    auto again = extra[i] == 0 && !looks_up ? kinds.again(regions[i], i) : std::nullopt;
     Widths own = widths;
     own.walls += extra[i];
-    Part part = again ? *std::move(again) : whole_part(settings, own, regions[i], input, i);
-    if (!again && extra[i] == 0) kinds.add(regions[i], part);
+    Part part = again ? *std::move(again) : part_seen(settings, own, regions[i], input, i);
+    if (!again && extra[i] == 0 && !looks_up) kinds.add(regions[i], part);
     put_in_order(part.beads, settings.wall_order);
     if (!part.valid)
       out.notices.push_back(notice_of("walls_without_medial_axis", input, regions[i],
@@ -139,6 +186,7 @@ WallLayer build(const WallSettings& settings, const WallInput& input) {
   }
   if (input.over_air != nullptr) steady_over_air(*input.over_air, widths, out.beads);
   spread_out(settings, input.layer.height, out.beads);
+  make_fuzzy(settings, input, out.beads);
   return out;
 }
 

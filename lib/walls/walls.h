@@ -14,7 +14,7 @@ struct WallInput {
   Um nozzle_diameter = 0.4_mm;  ///< what automatic widths and shares are measured against
   const Regions* over_air =
       nullptr;  ///< where nothing lies below, if the caller knows; there beads keep the nozzle's own strand
-  const Regions* above = nullptr;                ///< outlines of the layer above; read with wall_extra_on_slopes
+  const Regions* above = nullptr;                ///< outlines of the layer above; null: it is the last one
   const WallSettings* settings_above = nullptr;  ///< that hold there; absent: the same
 };
 

@@ -102,7 +102,8 @@ TEST_CASE(
       "b.ini",
       "[vendor]\nname = V\n[print:*common*]\nperimeter_speed = 45\n[print:Fine]\ninherits = *common*\nlayer_height = "
       "0.1\n[print:Fast]\ninherits = *common*\nlayer_height = 0.3\nfirst_layer_height = "
-      "0.3\n[filament:PLA]\ntemperature = 205\n[printer:Box]\nnozzle_diameter = 0.4\nironing = 1\n");
+      "0.3\n[filament:PLA]\ntemperature = 205\n[printer:Box]\nnozzle_diameter = 0.4\navoid_crossing_curled_overhangs = "
+      "1\n");
   const auto said = [&](std::vector<std::string> words) { return weft(words, scratch.path()); };
   CHECK(said({"profile", "list", "b.ini"}).out == "printer=Box\nprint=Fine\nprint=Fast\nfilament=PLA\n");
   const auto open = said({"profile", "show", "b.ini"});
@@ -121,7 +122,7 @@ TEST_CASE(
   CHECK(said({"profile", "check", "b.ini", "--preset", "print=Fast"}).status == 0);
   const auto strict = said({"profile", "check", "b.ini", "--preset", "print=Fast", "--strict"});
   CHECK(strict.status == 3);
-  CHECK_THAT(strict.err, Contains("b.ini:16: ironing = 1 is not supported"));
+  CHECK_THAT(strict.err, Contains("b.ini:16: avoid_crossing_curled_overhangs = 1 is not supported"));
   CHECK(said({"profile", "show", "b.ini", "--preset", "colour=red"}).status == 2);
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 
 namespace weft {
+using namespace weft::literals;
 
 /// How the objects of a print are named, so that one of them can be cancelled.
 enum class ObjectLabels { none, firmware, comments };
@@ -51,6 +52,8 @@ struct GcodeSettings {
   bool gcode_progress = true;
   bool gcode_machine_limits = false;
   bool gcode_flow_comments = false;
+  bool arc_fitting = false;
+  Um arc_tolerance = 0.0125_mm;
   PictureSizes thumbnails = {{32, 32}, {300, 300}};
   ThumbnailContent thumbnail_content = ThumbnailContent::model;
   std::string output_filename_format = "{input_filename_base}.gcode";
@@ -107,6 +110,10 @@ inline constexpr Rows gcode_schema{
             "Klipper has none."),
     setting("gcode_flow_comments", Scope::plate, &GcodeSettings::gcode_flow_comments,
             "Moves of beads with flow compensation carry their ratio as a comment."),
+    setting("arc_fitting", Scope::plate, &GcodeSettings::arc_fitting,
+            "Moves along a curve are written as arcs, G2 and G3: fewer lines for firmware that reads them."),
+    setting("arc_tolerance", Scope::plate, &GcodeSettings::arc_tolerance, Unit::mm, 0.001_mm, 0.1_mm,
+            "How far an arc may stand off the moves that it stands for."),
     setting("thumbnails", Scope::plate, &GcodeSettings::thumbnails,
             "Sizes of the pictures of the plate in the head of the file, PNG; empty: none."),
     setting("thumbnail_content", Scope::plate, &GcodeSettings::thumbnail_content,

@@ -26,6 +26,8 @@ struct LayerSettings {
   std::optional<LengthOrShare> initial_layer_line_width;  ///< auto: as in the other layers
   Um resolution = 0.0125_mm;
   SlicingMode slicing_mode = SlicingMode::regular;
+  bool magic_spiralize = false;
+  bool smooth_spiralized_contours = true;
 };
 
 inline constexpr Rows layer_schema{
@@ -41,6 +43,10 @@ inline constexpr Rows layer_schema{
     setting("slicing_mode", Scope::object, &LayerSettings::slicing_mode,
             "What of a cut is solid: regular, what any shell encloses; even_odd, what an odd number of outlines "
             "encloses, for models made of shells within shells; close_holes, holes too."),
+    setting("magic_spiralize", Scope::plate, &LayerSettings::magic_spiralize,
+            "Above its bottom layers the object is one wall that rises without an end, and without a seam: a vase."),
+    setting("smooth_spiralized_contours", Scope::plate, &LayerSettings::smooth_spiralized_contours,
+            "Each turn of a vase passes over into the next along all of its way; off: at its end."),
 };
 static_assert(complete<LayerSettings>(layer_schema));
 

@@ -56,6 +56,10 @@ struct MachineSettings {
   double machine_max_acceleration_e = 5000;
   std::optional<double> machine_junction_deviation;
   double machine_max_jerk = 8;
+  double machine_max_jerk_z = 0.4;
+  std::optional<double> machine_max_jerk_e;
+  double machine_minimum_cruise_ratio = 50;
+  std::optional<int> machine_planner_blocks;
 };
 
 inline constexpr Rows machine_schema{
@@ -123,6 +127,20 @@ inline constexpr Rows machine_schema{
             1, "Junction deviation of the planner; auto: the planner uses machine_max_jerk."),
     setting("machine_max_jerk", Scope::machine, &MachineSettings::machine_max_jerk, Unit::mm_s, 0.1, 200,
             "Speed at which X and Y may change in a corner (Marlin's jerk, Klipper's square corner velocity)."),
+    setting("machine_max_jerk_z", Scope::machine, &MachineSettings::machine_max_jerk_z, Unit::mm_s, 0.01, 200,
+            "Speed at which Z may change at once; Klipper knows none."),
+    setting(
+        "machine_max_jerk_e", Scope::machine, &MachineSettings::machine_max_jerk_e, Unit::mm_s, 0.01, 200,
+        "Speed at which the filament's may change at once (Klipper's instantaneous_corner_velocity); auto is 5, with "
+        "Klipper 1."),
+    setting(
+        "machine_minimum_cruise_ratio", Scope::machine, &MachineSettings::machine_minimum_cruise_ratio, Unit::percent,
+        0, 99,
+        "Share of short zigzags that Klipper does not speed up along (its minimum_cruise_ratio), for the estimate of "
+        "time."),
+    setting("machine_planner_blocks", Scope::machine, &MachineSettings::machine_planner_blocks, Unit::none, 2, 10000,
+            "Moves that the firmware looks ahead over, for the estimate of time; auto is 16 with Marlin, Repetier and "
+            "Smoothie, and all with Klipper and RepRapFirmware."),
 };
 static_assert(complete<MachineSettings>(machine_schema));
 

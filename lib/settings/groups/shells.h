@@ -31,6 +31,18 @@ constexpr auto choices_of(SkinPattern) {
                     Choice<SkinPattern>{SkinPattern::fermat, "fermat"}};
 }
 
+/// What is ironed.
+enum class IroningSurfaces {
+  top,      ///< whatever nothing lies above
+  topmost,  ///< that of the last layer
+  solid,    ///< every solid area but bridges
+};
+constexpr auto choices_of(IroningSurfaces) {
+  return std::array{Choice<IroningSurfaces>{IroningSurfaces::top, "top"},
+                    Choice<IroningSurfaces>{IroningSurfaces::topmost, "topmost"},
+                    Choice<IroningSurfaces>{IroningSurfaces::solid, "solid"}};
+}
+
 /// What closes the part above and below: solid layers, and bridges where they hang over air.
 struct ShellSettings {
   int top_layers = 4;
@@ -50,6 +62,12 @@ struct ShellSettings {
   std::optional<double> bridge_angle;
   double bridge_flow = 100;
   Um bridge_anchor = 2_mm;
+  bool ironing_enabled = false;
+  IroningSurfaces ironing_surfaces = IroningSurfaces::top;
+  double ironing_flow = 15;
+  Um ironing_line_spacing = 0.1_mm;
+  std::optional<Um> ironing_inset;
+  std::optional<double> ironing_angle;
 };
 
 inline constexpr Rows shell_schema{
@@ -95,6 +113,19 @@ inline constexpr Rows shell_schema{
             "Plastic in a bridge's strand, as a share of a round strand of the nozzle's diameter."),
     setting("bridge_anchor", Scope::region, &ShellSettings::bridge_anchor, Unit::mm, 0_mm, 20_mm,
             "How far a bridge reaches over the layer that it rests on."),
+    setting("ironing_enabled", Scope::region, &ShellSettings::ironing_enabled,
+            "Top surfaces are gone over once more, closely and with little plastic, so that they get smooth."),
+    setting("ironing_surfaces", Scope::region, &ShellSettings::ironing_surfaces,
+            "What is ironed: top, whatever nothing lies above; topmost, that of the last layer; solid, every solid "
+            "area."),
+    setting("ironing_flow", Scope::region, &ShellSettings::ironing_flow, Unit::percent, 0.1, 100,
+            "Plastic that ironing adds, as a share of a layer."),
+    setting("ironing_line_spacing", Scope::region, &ShellSettings::ironing_line_spacing, Unit::mm, 0.02_mm, 5_mm,
+            "Distance of the lines that are ironed along."),
+    setting("ironing_inset", Scope::region, &ShellSettings::ironing_inset, Unit::mm, 0_mm, 100_mm,
+            "How far ironing keeps from the edge of the surface; auto is half of nozzle_diameter."),
+    setting("ironing_angle", Scope::region, &ShellSettings::ironing_angle, Unit::degrees, -360, 360,
+            "Direction of ironing, against X; auto goes across the lines of the surface."),
 };
 static_assert(complete<ShellSettings>(shell_schema));
 

@@ -20,6 +20,7 @@ struct SpeedSettings {
   double speed_topbottom = 60;
   double speed_top_skin = 40;
   double speed_bridge = 30;
+  double speed_ironing = 15;
   double speed_gap_fill = 30;
   double speed_support_infill = 60;
   double speed_support_interface = 40;
@@ -72,6 +73,7 @@ inline constexpr Rows speed_schema{
             "Speed of top surfaces."),
     setting("speed_bridge", Scope::region, &SpeedSettings::speed_bridge, Unit::mm_s, 0.1, 5000,
             "Speed of strands over air."),
+    setting("speed_ironing", Scope::region, &SpeedSettings::speed_ironing, Unit::mm_s, 0.1, 5000, "Speed of ironing."),
     setting("speed_gap_fill", Scope::region, &SpeedSettings::speed_gap_fill, Unit::mm_s, 0.1, 5000,
             "Speed of what fills gaps between walls."),
     setting("speed_support_infill", Scope::region, &SpeedSettings::speed_support_infill, Unit::mm_s, 0.1, 5000,

@@ -26,6 +26,27 @@ constexpr auto choices_of(WallOutline) {
                     Choice<WallOutline>{WallOutline::volume, "volume"}};
 }
 
+/// Where a part gets a single wall.
+enum class OneWall {
+  none,
+  top,      ///< wherever nothing lies above
+  topmost,  ///< on the last layer
+};
+constexpr auto choices_of(OneWall) {
+  return std::array{Choice<OneWall>{OneWall::none, "none"}, Choice<OneWall>{OneWall::top, "top"},
+                    Choice<OneWall>{OneWall::topmost, "topmost"}};
+}
+
+/// What of a rough wall moves.
+enum class FuzzyMode {
+  displacement,  ///< all of it
+  width,         ///< its outer edge: the inner one stays, and no gap opens beside it
+};
+constexpr auto choices_of(FuzzyMode) {
+  return std::array{Choice<FuzzyMode>{FuzzyMode::displacement, "displacement"},
+                    Choice<FuzzyMode>{FuzzyMode::width, "width"}};
+}
+
 /// Beads along the outlines.
 struct WallSettings {
   int wall_line_count = 3;
@@ -51,6 +72,14 @@ struct WallSettings {
   WallOrder wall_order = WallOrder::inside_out;
   bool alternate_extra_wall = false;
   bool wall_extra_on_slopes = false;
+  OneWall top_one_wall = OneWall::none;
+  bool initial_layer_one_wall = false;
+  bool magic_fuzzy_skin_enabled = false;
+  bool magic_fuzzy_skin_outside_only = true;
+  Um magic_fuzzy_skin_thickness = 0.3_mm;
+  Um magic_fuzzy_skin_point_dist = 0.8_mm;
+  FuzzyMode fuzzy_skin_mode = FuzzyMode::displacement;
+  int fuzzy_skin_seed = 0;
   Um xy_offset = 0_mm;
   Um xy_offset_layer_0 = 0_mm;
   Um hole_xy_offset = 0_mm;
@@ -112,6 +141,25 @@ inline constexpr Rows wall_schema{
     setting("wall_extra_on_slopes", Scope::region, &WallSettings::wall_extra_on_slopes,
             "More walls where the layer above stands further in than the walls reach, so that its outer walls lie on "
             "walls."),
+    setting("top_one_wall", Scope::region, &WallSettings::top_one_wall,
+            "A single wall around top surfaces, so that their lines reach further: top, wherever nothing lies above; "
+            "topmost, on the last layer; none."),
+    setting("initial_layer_one_wall", Scope::region, &WallSettings::initial_layer_one_wall,
+            "A single wall in the first layer."),
+    setting("magic_fuzzy_skin_enabled", Scope::region, &WallSettings::magic_fuzzy_skin_enabled,
+            "Outer walls are rough, above the first layer: points along them stand off by chance. The same seed gives "
+            "the same walls."),
+    setting("magic_fuzzy_skin_outside_only", Scope::region, &WallSettings::magic_fuzzy_skin_outside_only,
+            "Holes stay smooth."),
+    setting("magic_fuzzy_skin_thickness", Scope::region, &WallSettings::magic_fuzzy_skin_thickness, Unit::mm, 0.001_mm,
+            5_mm, "How far a rough wall stands off its place, to either side."),
+    setting("magic_fuzzy_skin_point_dist", Scope::region, &WallSettings::magic_fuzzy_skin_point_dist, Unit::mm, 0.05_mm,
+            50_mm, "Distance of the points that stand off, on average."),
+    setting("fuzzy_skin_mode", Scope::region, &WallSettings::fuzzy_skin_mode,
+            "What of a rough wall moves: displacement, all of it; width, its outer edge, so that no gap opens to the "
+            "next wall."),
+    setting("fuzzy_skin_seed", Scope::region, &WallSettings::fuzzy_skin_seed, Unit::none, 0, 1000000,
+            "Another number gives other rough walls."),
     setting("xy_offset", Scope::object, &WallSettings::xy_offset, Unit::mm, -10_mm, 10_mm,
             "Moves all outlines outwards (a negative value inwards)."),
     setting("xy_offset_layer_0", Scope::object, &WallSettings::xy_offset_layer_0, Unit::mm, -10_mm, 10_mm,

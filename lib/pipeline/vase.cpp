@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/vase.h"
+
+#include "core/error.h"
+#include "settings/tools.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace weft::pipeline {
+namespace {
+
+bool is_wall(const Bead& bead) {
+  return weft::is_wall(bead.role);
+}
+
+/// One wall that is closed, and nothing around it.
+bool is_turn(const travel::LayerInput& layer) {
+  if (!layer.adhesion.empty() || layer.objects.size() != 1) return false;
+  const auto& beads = layer.objects.front().beads;
+  return beads.size() == 1 && beads.front().closed && beads.front().path.size() > 2;
+}
+
+/// How many layers the bottom takes; at least the one that lies on the bed.
+std::size_t bottom_of(const ShellSettings& shells, std::span<const travel::LayerInput> layers) {
+  std::size_t out = 1;
+  Um height = layers.empty() ? 0 : layers.front().height;
+  while (out < layers.size() && (out < static_cast<std::size_t>(shells.bottom_layers) ||
+                                 (shells.bottom_layers > 0 && height < shells.bottom_thickness)))
+    height += layers[out++].height;
+  return out;
+}
+
+}  // namespace
+
+Settings of_vase(Settings s) {
+  s.walls.wall_line_count = 1;
+  s.walls.alternate_extra_wall = s.walls.wall_extra_on_slopes = false;
+  s.infill.infill_sparse_density = 0;
+  s.shells.infill_solid_below_area = 0;
+  s.shells.infill_solid_every_layers.reset();
+  s.shells.top_layers = 0, s.shells.top_thickness = 0;
+  s.shells.ironing_enabled = false;
+  return s;
+}
+
+void check_vase(const Settings& settings, const Plate& plate) {
+  std::size_t objects = 0;
+  for (const auto& object : plate.objects) objects += object.copies.size();
+  const auto refuse = [](const std::string& what, const char* hint) {
+    throw Error{Error::Kind::settings, "magic_spiralize: " + what, {}, hint};
+  };
+  if (objects != 1)
+    refuse(fmt::format("{} objects on the plate; a spiral takes one", objects),
+           "print them one after the other, each in a file of its own");
+  if (tool_count(settings) > 1) refuse(fmt::format("{} tools; a spiral takes one", tool_count(settings)), "");
+  if (settings.support.support_enable)
+    refuse("support_enable is on; a spiral is never interrupted", "switch one of the two off");
+}
+
+Vase vase_of(const Settings& settings, std::span<travel::LayerInput> layers, Notices& notices) {
+  Vase out;
+  out.begin = bottom_of(settings.shells, layers);
+  for (std::size_t i = out.begin; i < layers.size(); ++i)
+    for (auto& object : layers[i].objects) {
+      std::erase_if(object.beads, [](const Bead& bead) { return !is_wall(bead) || bead.inset > 0; });
+      object.skin.clear(), object.top.clear(), object.sparse.clear();
+    }
+  while (out.begin < layers.size() && !layers[out.begin].adhesion.empty()) ++out.begin;
+  out.end = out.begin;
+  while (out.end < layers.size() && is_turn(layers[out.end])) ++out.end;
+  if (out.end < layers.size()) {
+    const auto& layer = layers[out.end];
+    const std::size_t walls = layer.objects.empty() ? 0 : layer.objects.front().beads.size();
+    notices.push_back(
+        {"spiral_ends", fmt::format("magic_spiralize: at z {:.3f} there {} {} wall{}, not a single closed "
+                                    "one: from there on layers are plain",
+                                    to_mm(layer.z), walls == 1 ? "is" : "are", walls, walls == 1 ? "" : "s")});
+  }
+  return out;
+}
+
+const Bead& wall_of(const travel::LayerInput& layer) {
+  return layer.objects.front().beads.front();
+}
+
+void wind(const Vase& vase, std::size_t layer, const Bead& wall, travel::Spiral& spiral, LayerPlan& plan) {
+  const bool first = layer == vase.begin;
+  std::vector<Step> steps;
+  std::optional<Point> start;
+  std::uint32_t object = 0;
+  for (auto& step : plan.steps) {
+    if (const auto* begin = std::get_if<ObjectStart>(&step)) object = begin->object;
+    if (const auto* bead = std::get_if<Extrude>(&step)) {
+      start = bead->path.front().at;
+      break;
+    }
+    if (first || std::holds_alternative<ObjectStart>(step) || std::holds_alternative<ToolChange>(step) ||
+        std::holds_alternative<Pause>(step))
+      steps.push_back(std::move(step));
+  }
+  auto turns = spiral.turn(wall.path, plan.height, {first, layer + 1 == vase.end}, first ? start : std::nullopt);
+  for (auto& turn : turns) {
+    turn.tool = wall.tool, turn.scope = wall.scope;
+    steps.emplace_back(std::move(turn));
+  }
+  steps.emplace_back(ObjectEnd{object});
+  plan.steps = std::move(steps);
+}
+
+}  // namespace weft::pipeline
