@@ -43,7 +43,10 @@ double Density::value_of(const ValuesAt& curve, double at) {
 
 Density::Density(const InfillSettings& infill, const ShellObject& object, const std::vector<LayerAreas>& areas,
                  Point on_bed)
-    : infill_(infill), patterns_(parse_pattern_list(infill.infill_pattern_by_density)), on_bed_(on_bed) {
+    : infill_(infill),
+      nozzle_(object.nozzle),
+      patterns_(parse_pattern_list(infill.infill_pattern_by_density)),
+      on_bed_(on_bed) {
   if (object.layers.empty() || object.box.empty()) return;
   read_files(object);
   if (!infill.infill_density_by_distance.empty()) find_distance(object);

@@ -75,6 +75,7 @@ class Density {
   double transferred(double v) const;
 
   const InfillSettings infill_;
+  const Um nozzle_;  ///< diameter
   std::vector<PatternFrom> patterns_;
   Point on_bed_;
   std::optional<field::Grid> picture_, grid_;

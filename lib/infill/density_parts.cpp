@@ -100,7 +100,7 @@ std::vector<Density::Part> Density::by_cells(const Region& region, double z_um, 
   constexpr double cell_lines = 2.5, least_cell = 3000;
   const Box box = weft::box_of(region.outer);
   const Levels levels = levels_of(box, z_um);
-  const double line = infill_.infill_line_width ? *infill_.infill_line_width : 450;
+  const double line = length_or(infill_.infill_line_width, nozzle_, nozzle_);
   const double coarsest = base() * std::exp2(std::floor(std::max(levels.least, -3.0)));
   const Um cell = rounded(std::max(least_cell, cell_lines * line / coarsest));
   const auto cells_before = [&](Um v) { return static_cast<long>(std::floor(static_cast<double>(v) / cell)); };

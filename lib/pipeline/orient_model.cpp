@@ -63,7 +63,7 @@ Report::Orientation judged(const Settings& settings, const Mesh& model, const st
   const Um nozzle = settings.machine.nozzle_diameter;
   support::Object object;
   object.layers = pointers, object.nozzle = nozzle;
-  object.outer_line = settings.walls.wall_line_width_0.value_or(flow::automatic_outer_width(nozzle));
+  object.outer_line = length_or(settings.walls.wall_line_width_0, nozzle, flow::automatic_outer_width(nozzle));
   const auto demand = support::demand(s, object);
   Report::Orientation out;
   out.down = down, out.height_mm = to_mm(box_of(mesh).max.z);

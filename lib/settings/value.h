@@ -20,8 +20,8 @@ struct LengthOrShare {
   double percent = 0;
   bool is_share = false;
   constexpr LengthOrShare() = default;
-  constexpr LengthOrShare(Um um) : length(um) {}  // NOLINT(google-explicit-constructor): a length is one
-  constexpr LengthOrShare(Um um, double of_base, bool share) : length(um), percent(of_base), is_share(share) {}
+  constexpr LengthOrShare(Um um, double of_base = 0, bool share = false)  // NOLINT: a length is one
+      : length(um), percent(of_base), is_share(share) {}
   Um of(Um base) const { return is_share ? rounded(base * percent / 100.0) : length; }
   friend bool operator==(const LengthOrShare&, const LengthOrShare&) = default;
 };
