@@ -130,6 +130,10 @@ void count_tools(const AllRules& all, const Rules& layer, const std::vector<Prim
     tool.filament_mm = tool.filament_mm3 / area_mm2;
     tool.filament_g = tool.filament_mm3 * rules.material.material_density / 1000.0;
   }
+  if (all.tools.empty()) return;
+  s.filament_mm = s.filament_mm3 = s.filament_g = 0;  // each tool has a filament of its own
+  for (const auto& tool : s.tools)
+    s.filament_mm += tool.filament_mm, s.filament_mm3 += tool.filament_mm3, s.filament_g += tool.filament_g;
 }
 
 Statistics count(const AllRules& all, const Rules& rules, const LayerPlan& layer, std::optional<Point3> at) {
@@ -189,10 +193,6 @@ Statistics count(const AllRules& all, const Rules& rules, const LayerPlan& layer
   s.filament_mm = s.filament_mm3 / area_mm2;
   s.filament_g = s.filament_mm3 * rules.material.material_density / 1000.0;
   count_tools(all, rules, tool_primes, s);
-  if (all.tools.empty()) return s;
-  s.filament_mm = s.filament_mm3 = s.filament_g = 0;  // each tool has a filament of its own
-  for (const auto& tool : s.tools)
-    s.filament_mm += tool.filament_mm, s.filament_mm3 += tool.filament_mm3, s.filament_g += tool.filament_g;
   return s;
 }
 

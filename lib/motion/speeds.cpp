@@ -14,6 +14,16 @@
 namespace weft::motion {
 namespace {
 
+/// Kinds of steps that have no speed, and stay.
+template <class T>
+struct OneStays {
+  constexpr bool operator()(const T&) const { return true; }
+};
+template <class... T>
+struct Stays : OneStays<T>... {
+  using OneStays<T>::operator()...;
+};
+
 /// Speeds of neighbouring segments closer together than this are made one, so that F is not repeated at every move.
 constexpr double same_speed = 1.05;
 
@@ -230,20 +240,15 @@ void set_speeds(AllRules all, LayerPlan& layer, std::optional<Point3> start) {
         at = Point3{retract.wipe.back().x, retract.wipe.back().y, at ? at->z : layer.z};
         return true;
       },
-      [](Prime&) { return true; },
-      [](SetFan&) { return true; },
-      [](ObjectStart&) { return true; },
-      [](ObjectEnd&) { return true; },
       [&](ToolChange& change) {
         tool = change.tool;
         return true;
       },
-      [](SetTemperature&) { return true; },
       [&](Feed& feed) {
         if (feed.moves) at = Point3{feed.to.x, feed.to.y, at ? at->z : layer.z};
         return true;
       },
-      [](Pause&) { return true; },
+      Stays<Prime, SetFan, ObjectStart, ObjectEnd, SetTemperature, Pause>{},
   };
   StopNowAndThen stop(16);
   for (auto& step : layer.steps) {

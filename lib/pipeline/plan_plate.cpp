@@ -290,20 +290,32 @@ LayerPlan joined(const MovesOf& of, std::size_t layer, std::vector<LayerPlan> pa
   return out;
 }
 
+std::vector<motion::Rules> rules_of(const Scopes& scopes) {
+  std::vector<motion::Rules> out;
+  for (std::size_t i = 0; i < scopes.size(); ++i) {
+    const auto id = static_cast<ScopeId>(i);
+    out.push_back(motion::rules_of(scopes[id], &scopes[scopes.above_first_layer(id)]));
+  }
+  return out;
+}
+
+std::vector<overhangs::Strand> strands_of(const Scopes& scopes) {
+  std::vector<overhangs::Strand> out;
+  for (std::size_t i = 0; i < scopes.size(); ++i) {
+    const auto& s = scopes[static_cast<ScopeId>(i)];
+    out.push_back({s.machine.nozzle_diameter, s.shells.bridge_flow / 100, s.shells.overhang_walls});
+  }
+  return out;
+}
+
 /// Ways, speeds and times. What a layer was made of is let go of as it goes.
 std::vector<PackedLayer> plan_moves(const MovesOf& of, std::vector<travel::Prepared> prepared,
                                     std::vector<travel::Ordered> ordered, Notices& notices, PlanFor use) {
   const auto& scopes = of.scopes;
   const Settings& settings = scopes[0];
   const auto from = starts_of(of, ordered);
-  std::vector<motion::Rules> rules;
-  std::vector<overhangs::Strand> strands;
-  for (std::size_t i = 0; i < scopes.size(); ++i) {
-    const auto id = static_cast<ScopeId>(i);
-    rules.push_back(motion::rules_of(scopes[id], &scopes[scopes.above_first_layer(id)]));
-    const auto& shells = scopes[id].shells;
-    strands.push_back({scopes[id].machine.nozzle_diameter, shells.bridge_flow / 100, shells.overhang_walls});
-  }
+  const auto rules = rules_of(scopes);
+  const auto strands = strands_of(scopes);
   std::vector<motion::Rules> of_tools;
   if (of.tools.several())
     for (const auto& tool : of.tools.tools()) of_tools.push_back(motion::rules_of(tool));
@@ -408,24 +420,42 @@ std::pair<std::vector<travel::Prepared>, std::vector<travel::Linked>> prepared_a
   return {std::move(prepared), std::move(linked)};
 }
 
+/// The tower and the shield, which skirt and brim go round.
+Regions beside_objects(const ToolSettings& settings, const Passes& passes) {
+  Regions out = passes.shield;
+  if (passes.has_tower()) out.insert(out.begin(), {tools::tower_outline(settings, passes.size, passes.corner), {}});
+  return out;
+}
+
+/// Tells each layer its height over the bed, the room there, and what plastic comes of.
+void give_room(const Settings& settings, std::vector<travel::LayerInput>& inputs) {
+  const double filament_mm = to_mm(settings.material.filament_diameter);
+  for (auto& input : inputs) {
+    input.z += settings.machine.z_offset;
+    input.room = room_at(settings.machine, input.z);
+    input.filament_area_mm2 = std::numbers::pi / 4 * filament_mm * filament_mm;
+    input.nozzle = settings.machine.nozzle_diameter;
+  }
+}
+
 }  // namespace
 
 PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, const Sequence& sequence,
                         std::vector<PrintedLayers> layers, std::vector<SupportOf> supports, Report& report,
                         PlanFor use) {
   const Stopwatch stopwatch(report.timings_ms[Stage::travel]);
-  const ScopeId on_first_layer = scopes.on_first_layer(0);
   const Settings& settings = scopes[0];
+  const ScopeId on_first_layer = scopes.on_first_layer(0);
   auto copies = copies_of(plate);
   auto with_all = with_supports(sequence, std::move(supports), copies, layers);
   put_on_raft(scopes, with_all, copies, layers);
   const auto timeline = timeline_of(with_all, stacks_of(copies, layers));
-  const std::size_t count = timeline.size();
   const auto read = travel::areas_read(settings.travel);
   const bool around_support = settings.travel.travel_avoid_supports && copies.size() > copies_on(plate);
-  auto standing = tasks::parallel_map(
-      count, [&](std::size_t i) { return around_support ? standing_support(timeline[i], copies, layers) : Regions{}; });
-  auto inputs = tasks::parallel_map(count, [&](std::size_t i) {
+  auto standing = tasks::parallel_map(timeline.size(), [&](std::size_t i) {
+    return around_support ? standing_support(timeline[i], copies, layers) : Regions{};
+  });
+  auto inputs = tasks::parallel_map(timeline.size(), [&](std::size_t i) {
     auto input = plate_layer(timeline[i], copies, sequence.size() == 1, layers, read);
     input.scope = input.time.first() ? on_first_layer : 0;
     input.support = std::move(standing[i]);
@@ -436,19 +466,10 @@ PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, c
   auto& plan = out.plan;
   plan.objects = labels_of(plate);
   auto passes = passes_of(settings, tools, scopes, inputs, plan.notices);
-  auto beside =
-      passes.has_tower() ? Regions{{tools::tower_outline(settings.tools, passes.size, passes.corner), {}}} : Regions{};
-  beside.insert(beside.end(), passes.shield.begin(), passes.shield.end());
-  add_adhesion_to_rises(settings, inputs, beside, plan.notices);
+  add_adhesion_to_rises(settings, inputs, beside_objects(settings.tools, passes), plan.notices);
   give_adhesion(settings, tools, scopes, inputs);
   add_ooze_shield(settings, passes.shield, passes, inputs);
-  const double filament_mm = to_mm(settings.material.filament_diameter);
-  for (auto& input : inputs) {
-    input.z += settings.machine.z_offset;
-    input.room = room_at(settings.machine, input.z);
-    input.filament_area_mm2 = std::numbers::pi / 4 * filament_mm * filament_mm;
-    input.nozzle = settings.machine.nozzle_diameter;
-  }
+  give_room(settings, inputs);
   for (auto& notice : check(settings)) plan.notices.push_back(std::move(notice));
   const Vase vase = settings.layers.magic_spiralize ? vase_of(settings, inputs, plan.notices) : Vase{};
   inputs = split(passes, settings, tools, scopes, std::move(inputs));

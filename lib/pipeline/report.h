@@ -36,7 +36,7 @@ struct Report {
       std::string file, sha256;
       std::optional<int> tool;
     };
-    std::vector<Part> parts{};  ///< empty: one file, of which no tool is named
+    std::vector<Part> parts{};                ///< empty: one file, of which no tool is named
     std::vector<std::string> transforms{};    ///< what was done with it before it was placed, in words
     std::vector<Orientation> orientations{};  ///< the best that were found, best first, where it was to be laid
   };

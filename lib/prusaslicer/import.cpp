@@ -8,6 +8,7 @@
 #include "prusaslicer/import_support.h"
 #include "prusaslicer/import_tools.h"
 #include "prusaslicer/keys.h"
+#include "prusaslicer/line_area.h"
 #include "prusaslicer/lines.h"
 #include "prusaslicer/overhangs.h"
 #include "prusaslicer/text.h"
@@ -185,34 +186,14 @@ class Translator {
     done_.insert("min_skirt_length");
   }
 
-  /// The cross-section that a speed is for, mm².
-  double area_of(std::string_view speed) {
-    const auto width_of = [&](std::string_view key, double automatic) {
-      const auto* own = lines_.look(key);
-      const auto* general = lines_.look("extrusion_width");
-      double width = own ? lines_.figure(*own).of(height_) : 0;
-      if (width == 0 && general) width = lines_.figure(*general).of(height_);
-      return width == 0 ? automatic * nozzle_ : width;
-    };
-    const auto* key = speed == "speed_wall_0"      ? "external_perimeter_extrusion_width"
-                      : speed == "speed_wall_x"    ? "perimeter_extrusion_width"
-                      : speed == "speed_infill"    ? "infill_extrusion_width"
-                      : speed == "speed_topbottom" ? "solid_infill_extrusion_width"
-                      : speed == "speed_top_skin"  ? "top_infill_extrusion_width"
-                                                   : nullptr;
-    const double round = std::numbers::pi / 4;
-    if (!key) return round * nozzle_ * nozzle_;
-    const double width = width_of(key, speed == "speed_top_skin" ? 1.0 : 1.125);
-    return std::max(1e-3, height_ * (width - height_ * (1 - round)));
-  }
-
   /// What automatic speeds make flow: the thinnest line that has one goes at the highest speed, others take as much,
   /// up to max_volumetric_speed. Infinite where none is automatic.
   double automatic_mm3_s(double fastest) {
     double least = std::numeric_limits<double>::infinity();
     for_each_reckoned(Form::speed, [&](const Key& row) {
       const auto* e = lines_.look(row.name);
-      if (e && lines_.figure(*e).v == 0 && row.ours != "speed_travel") least = std::min(least, area_of(row.ours));
+      if (e && lines_.figure(*e).v == 0 && row.ours != "speed_travel")
+        least = std::min(least, line_area_mm2(lines_, row.ours, nozzle_, height_));
     });
     const double most = lines_.look("max_volumetric_speed") ? lines_.figure(*lines_.look("max_volumetric_speed")).v : 0;
     return most > 0 ? std::min(most, fastest * least) : fastest * least;
@@ -229,7 +210,7 @@ class Translator {
       const auto base = known.find(row.of);
       double speed = lines_.figure(*e).of(base == known.end() ? fastest : base->second);
       if (speed == 0) {
-        speed = std::max(0.1, std::min(fastest, mm3_s / area_of(row.ours)));
+        speed = std::max(0.1, std::min(fastest, mm3_s / line_area_mm2(lines_, row.ours, nozzle_, height_)));
       }
       known[row.name] = speed;
       set(row.ours, number(speed), *e);

@@ -2,8 +2,8 @@
 #include "settings/tools.h"
 
 #include "core/error.h"
-#include "settings/value.h"
 #include "core/parts.h"
+#include "settings/value.h"
 
 #include <algorithm>
 #include <iterator>

@@ -111,14 +111,13 @@ TEST_CASE("codec: a planned layer comes back as it was") {
                {0, -20}};
   Travel travel{{{1, -2, 3}, {max_coord, 0, -7}}, 120.7, true, 0.1, 1e300};
   Retract retract{{{3, 4}, {-3, 9}}, 35.5, 0.7};
-  const LayerPlan layer{
-      1200,
-      -3,
-      {4000000000, 3, 70000, true},
-      4711,
-      {ObjectStart{7}, bead, travel, retract, Prime{}, SetFan{0.35}, Extrude{}, ObjectEnd{4294967295}, ToolChange{31},
-       SetTemperature{SetTemperature::Heater::chamber, 7, -1, true}, Pause{"nuts, six of M3"},
-       Feed{-15, 0.25, true, {4, -5}, 500}}};
+  const LayerPlan layer{1200,
+                        -3,
+                        {4000000000, 3, 70000, true},
+                        4711,
+                        {ObjectStart{7}, bead, travel, retract, Prime{}, SetFan{0.35}, Extrude{}, ObjectEnd{4294967295},
+                         ToolChange{31}, SetTemperature{SetTemperature::Heater::chamber, 7, -1, true},
+                         Pause{"nuts, six of M3"}, Feed{-15, 0.25, true, {4, -5}, 500}}};
   const auto out = there_and_back(layer);
   CHECK(out.z == layer.z);
   CHECK(out.height == layer.height);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// operator new of these tests: as the program's (app/small_memory.cpp), it is where a library that works in one go asks
-/// whether to go on. Without it one call to Clipper is the longest that a job is deaf.
+/// operator new of these tests: as the program's (app/small_memory.cpp), it is where a library that works in one go
+/// asks whether to go on. Without it one call to Clipper is the longest that a job is deaf.
 #include "core/stop_inside.h"
 
 #include <cstdlib>

@@ -64,13 +64,13 @@ TEST_CASE("tools: every strip of a tower is at least what is to be purged, and l
     const auto beads = tools::tower_beads(settings, size, layers[i], i, {50_mm, 60_mm});
     for (const auto& strip : layers[i].strips) {
       double mm3 = 0;
-      for (const auto& [pass, own] : beads)
+      for (const auto& [pass, own, ram] : beads)
         if (pass == strip.pass)
           for (const auto& bead : own) mm3 += volume_mm3(bead, layers[i].height);
       CHECK(mm3 >= strip.mm3);
       CHECK(mm3 < strip.mm3 + 12);  // no more than to the end of the line
     }
-    for (const auto& [pass, own] : beads)
+    for (const auto& [pass, own, ram] : beads)
       for (const auto& bead : own) {
         CHECK(bead.role == Role::wipe_tower);
         const Um brim = i == 0 ? settings.prime_tower_brim_width : 0;

@@ -74,7 +74,7 @@ TEST_CASE("walls: rough walls stand off by up to their thickness, about as often
   all.magic_fuzzy_skin_outside_only = false;
   const auto holes = walls_of(all, frame());
   std::size_t rough_too = 0;
-  for (std::size_t i = 0; i < before.size(); ++i) rough_too += same(before[i], holes[i]) ? 0 : 1;
+  for (std::size_t i = 0; i < before.size(); ++i) rough_too += same(before[i], holes[i]) ? 0U : 1U;
   CHECK(rough_too == 2);
 }
 
