@@ -461,7 +461,6 @@ PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, c
     input.support = std::move(standing[i]);
     return input;
   });
-
   PlannedPlate out;
   auto& plan = out.plan;
   plan.objects = labels_of(plate);
@@ -473,7 +472,6 @@ PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, c
   for (auto& notice : check(settings)) plan.notices.push_back(std::move(notice));
   const Vase vase = settings.layers.magic_spiralize ? vase_of(settings, inputs, plan.notices) : Vase{};
   inputs = split(passes, settings, tools, scopes, std::move(inputs));
-
   auto [prepared_passes, linked_passes] = prepared_and_linked(settings.travel, std::move(inputs));
   auto& prepared = prepared_passes;  // clang 14 takes no structured binding into a lambda
   const auto& linked = linked_passes;
