@@ -63,8 +63,8 @@ void compare(const Command& command, Console& console) {
 
   Job job;
   const std::vector<std::string> named(command.inputs.begin() + 1, command.inputs.end());
-  const auto typed = [&](const Provenance::File& file) {
-    return find_model(file, named, path) + (file.tool ? fmt::format("@T{}", *file.tool) : std::string());
+  const auto typed = [&](const Provenance::File& of) {
+    return find_model(of, named, path) + (of.tool ? fmt::format("@T{}", *of.tool) : std::string());
   };
   for (const auto& model : made_of.models) {
     job.models.push_back(typed(model));

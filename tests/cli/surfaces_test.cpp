@@ -25,8 +25,8 @@ std::string cone_stl(float r0, float r1, float height, int count) {
     return std::array<float, 3>{r * std::cos(a), r * std::sin(a), z};
   };
   const auto add = [&](std::array<float, 3> a, std::array<float, 3> b, std::array<float, 3> c) {
-    const std::array<float, 3> none{};
-    for (const auto* v : {&none, &a, &b, &c}) out.append(reinterpret_cast<const char*>(v->data()), 12);
+    constexpr std::array<float, 3> none{};
+    for (const auto& v : {none, a, b, c}) out.append(reinterpret_cast<const char*>(v.data()), 12);
     out.append(2, '\0');
     ++triangles;
   };
