@@ -62,7 +62,8 @@ T number(std::string_view text, const std::string& path) {
 template <class T>
 T within(T v, T least, T most, const char* key, const std::string& path) {
   if (v >= least && v <= most) return v;
-  throw Error{Error::Kind::file, fmt::format("{}: {} is outside {} … {}", key, v, least, most), path, "was it edited?"};
+  throw Error{Error::Kind::file, fmt::format("weft_placement: {} is {}, outside {} … {}", key, v, least, most), path,
+              "was it edited?"};
 }
 
 /// @throws Error{file}
