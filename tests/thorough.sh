@@ -15,11 +15,13 @@ told() {  # what, status
   if [ "$2" -eq 0 ]; then results+=("passed  $1"); else results+=("FAILED  $1"); failed=$((failed + 1)); fi
 }
 
-threaded='^(tasks|batch|jobs|pipeline|stage cache|small memory|crew|cancel)'
-bash tests/run.sh tsan -R "$threaded"
+threaded='^(tasks|batch:|jobs|job lists|pipeline|cache:|stop inside|small memory|shards|memory|sweep|thread sanitizer)'
+cmake --preset tsan > /dev/null &&
+  cmake --build --preset tsan --target weft_app test_tasks test_jobs test_pipeline test_app test_cli planted_race &&
+  ctest --preset tsan --parallel "$(nproc)" -R "$threaded"
 told "thread sanitizer: $threaded" $?
 
-bash tests/run.sh release -R '^$' --no-tests=ignore && cmake --preset clang > /dev/null &&
+cmake --preset release > /dev/null && cmake --build --preset release --target weft_app && cmake --preset clang > /dev/null &&
   cmake --build --preset clang --target weft_app && bash tests/jobs/compilers.sh build/release/app/weft
 told 'the same bytes from clang' $?
 
