@@ -370,12 +370,6 @@ class Translator {
       set("retraction_enable", lines_.figure(*e).v > 0 || (by_firmware && lines_.flag(*by_firmware)) ? "true" : "false",
           *e);
     }
-    for (const auto* axis : {"xy", "z"})  // the share of the model's size that is lost as the plastic cools
-      if (const auto* e = lines_.find(fmt::format("filament_shrinkage_compensation_{}", axis)))
-        set(fmt::format("material_shrinkage_percentage_{}", axis), number(100 / (1 - lines_.figure(*e).v / 100), 4),
-            *e);
-    if (const auto* e = lines_.find("max_volumetric_extrusion_rate_slope_positive"))
-      set("max_extrusion_rate_slope", lines_.figure(*e).v > 0 ? number(lines_.figure(*e).v) : "auto", *e);
     // While wiping, PrusaSlicer draws back at the usual speed and moves at 0.8 × that of travels: that gives the
     // length.
     const auto* length = lines_.look("retract_length");

@@ -135,6 +135,27 @@ void cooling(Lines& lines, const Outlet& out) {
   }
 }
 
+/// The share of the model's size that is lost as the plastic cools.
+void shrinkage(Lines& lines, const Outlet& out) {
+  for (const auto* axis : {"xy", "z"})
+    if (const auto* e = lines.find(fmt::format("filament_shrinkage_compensation_{}", axis)))
+      out.set(fmt::format("material_shrinkage_percentage_{}", axis), number(100 / (1 - lines.figure(*e).v / 100), 4),
+              *e);
+}
+
+/// How fast flow may grow, and how fast it may fall: weft has one limit for both, the lower one.
+void flow_slopes(Lines& lines, const Outlet& out) {
+  const IniEntry* from = nullptr;
+  double least = 0;
+  for (const auto* way : {"positive", "negative"})
+    if (const auto* e = lines.find(fmt::format("max_volumetric_extrusion_rate_slope_{}", way))) {
+      const double slope = lines.figure(*e).v;
+      if (from == nullptr || (slope > 0 && (least == 0 || slope < least))) from = e;
+      if (slope > 0) least = least > 0 ? std::min(least, slope) : slope;
+    }
+  if (from != nullptr) out.set("max_extrusion_rate_slope", least > 0 ? number(least) : "auto", *from);
+}
+
 /// Which walls are rough.
 void fuzzy_skin(Lines& lines, const Outlet& out) {
   const auto* e = lines.find("fuzzy_skin");
@@ -181,6 +202,8 @@ void import_single_keys(Lines& lines, double infill_mm_s, double solid_mm_s, con
   cooling(lines, out);
   substitutions(lines, out);
   fuzzy_skin(lines, out);
+  shrinkage(lines, out);
+  flow_slopes(lines, out);
   for (const auto& row : remarked)
     if (const auto* e = lines.find(row.key); e && !says_one_of(row.neutral, e->key, e->value))
       out.approximate(*e, std::string(row.why));

@@ -189,7 +189,6 @@ constexpr auto rows = std::to_array<Key>({
         .initial = "0"},
     Key{.name = "cooling_slowdown_logic", .fate = "weft has its own rule", .initial = "uniform_cooling"},
     Key{.name = "cooling_perimeter_transition_distance", .fate = "weft has its own rule", .initial = "0.0"},
-    Key{.name = "max_volumetric_extrusion_rate_slope_negative", .fate = "weft has its own rule", .initial = "0"},
     Key{.name = "autoemit_temperature_commands",
         .fate = "weft has its own rule",
         .written = Written::flag,

@@ -79,6 +79,39 @@ TEST_CASE("prusaslicer: walls over air have the speeds and fans that the profile
   CHECK(value_of(by_share, "overhang_fan_speed_25") == "60");
 }
 
+TEST_CASE("prusaslicer: of two limits to how fast flow changes the lower one holds") {
+  const auto slope = [](const std::string& positive, const std::string& negative) {
+    return value_of(translated("max_volumetric_extrusion_rate_slope_positive = " + positive +
+                               "\nmax_volumetric_extrusion_rate_slope_negative = " + negative + "\n"),
+                    "max_extrusion_rate_slope");
+  };
+  CHECK(slope("100", "60") == "60");
+  CHECK(slope("50", "60") == "50");
+  CHECK(slope("0", "60") == "60");
+  CHECK(slope("50", "0") == "50");
+  CHECK(slope("0", "0") == "auto");
+}
+
+TEST_CASE("prusaslicer: rough walls, vases, ironing and single walls become what they are here") {
+  const auto t = translated(
+      "fuzzy_skin = all\nironing = 1\nironing_type = solid\nironing_flowrate = 12%\nironing_spacing = "
+      "0.2\nironing_speed "
+      "= 22\nspiral_vase = 1\ntop_one_perimeter_type = topmost\narc_fitting = emit_center\nmachine_max_jerk_e = 0,0\n");
+  CHECK(value_of(t, "magic_fuzzy_skin_enabled") == "true");
+  CHECK(value_of(t, "magic_fuzzy_skin_outside_only") == "false");
+  CHECK(value_of(t, "ironing_enabled") == "true");
+  CHECK(value_of(t, "ironing_surfaces") == "solid");
+  CHECK(value_of(t, "ironing_flow") == "12");
+  CHECK(value_of(t, "ironing_line_spacing") == "0.2");
+  CHECK(value_of(t, "speed_ironing") == "22");
+  CHECK(value_of(t, "magic_spiralize") == "true");
+  CHECK(value_of(t, "top_one_wall") == "topmost");
+  CHECK(value_of(t, "arc_fitting") == "true");
+  CHECK(value_of(t, "machine_max_jerk_e") == "auto");
+  CHECK(value_of(translated("fuzzy_skin = none\n"), "magic_fuzzy_skin_enabled") == "false");
+  CHECK_THROWS_WITH(translated("fuzzy_skin = some\n"), Catch::Matchers::Contains("one of none, external, all"));
+}
+
 TEST_CASE("prusaslicer: a lift on the way has its slope and height") {
   const auto t = translated("travel_ramping_lift = 1\ntravel_max_lift = 0.6\ntravel_slope = 3\nretract_lift = 0.2\n");
   CHECK(value_of(t, "retraction_hop_type") == "slope");
