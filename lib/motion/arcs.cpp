@@ -46,19 +46,20 @@ class Fitter {
 
   /// The arc from junction `first` that goes on longest.
   std::optional<Arc> longest_from(std::size_t first) const {
-    const std::size_t most = furthest(first);
-    if (most < first + least_pieces) return std::nullopt;
-    auto best = arc(first, first + least_pieces);
+    std::size_t good = first + least_pieces, bad = path_.size();
+    if (furthest(first, good) < good) return std::nullopt;
+    auto best = arc(first, good);
     if (!best) return std::nullopt;
-    std::size_t step = least_pieces, good = first + least_pieces, bad = most + 1;
-    while (good < most) {  // gallop
-      const std::size_t next = std::min(good + step, most);
+    for (std::size_t step = least_pieces; good + 1 < bad; step *= 2) {  // gallop
+      const std::size_t wanted = std::min(good + step, bad - 1), next = furthest(first, wanted);
+      if (next < wanted) bad = next + 1;
+      if (next == good) break;
       auto longer = arc(first, next);
       if (!longer) {
         bad = next;
         break;
       }
-      best = longer, good = next, step *= 2;
+      best = longer, good = next;
     }
     while (good + 1 < bad) {  // bisect
       const std::size_t middle = good + (bad - good) / 2;
@@ -77,12 +78,12 @@ class Fitter {
                                    p.y <= rules_.room.max.y);
   }
 
-  /// How far one speed, one band and the room go.
-  std::size_t furthest(std::size_t first) const {
+  /// How far one speed, one band and the room go, up to junction `last`.
+  std::size_t furthest(std::size_t first, std::size_t last) const {
     double least = laid(first), most = least;
     std::size_t i = first;
     if (!has_room(path_[i].at)) return first;
-    while (i + 1 < path_.size()) {
+    while (i < last) {
       const std::size_t next = i + 1;
       if (!bead_.segment_speed_mm_s.empty() && bead_.segment_speed_mm_s[next - 1] != bead_.segment_speed_mm_s[first])
         break;
