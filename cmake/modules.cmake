@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# weft_module(NAME [ONCE] [USES module...] [PUBLIC lib...] [PRIVATE lib...])
+# weft_module(NAME [ONCE | GLUE] [USES module...] [PUBLIC lib...] [PRIVATE lib...])
 #
 # A module is a folder of lib/ and the library made of the .cpp files in it and in folders of it. USES names the modules whose headers it may
 # include; the row also goes to modules.txt, from which a test checks every #include (tests/architecture.cmake). What
 # runs once a job is compiled to be small: a page of a program that is never run still takes memory beside one that is.
+# GLUE calls what takes time and has no such loop itself: with sanitizers it is compiled as what runs once.
 set_property(GLOBAL PROPERTY WEFT_MODULES "")
 file(WRITE ${CMAKE_BINARY_DIR}/modules.txt "")
 
@@ -14,14 +15,14 @@ function(weft_row name uses public private)
 endfunction()
 
 function(weft_module name)
-  cmake_parse_arguments(arg "ONCE" "" "USES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "ONCE;GLUE" "" "USES;PUBLIC;PRIVATE" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
   list(TRANSFORM arg_USES PREPEND weft_ OUTPUT_VARIABLE used)
   if(sources)
     add_library(weft_${name} STATIC ${sources})
     set(scope PUBLIC)
     set(kind fast)
-    if(arg_ONCE)
+    if(arg_ONCE OR (arg_GLUE AND WEFT_SANITIZE AND NOT WEFT_SANITIZE MATCHES fuzzer))
       set(kind small)
       target_compile_options(weft_${name} PRIVATE ${weft_small})
     endif()
