@@ -27,7 +27,8 @@ TEST_CASE("support: a roof lies on fewer branches, and what is too narrow for on
 }
 
 TEST_CASE("support: every strand of a roof over branches lies on joists, and every joist on branches") {
-  constexpr double longest_mm = 6;  // a joist from branch to branch, a strand from joist to joist
+  constexpr double longest_mm =
+      7;  // of joists 5.6 from branch to branch, of strands two triangles of tips one behind the other
   for (const auto& outline : {rectangle(-20000, -10000, 20000, 10000), rectangle(-14000, -14000, 14000, 14000)}) {
     Body body;
     body.add(50, {rectangle(-2000, -2000, 2000, 2000)});
