@@ -68,15 +68,19 @@ Roofs::Roofs(const SupportSettings& settings, const Object& object, const Stack&
     if (regions.size() > 1) regions = geometry::unite(regions);
 }
 
-void Roofs::rest(std::size_t level, const std::vector<Point>& branches, Um spans) {
-  const Box box = box_of(begins_[level]).grown(spans);
+void Roofs::rest(std::size_t level, const Branches& branches, Spans spans) {
+  const Box box = box_of(begins_[level]).grown(spans.of_tips);
   std::vector<Ring> rings;
-  for (const Point p : branches)
-    if (box.contains(p)) rings.push_back(circle_around({p, static_cast<double>(spans)}));
+  const auto take = [&](const std::vector<Point>& points, Um span) {
+    for (const Point p : points) {
+      if (!box.contains(p)) continue;
+      rings.push_back(circle_around({p, static_cast<double>(span)}));
+      tips_[level + 1].push_back(p);
+    }
+  };
+  take(branches.tips, spans.of_tips), take(branches.passing, spans.of_passing);
   if (rings.empty()) return;
   const Regions held = geometry::regions_from_rings(rings);
-  for (const Point p : branches)
-    if (box.contains(p)) tips_[level + 1].push_back(p);
   for (const std::size_t k : held_from_[level]) {
     const Regions part = geometry::intersect(wide_[k], held);
     append(lowest_[level + 1], part);

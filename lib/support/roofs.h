@@ -20,8 +20,16 @@ class Roofs {
   /// The underside of what lies right above this level.
   const Regions& begins_above(std::size_t level) const { return begins_[level]; }
 
-  /// Lays the roofs that begin above that level where they rest: no further than `spans` from these branches.
-  void rest(std::size_t level, const std::vector<Point>& branches, Um spans);
+  /// Branches on a level, and how far from them a roof may lie: of those that come from above it is not yet known which
+  /// way they lean.
+  struct Branches {
+    std::vector<Point> tips, passing;
+  };
+  struct Spans {
+    Um of_tips, of_passing;
+  };
+  /// Lays the roofs that begin above that level where they rest on branches.
+  void rest(std::size_t level, const Branches& branches, Spans spans);
 
   /// By level, within the room.
   struct Laid {

@@ -76,8 +76,14 @@ class Grower {
       // Strands of a roof cross from branch to branch, but hang free at its rim.
       const Um spans = rounded(tip_) + roof_span(o_.nozzle) / 2;
       begin_under(slab, k, roof, {spans, std::min(spans, covers)});
-      roofs.rest(k, standing(), spans + o_.nozzle);
+      roofs.rest(k, standing_at(stack_.levels[k].z), {spans + o_.nozzle, spans});
     }
+  }
+  /// Those that end at that height, and those that come from above.
+  Roofs::Branches standing_at(Um z) const {
+    Roofs::Branches out;
+    for (const Node& node : nodes_) (node.from_z == z ? out.tips : out.passing).push_back(node.at);
+    return out;
   }
   std::vector<Point> standing() const {
     std::vector<Point> out;
