@@ -97,9 +97,13 @@ Split cheaper(const SupportSettings& s, const Object& object, const Stack& stack
   for (const Point3 tip : branches.tips_at)
     if (const auto patch = index.region_at({tip.x, tip.y}))
       branches_mm3[*patch] += tree_mm3 * (tip.z - object.floor) / std::max(1.0, heights);
-  for (std::size_t k = 0; k < branches.left.size(); ++k)  // what no branch gets to stands on columns of its own
-    for (const Region& region : branches.left[k])
+  for (std::size_t k = 0; k < branches.left.size(); ++k) {  // what no branch gets near stands on columns of its own
+    if (branches.left[k].empty()) continue;
+    Regions held = branches.areas[k];
+    append(held, branches.roofs[k]);
+    for (const Region& region : opened(geometry::subtract(branches.left[k], grown(geometry::unite(held), reached)), 50))
       branches_mm3[patch_of(region)] += column_mm3(s, {region}, line, stack.levels[k].z - object.floor);
+  }
 
   Split out{std::vector<Regions>(contacts.size()), std::vector<Regions>(contacts.size()), std::nullopt};
   bool columns_too = false;

@@ -13,6 +13,9 @@
 namespace weft::support {
 using namespace weft::literals;
 
+/// What lies no further beside support does not sag between.
+inline constexpr Um reached = 1.5_mm;
+
 /// How far a round corner of support may be cut: support needs no finer ones.
 inline constexpr Um coarse_arc = 25_um;
 

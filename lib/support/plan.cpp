@@ -17,8 +17,6 @@
 namespace weft::support {
 namespace {
 
-constexpr Um reached = 1.5_mm;  // what lies no further beside support does not sag between
-
 /// What is to be held from each level.
 std::vector<Regions> contacts_of(const Stack& stack, const Demand& demand) {
   std::vector<Regions> out(stack.levels.size());
