@@ -214,7 +214,7 @@ class Reader {
   void take_text(Lattice& out) const {
     Words words(image_.text, path_);
     const std::size_t count = out.count() * out.components;
-    if (image_.text.size() / 2 + 1 < count) refuse(out.expected(image_.text.size() / 2 / out.components));
+    if (image_.text.size() / 2 + 1 < count) refuse(out.expected(words.left() / out.components));
     out.values.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
       const std::string_view w = words.word();

@@ -32,7 +32,7 @@ void take_binary(Words& words, const Coding& coding, Lattice& out) {
 
 void take_text(Words& words, Lattice& out) {
   const std::size_t count = out.count() * out.components;
-  if (words.rest().size() / 2 + 1 < count) words.refuse_all(out.expected(words.rest().size() / 2 / out.components));
+  if (words.rest().size() / 2 + 1 < count) words.refuse_all(out.expected(words.left() / out.components));
   out.values.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     Words before = words;

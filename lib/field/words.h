@@ -52,6 +52,12 @@ class Words {
     return v;
   }
   std::string_view rest() const { return rest_; }
+  /// How many words are left.
+  std::size_t left() const {
+    std::size_t out = 0;
+    for (Words all = *this; !all.word().empty();) ++out;
+    return out;
+  }
   int at() const { return line_; }  ///< the line
 
  private:

@@ -95,13 +95,13 @@ std::vector<Density::Part> Density::by_isolines(const Region& region, double z_u
   return out;
 }
 
-/// Cells in which a line or two of the coarser level have room, on one lattice for the whole object.
+/// Cells that a line of the coarsest level meets, on one lattice for the whole object.
 std::vector<Density::Part> Density::by_cells(const Region& region, double z_um, std::size_t layer) const {
-  constexpr double cell_lines = 2.5, least_cell = 3000;
+  constexpr double cell_lines = 1.2, least_cell = 3000;
   const Box box = weft::box_of(region.outer);
   const Levels levels = levels_of(box, z_um);
   const double line = length_or(infill_.infill_line_width, nozzle_, nozzle_);
-  const double coarsest = base() * std::exp2(std::floor(std::max(levels.least, -3.0)));
+  const double coarsest = base() * std::exp2(std::floor(std::clamp(levels.least, -2.0, 2.0)));
   const Um cell = rounded(std::max(least_cell, cell_lines * line / coarsest));
   const auto cells_before = [&](Um v) { return static_cast<long>(std::floor(static_cast<double>(v) / cell)); };
   const long x0 = cells_before(box.min.x), y0 = cells_before(box.min.y);

@@ -19,8 +19,9 @@ struct Off {
   double middle() const { return (least + most) / 2; }
 };
 
-/// From the first to the last point; nothing is known of points that lie beyond its ends.
-Off off_chord(std::span<const Point> points, bool& beyond) {
+/// From the first to the last point.
+/// @param beyond  whether a point lies farther than the bound beyond an end
+Off off_chord(std::span<const Point> points, double bound, bool& beyond) {
   const Point a = points.front(), b = points.back();
   const double dx = b.x - a.x, dy = b.y - a.y, length = std::max(std::hypot(dx, dy), 1e-9);
   Off out;
@@ -28,7 +29,7 @@ Off off_chord(std::span<const Point> points, bool& beyond) {
   for (const Point p : points.subspan(1)) {
     const double x = p.x - a.x, y = p.y - a.y, off = (dx * y - dy * x) / length, along = (x * dx + y * dy) / length;
     out.least = std::min(out.least, off), out.most = std::max(out.most, off);
-    beyond = beyond || along < 0 || along > length;
+    beyond = beyond || along < -bound || along > length + bound;
   }
   return out;
 }
@@ -42,7 +43,7 @@ struct Chord {
 /// The chord to that point, if all between lie within the bound of where it can be moved to.
 bool reaches(std::span<const Point> line, std::size_t from, std::size_t to, double bound, Chord& chord) {
   bool beyond = false;
-  const Off off = off_chord(line.subspan(from, to - from + 1), beyond);
+  const Off off = off_chord(line.subspan(from, to - from + 1), bound, beyond);
   if (beyond || off.most - off.least > 2 * bound) return false;
   chord = {to, off.middle()};
   return true;

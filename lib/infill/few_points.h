@@ -6,8 +6,8 @@
 
 namespace weft::infill {
 
-/// How far what is printed may stand off a curve that is only to hold something up: a thirtieth of a line's width.
-inline constexpr Um curve_tolerance = 15;
+/// How far what is printed may stand off a curve that is only to hold something up: a fortieth of a line's width.
+inline constexpr Um curve_tolerance = 10;
 /// The same of lines of that density: those of a skin lie beside each other.
 constexpr Um tolerance_of(double density) {
   return density < 1 ? curve_tolerance : curve_tolerance / 3;

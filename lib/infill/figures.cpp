@@ -107,12 +107,13 @@ void look_below(const LookedAtLayer& layer, const LookedAtLayer& below, Figures&
     }
   };
   see_segments(*below.beads, [&](const Junction& a, const Junction& b) {
-    const int around = std::max(0, static_cast<int>((a.width / 2 + grid.cell / 4) / grid.cell));
+    const double half = a.width / 2.0 / grid.cell;
+    const int around = static_cast<int>(half);
     along(a, b, [&](Point p, double) {
       const int column = grid.column_of(p.x), row = grid.row_of(p.y);
       for (int j = -around; j <= around; ++j)
         for (int i = -around; i <= around; ++i)
-          if (i * i + j * j <= around * around + 1) held.set(column + i, row + j);
+          if (i * i + j * j <= half * half) held.set(column + i, row + j);
     });
   });
   see_segments(*layer.beads, [&](const Junction& a, const Junction& b) {

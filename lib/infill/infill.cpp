@@ -126,7 +126,7 @@ void fill_as_dense(const Region& region, SparseStyle style, Beads& beads) {
   for (const Density::Part& part : parts) {
     if (part.level < least) continue;
     const std::size_t from = beads.size();
-    style.density = std::min(part.level, most), style.pattern = part.pattern;
+    style.density = std::min(part.level, most), style.pattern = part.pattern, style.even = !part.dithered;
     fill_sparse(part.region, style, beads);
     if (!part.dithered) density->follow(style.density, style.z, from, beads);
   }

@@ -103,7 +103,7 @@ void fill_drawn(const Region& region, const SparseStyle& style, const PatternRow
   if (bent) web.bend_crossings();
   if (!drawing.curves.empty()) web.add_curves(region, turned_back(drawing.curves, frame, tolerance_of(style.density)));
   const double joint = style.anchor_max >= 0 ? style.anchor_max : row.longest_joint * drawing.pitch;
-  const bool as_usual = drawing.longer > 0 || (!style.even && drawing.curves.empty());
+  const bool as_usual = drawing.longer > 0 || !style.even;
   if (as_usual && !bent)
     web.emit(joint, std::max(1, rounded(drawing.longer > 0 ? style.band / drawing.longer : style.band)), 0, beads);
   else

@@ -134,7 +134,9 @@ class Flow {
     constexpr std::size_t most_steps = 100'000;
     std::vector<Place> out;
     Place p = from;
+    StopNowAndThen stop(64);
     while (out.size() < most_steps) {
+      stop.step();
       const auto q = next(p, forward);
       if (!q) break;
       if (!is_free(*q, nearest_end * apart_) || comes_back(*q, out, before)) break;

@@ -32,6 +32,7 @@ std::vector<Place> Web::stretch(std::uint32_t line, double from, double to) cons
     }
     way += l;
   }
+  while (out.size() < 2) out.push_back(places.back());  // what is left is less than rounding
   return out;
 }
 

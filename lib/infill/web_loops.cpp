@@ -96,6 +96,7 @@ bool Web::merge_loop(std::uint32_t start, double longest, std::size_t& tries) {
 void Web::merge_loops(double longest) {
   std::size_t tries = 1000 + 200'000'000 / std::max<std::size_t>(lines_.size() * lines_.size(), 1);  // bounds the work
   tries = std::min<std::size_t>(tries, 20'000);
+  find_sets();
   for (bool better = true; better && tries > 0;) {
     better = false;
     for (std::uint32_t e = 0; e < ends_.size(); ++e) {
@@ -104,6 +105,24 @@ void Web::merge_loops(double longest) {
       better = merge_loop(e, longest, tries) || better;
     }
   }
+}
+
+/// Whether a way along the edge meets a line that comes near the edge without ending there. Its own two lines end it.
+bool Web::crosses_a_line(const std::vector<Place>& way, std::uint32_t a, std::uint32_t b) const {
+  const auto turn = [](Place p, Place q, Place r) { return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x); };
+  for (std::uint32_t line = 0; line < lines_.size(); ++line) {
+    if (line == a || line == b) continue;
+    const std::vector<Place>& places = lines_[line].places;
+    for (std::size_t i = 1; i < places.size(); ++i)
+      for (std::size_t k = 1; k < way.size(); ++k) {
+        const Place p = places[i - 1], q = places[i], r = way[k - 1], s = way[k];
+        if (std::max(p.x, q.x) < std::min(r.x, s.x) || std::max(r.x, s.x) < std::min(p.x, q.x) ||
+            std::max(p.y, q.y) < std::min(r.y, s.y) || std::max(r.y, s.y) < std::min(p.y, q.y))
+          continue;
+        if (turn(p, q, r) * turn(p, q, s) < 0 && turn(r, s, p) * turn(r, s, q) < 0) return true;
+      }
+  }
+  return false;
 }
 
 /// Ends that stayed alone beside each other, the nearest first, as long as there is plastic for it.
@@ -121,6 +140,7 @@ void Web::join_far(double longest, double most_more) {
     pairs.push_back({norm(pulled(a) - pulled(b)), a, b});
   }
   std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& p, const Pair& q) { return p.far < q.far; });
+  find_sets();
   for (const Pair& pair : pairs) {
     if (joint_[pair.a] != nobody || joint_[pair.b] != nobody) continue;
     stop_if_asked();
@@ -128,7 +148,12 @@ void Web::join_far(double longest, double most_more) {
     std::vector<Place> way{pulled(pair.a)};
     way.insert(way.end(), arc_[pair.a].begin(), arc_[pair.a].end());
     way.push_back(pulled(pair.b));
-    most_more -= length_of(way);
+    if (crosses_a_line(way, pair.a / 2, pair.b / 2)) {
+      part(pair.a);
+      find_sets();
+    } else {
+      most_more -= length_of(way);
+    }
   }
 }
 

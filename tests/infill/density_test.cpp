@@ -145,7 +145,8 @@ TEST_CASE("density: a wedge of densities is laid as it is asked for, by every wa
                                .overlap_um = 45,
                                .z = z,
                                .origin = {30'000, 20'000},
-                               .reach = 30'000},
+                               .reach = 30'000,
+                               .even = !part.dithered},
                               beads);
           if (!part.dithered) prepared.density->follow(part.level, z, from, beads);
         }

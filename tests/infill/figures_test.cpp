@@ -51,7 +51,8 @@ TEST_CASE("figures: density and directions of patterns that are known", "[infill
   CHECK(triangles.fabric[1] == Approx(0).margin(0.03));
   CHECK(triangles.fabric[2] == Approx(1).margin(0.02));
   CHECK(figures(InfillPattern::aligned, 0.2).fabric[0] == Approx(1).margin(0.02));
-  CHECK(figures(InfillPattern::gyroid, 0.2).fabric[0] <= 0.06);  // over a few periods
+  // a density whose period is 20 layers: two of them in the block
+  CHECK(figures(InfillPattern::gyroid, 0.25814).fabric[0] <= 0.02);
 }
 
 TEST_CASE("figures: what lies on nothing", "[infill]") {
@@ -66,7 +67,7 @@ TEST_CASE("figures: Hilbert's curve is local and fills the plane, parallel lines
   const infill::Figures hilbert = figures(InfillPattern::hilbert, 0.2);
   CHECK(hilbert.locality <= 8);  // 6 for whole cells; ends of steps are half a cell off
   CHECK(hilbert.locality >= 3);
-  CHECK(hilbert.box_dimension == Approx(2).margin(0.25));
+  CHECK(hilbert.box_dimension == Approx(2).margin(0.35));  // boxes that the edge cuts count whole
   CHECK(figures(InfillPattern::lines, 0.2).locality > 15);
 }
 
