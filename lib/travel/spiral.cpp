@@ -115,7 +115,9 @@ class Cutter {
  private:
   void piece(std::size_t i, double t0, const Junction& from, double t1, const Junction& to, double share) {
     const double length = distance(from.at, to.at);
-    if (length > shortest_um) {
+    // Where turns pass over into each other no more the way jumps, however finely it is cut.
+    const double own = (t1 - t0) * distance(path_[i].at, path_[i + 1].at);
+    if (length > shortest_um && own > shortest_um) {
       double middle_share = 0;
       const double t = (t0 + t1) / 2;
       const Junction middle = way_.place(i, t, middle_share);
