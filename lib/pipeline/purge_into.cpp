@@ -2,8 +2,10 @@
 #include "pipeline/purge_into.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <iterator>
+#include <map>
 #include <utility>
 
 namespace weft::pipeline {
@@ -35,15 +37,15 @@ double take(Beads& beads, Um height, const std::function<bool(const Bead&)>& wan
   return sum;
 }
 
-/// The last pass of the layer in which the object gets a wall; one before the layer's first where it has none.
-std::ptrdiff_t last_wall(const travel::ObjectLayer& object, const Passes& passes, std::size_t layer) {
-  auto out = static_cast<std::ptrdiff_t>(passes.begin[layer]) - 1;
+/// The last pass of the layer in which each part of the object gets a wall; parts without walls are not there.
+std::map<std::uint32_t, std::size_t> last_walls(const travel::ObjectLayer& object, const Passes& passes,
+                                                std::size_t layer) {
+  std::map<std::uint32_t, std::size_t> out;
   for (std::size_t p = passes.begin[layer]; p < passes.begin[layer + 1]; ++p)
-    if (std::any_of(object.beads.begin(), object.beads.end(), [&](const Bead& bead) {
-          const bool here = bead.tool == any_tool ? p == passes.begin[layer] : bead.tool == passes.passes[p].tool;
-          return here && is_wall(bead.role);
-        }))
-      out = static_cast<std::ptrdiff_t>(p);
+    for (const Bead& bead : object.beads) {
+      const bool here = bead.tool == any_tool ? p == passes.begin[layer] : bead.tool == passes.passes[p].tool;
+      if (here && is_wall(bead.role)) out[bead.part] = p;
+    }
   return out;
 }
 
@@ -80,12 +82,15 @@ void fill(const Scopes& scopes, travel::LayerInput& layer, std::size_t index, co
           [&](const Bead& bead) { return bead.tool == any_tool && bead.role == Role::support; }, change);
   });
   each([&](travel::ObjectLayer& object) {
-    if (object.support || last_wall(object, passes, index) >= static_cast<std::ptrdiff_t>(change.pass)) return;
+    if (object.support) return;
+    const auto walls = last_walls(object, passes, index);
     purged.infill_mm3 += take(
         object.beads, layer.height,
         [&](const Bead& bead) {
           const auto& own = scopes[bead.scope];
-          return bead.role == Role::infill && own.tools.purge_into_infill && own.walls.wall_line_count >= hiding_walls;
+          const auto last = walls.find(bead.part);
+          return last != walls.end() && last->second < change.pass && bead.role == Role::infill &&
+                 own.tools.purge_into_infill && own.walls.wall_line_count >= hiding_walls;
         },
         change);
   });

@@ -165,6 +165,13 @@ std::optional<Foreign> foreign_of(std::string_view text, const std::string& path
   return out;
 }
 
+/// Does the text begin with `#FF8000`, and with nothing more of a word?
+bool is_colour(std::string_view text) {
+  const auto end = text.find_first_not_of("0123456789abcdefABCDEF", 1);
+  return text.front() == '#' && std::min(end, text.size()) == 7 &&
+         (end == std::string_view::npos || text[end] == ',' || text[end] == ' ' || text[end] == '\t');
+}
+
 /// A value without the comment behind it: ` #` or ` ;` and what follows. Texts may hold both, and G-code has comments
 /// of its own; `;` also parts areas.
 std::string without_comment(const IniEntry& e) {
@@ -172,6 +179,7 @@ std::string without_comment(const IniEntry& e) {
   if (!entry || entry->type == "text") return e.value;
   for (std::size_t i = 0; i < e.value.size(); ++i) {
     if (e.value[i] != '#' && (e.value[i] != ';' || entry->type == "polygons")) continue;
+    if (entry->type == "colour" && is_colour(std::string_view(e.value).substr(i))) continue;
     if (i == 0 || e.value[i - 1] == ' ' || e.value[i - 1] == '\t')
       return std::string(value::trimmed(std::string_view(e.value).substr(0, i)));
   }

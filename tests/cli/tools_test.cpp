@@ -396,3 +396,12 @@ TEST_CASE("cli: skirt and brim have a tool of their own where one is named") {
   CHECK(report["tools"][1]["filament"]["mm3"].get<double>() ==
         Approx(report["features"]["brim"]["mm3"].get<double>()).epsilon(0.02));
 }
+
+TEST_CASE("cli: a profile lists colours, with a comment behind them") {
+  const Boxes boxes;
+  boxes.scratch.write("colours.ini", "tool_nozzles = 0, 0\nfilament_colour = #202020, #F0F0F0  # dark, light\n");
+  boxes.slice({"a.stl", "b.stl@T1", "-p", "colours.ini", "--report", "out.json"});
+  const auto report = json::parse(boxes.scratch.read("out.json"));
+  const double wanted = report["purge"]["wanted_mm3"];
+  CHECK(wanted > 10 * 200);  // ten changes between a dark one and a light one: far from 140 each
+}
