@@ -20,6 +20,40 @@ double place_of(const Bead& bead, GradientAxis axis, Um z) {
   return to_mm(axis == GradientAxis::x ? middle.x : axis == GradientAxis::y ? middle.y : z);
 }
 
+Junction between(const Junction& a, const Junction& b, double share) {
+  const auto mix = [&](double x, double y) { return x + (y - x) * share; };
+  return {{rounded(mix(a.at.x, b.at.x)), rounded(mix(a.at.y, b.at.y))},
+          rounded(mix(a.width, b.width)),
+          static_cast<float>(mix(static_cast<double>(a.flow), static_cast<double>(b.flow)))};
+}
+
+/// Pieces of equal length, none of them shorter than 5 mm. What is shorter than two of those stays whole.
+Beads pieces_of(Bead bead) {
+  const auto count = static_cast<int>(length_mm(bead) / least_bead_mm);
+  if (count < 2) return {std::move(bead)};
+  const double each_um = 1000 * length_mm(bead) / count;
+  auto path = bead.path;
+  if (bead.closed) path.push_back(path.front());
+  bead.closed = false;
+  bead.path = {path.front()};
+  Beads out;
+  double left = each_um;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    Junction from = path[i - 1];
+    for (double um = distance(from.at, path[i].at); um > left && static_cast<int>(out.size()) + 1 < count;) {
+      from = between(from, path[i], left / um);
+      bead.path.push_back(from);
+      out.push_back(bead);
+      bead.path = {from};
+      um = distance(from.at, path[i].at), left = each_um;
+    }
+    left -= distance(from.at, path[i].at);
+    bead.path.push_back(path[i]);
+  }
+  out.push_back(std::move(bead));
+  return out;
+}
+
 bool has_gradient(const ToolSettings& t) {
   return t.gradient_tools && t.gradient_mode != GradientMode::mix;
 }
@@ -35,6 +69,7 @@ class Gradients {
   Gradients(ToolScopes& tools, Scopes& scopes) : tools_(tools), scopes_(scopes) {}
 
   void apply(Um z, Um height, travel::ObjectLayer& object) {
+    cut(object);
     std::map<ScopeId, bool> of_layer;  // what whole layers have chosen
     for (auto& bead : object.beads) {
       const auto& t = scopes_[bead.scope].tools;
@@ -61,6 +96,22 @@ class Gradients {
   }
 
  private:
+  /// Across the layer a share changes along beads.
+  void cut(travel::ObjectLayer& object) {
+    Beads out;
+    for (auto& bead : object.beads) {
+      const auto& t = scopes_[bead.scope].tools;
+      const bool along =
+          has_gradient(t) && t.gradient_mode == GradientMode::lines && t.gradient_axis != GradientAxis::z;
+      if (!along || bead.tool == any_tool) {
+        out.push_back(std::move(bead));
+        continue;
+      }
+      for (auto& piece : pieces_of(std::move(bead))) out.push_back(std::move(piece));
+    }
+    object.beads = std::move(out);
+  }
+
   bool choose_layer(const travel::ObjectLayer& object, ScopeId scope, Um z, Um height) {
     double all = 0, wanted = 0;
     const auto& t = scopes_[scope].tools;

@@ -405,3 +405,26 @@ TEST_CASE("cli: a profile lists colours, with a comment behind them") {
   const double wanted = report["purge"]["wanted_mm3"];
   CHECK(wanted > 10 * 200);  // ten changes between a dark one and a light one: far from 140 each
 }
+
+TEST_CASE("cli: a gradient across a layer has the share of each place") {
+  const Boxes boxes;
+  boxes.scratch.write("wide.stl", box_stl(40, 20, 6));
+  const auto gcode =
+      boxes.slice({"wide.stl", "-p", "two.ini", "--keep-position", "-s", "gradient_tools=0,1", "-s", "gradient_axis=x",
+                   "-s", "gradient_stops=10:0, 30:100", "-s", "firmware=marlin2", "-s", "relative_extrusion=true", "-s",
+                   "adhesion_type=none", "-s", "retraction_amount=0"});
+  // Filament of each tool left of 10 mm, and right of 30 mm.
+  double laid[2][2] = {};
+  double x = 0;
+  int tool = 0;
+  for (const auto& line : lines_of(gcode)) {
+    if (line == "T0" || line == "T1") tool = line[1] - '0';
+    if (!line.starts_with("G1") && !line.starts_with("G0")) continue;
+    const auto at = line.find(" X"), e = line.find(" E");
+    if (at != std::string::npos) x = std::stod(line.substr(at + 2));
+    const bool left = x<8, right = x> 32;  // mm: half a piece beside the stops
+    if (e != std::string::npos && (left || right)) laid[tool][right ? 1 : 0] += std::stod(line.substr(e + 2));
+  }
+  CHECK(laid[1][0] < 0.1 * laid[0][0]);  // a twentieth is a step of shares
+  CHECK(laid[0][1] < 0.1 * laid[1][1]);
+}
