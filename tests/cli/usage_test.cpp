@@ -75,7 +75,7 @@ TEST_CASE("command line: every setting is listed with type, range and meaning") 
     const auto row = nlohmann::json::parse(weft({"settings", "--format", "json", key}).out);
     return row[0]["scope"].get<std::string>();
   };
-  CHECK(scope_of("material_bed_temperature") == "plate");
+  CHECK(scope_of("material_bed_temperature") == "tool");
   CHECK(scope_of("layer_height") == "layer");
   CHECK(scope_of("wall_line_count") == "region");
   CHECK_THAT(weft({"settings", "retraction_amount"}).out, Contains("; tool)"));

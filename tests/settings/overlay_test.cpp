@@ -45,8 +45,8 @@ TEST_CASE("overlay: every value of every setting is laid as it is read from its 
 }
 
 TEST_CASE("overlay: a value where it may not differ is refused, and the message says for what it holds") {
-  CHECK_THAT(refused(of_object(), "material_bed_temperature", "70"),
-             Contains("lid.3mf: object 'lid': material_bed_temperature holds for the whole plate; set it there"));
+  CHECK_THAT(refused(of_object(), "build_volume_temperature", "40"),
+             Contains("lid.3mf: object 'lid': build_volume_temperature holds for the whole plate; set it there"));
   CHECK_THAT(refused(of_object(), "machine_width", "100"), Contains("machine_width holds for the whole machine"));
   CHECK_THAT(refused(of_object(), "retraction_amount", "1"), Contains("retraction_amount holds for a whole tool"));
   const Overlay range{.what = "height range 1 … 2", .scope = Scope::layer};
