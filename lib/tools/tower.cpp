@@ -124,6 +124,18 @@ std::optional<Bead> grid(const ToolSettings& settings, const Lines& lines, std::
   return bead_of(zigzag(first, pitch, count, lines.begin, lines.end, lines.along_y), lines.line, false);
 }
 
+/// Takes what is too much off the end of the strip's last line, of which as much as two widths stays.
+void shorten(Bead& strip, double by_mm3, const Lines& lines) {
+  if (by_mm3 <= 0 || strip.path.size() < 2) return;
+  const Point from = strip.path[strip.path.size() - 2].at;
+  Point& to = strip.path.back().at;
+  const double length = distance(from, to);
+  const double by = 1000 * by_mm3 / (to_mm(lines.line) * to_mm(lines.height));
+  const double stays = std::max(length - std::floor(by), 2.0 * lines.line);
+  if (length <= stays) return;
+  to = {from.x + rounded((to.x - from.x) * stays / length), from.y + rounded((to.y - from.y) * stays / length)};
+}
+
 /// The wall, and the brim of the lowest layer.
 Beads walls(const ToolSettings& settings, const TowerSize& size, std::size_t index) {
   const Um line = size.line;
@@ -165,7 +177,9 @@ std::vector<TowerBeads> tower_beads(const ToolSettings& settings, const TowerSiz
       continue;
     }
     const Um count = lines_of(strip.mm3, line, layer.height, inner(along, line));
-    add(strip.pass, bead_of(zigzag(at, line, count, lines.begin, lines.end, along_y), line, false), strip.ram);
+    Bead bead = bead_of(zigzag(at, line, count, lines.begin, lines.end, along_y), line, false);
+    shorten(bead, lines.mm3(bead) - strip.mm3, lines);
+    add(strip.pass, std::move(bead), strip.ram);
     at += count * line;
   }
   for (Um count = 0; last != nullptr; ++count) {
@@ -174,7 +188,10 @@ std::vector<TowerBeads> tower_beads(const ToolSettings& settings, const TowerSiz
     const auto rest = grid(settings, lines, index, at + count * line);
     const double sum = of_walls + (strip ? lines.mm3(*strip) : 0) + (rest ? lines.mm3(*rest) : 0);
     if (sum < last->mm3 && at + count * line <= lines.last) continue;
-    if (strip) add(last->pass, std::move(*strip));
+    if (strip) {
+      shorten(*strip, sum - last->mm3, lines);
+      add(last->pass, std::move(*strip));
+    }
     at += count * line;
     break;
   }

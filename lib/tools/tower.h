@@ -47,7 +47,7 @@ struct TowerBeads {
 /// crosses every filament below; then lines prime_tower_max_bridging_distance apart, and a wall around all.
 /// @param index of the layer, from 0; the lowest is dense, and has the brim
 /// @param corner where 0, 0 of the tower comes to lie; it is turned about that by prime_tower_angle
-/// Post: the volume of what a pass lays down is what it is to purge, or more to the end of its line.
+/// Post: the volume of what a pass lays down is what it is to purge; more where wall and grid alone are.
 std::vector<TowerBeads> tower_beads(const ToolSettings& settings, const TowerSize& size, const TowerLayer& layer,
                                     std::size_t index, Point corner);
 
