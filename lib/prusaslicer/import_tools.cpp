@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <optional>
 
@@ -168,11 +169,12 @@ class Tools {
     return number(v - 1);
   }
 
-  /// The spool's, unless the extruder has one of its own.
+  /// The spool's, unless the extruder has one of its own. PrusaSlicer's own colour is nobody's choice.
   void colour() {
     const auto *extruder = lines_.find("extruder_colour"), *filament = lines_.find("filament_colour");
     for (const auto* e : {extruder, filament})
-      if (e && first_text(*e).starts_with("#")) return out_.set("filament_colour", first_text(*e), *e);
+      if (e && first_text(*e).starts_with("#") && first_text(*e) != "#29B2B2")
+        return out_.set("filament_colour", first_text(*e), *e);
   }
 
   /// What all features have is the object's tool, so that an object may have another.
@@ -193,14 +195,17 @@ class Tools {
     const auto* matrix = lines_.find("wiping_volumes_matrix");
     const auto* custom = lines_.find("wiping_volumes_use_custom_matrix");
     if (!matrix || matrix->line == 0 || (custom && custom->line != 0 && !lines_.flag(*custom))) return;
+    // It may be of more extruders than there are: PrusaSlicer's own has five.
     const auto elements = elements_of(matrix->key, matrix->value);
-    if (elements.size() != count_ * count_) {
+    const auto side = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(elements.size()))));
+    if (side * side != elements.size() || side < count_) {
       out_.approximate(
           *matrix, fmt::format("{} numbers for {} extruders: volumes follow from colours", elements.size(), count_));
       return;
     }
     std::string list;
-    for (const auto& element : elements) list += (list.empty() ? "" : ", ") + element;
+    for (std::size_t from = 0; from < count_; ++from)
+      for (std::size_t to = 0; to < count_; ++to) list += (list.empty() ? "" : ", ") + elements[from * side + to];
     out_.set("purge_volumes", list, *matrix);
   }
 

@@ -76,13 +76,19 @@ TEST_CASE("prusaslicer: a shared nozzle, its tower, and how a filament is drawn 
   CHECK(t.unsupported.empty());
 }
 
-TEST_CASE("prusaslicer: volumes of another number of extruders are told, and left out") {
-  const auto t = translated(shared + "wiping_volumes_matrix = 0,140,140,140,0,140,140,140,0\n");
+TEST_CASE("prusaslicer: volumes of more extruders than there are say what they say of those") {
+  const auto t = translated(shared + "wiping_volumes_matrix = 0,120,1,90,0,1,1,1,0\n");
+  CHECK(value_of(t, "purge_volumes") == "0, 120, 90, 0");
+  CHECK(value_of(translated(shared + "filament_colour = #29B2B2;#29B2B2\n"), "filament_colour") == "(absent)");
+}
+
+TEST_CASE("prusaslicer: volumes that are no square, or too few, are told, and left out") {
+  const auto t = translated(shared + "wiping_volumes_matrix = 0,140,140,140,0,140\n");
   CHECK(value_of(t, "purge_volumes") == "(absent)");
   const auto told = std::find_if(t.approximated.begin(), t.approximated.end(),
                                  [](const auto& remark) { return remark.key == "wiping_volumes_matrix"; });
   REQUIRE(told != t.approximated.end());
-  CHECK_THAT(told->why, Contains("9 numbers for 2 extruders"));
+  CHECK_THAT(told->why, Contains("6 numbers for 2 extruders"));
   CHECK(value_of(translated(shared + "wiping_volumes_use_custom_matrix = 0\nwiping_volumes_matrix = 0,9,9,0\n"),
                  "purge_volumes") == "(absent)");
 }
