@@ -39,9 +39,11 @@ double walls_mm2(const SupportSettings& s, const Region& branch, Um line) {
 
 /// Columns as they would stand, every two millimetres of height: visit(region, height that it stands for), and
 /// land(region) for what of them comes to stand on the part.
+/// @return what stands on the lowest level
 template <class Visit, class Land>
-void guess_columns(const SupportSettings& s, const Object& object, const Stack& stack,
-                   const std::vector<KeepOut>& keep_out, const std::vector<Regions>& contacts, Visit visit, Land land) {
+Regions guess_columns(const SupportSettings& s, const Object& object, const Stack& stack,
+                      const std::vector<KeepOut>& keep_out, const std::vector<Regions>& contacts, Visit visit,
+                      Land land) {
   using namespace weft::literals;
   constexpr Um step = 2_mm, coarse = 0.1_mm;
   Regions falling;
@@ -61,6 +63,13 @@ void guess_columns(const SupportSettings& s, const Object& object, const Stack& 
     for (const Region& region : falling) visit(region, height);
     height = 0;
   }
+  return falling;
+}
+
+/// What the first layer of what stands there takes, with what spreads around it.
+double foot_mm3(const SupportSettings& s, const Regions& standing, Um height) {
+  return area_mm2(grown(geometry::unite(standing), s.support_brim_width)) * to_mm(height) *
+         s.support_initial_layer_density / 100;
 }
 
 }  // namespace
@@ -76,19 +85,25 @@ Split cheaper(const SupportSettings& s, const Object& object, const Stack& stack
   std::vector<double> columns_mm3(patches.size(), 0), branches_mm3(patches.size(), 0);
 
   constexpr double mm3_by_scar_mm2 = 1;  // what stands on the part is filed off
-  guess_columns(
+  const Regions standing = guess_columns(
       s, object, stack, keep_out, contacts,
       [&](const Region& region, Um height) { columns_mm3[patch_of(region)] += column_mm3(s, {region}, line, height); },
       [&](const Region& region) { columns_mm3[patch_of(region)] += mm3_by_scar_mm2 * area_mm2(region); });
+  const Um first = stack.levels.front().height;
+  for (const Region& region : standing) columns_mm3[patch_of(region)] += foot_mm3(s, {region}, first);
   auto branches = tree(s, object, stack, keep_out, contacts);
-  double tree_mm3 = 0;
-  for (std::size_t k = 0; k < stack.levels.size(); ++k) {
+  double tree_mm3 = foot_mm3(s, branches.areas[0], first);
+  for (std::size_t k = 1; k < stack.levels.size(); ++k) {
     stop_if_asked();
     for (const Region& region : branches.areas[k])
       tree_mm3 += walls_mm2(s, region, line) * to_mm(stack.levels[k].height);
   }
-  // Either has a roof, which on a branch takes the place of nothing, and on a column that of what fills it.
-  const double roof = s.support_roof_enable ? to_mm(s.support_roof_height) * s.support_infill_rate / 100 : 0;
+  // Either has a roof. On a column it takes the place of what fills it; on branches most of its lowest level is free.
+  constexpr double joists = 0.2;
+  const double roof =
+      s.support_roof_enable && s.support_roof_height > 0
+          ? to_mm(s.support_roof_height) * s.support_infill_rate / 100 - (1 - joists) * to_mm(object.nozzle) / 2
+          : 0;
   for (const auto& regions : contacts)
     for (const Region& region : regions) columns_mm3[patch_of(region)] -= area_mm2(region) * roof;
   // Branches that meet are shared: each tip pays by its height.
