@@ -103,6 +103,7 @@ Roofs::OfLevel Roofs::of_level(std::size_t level, const KeepOut& keep_out) const
   if (!lowest_[level].empty()) {
     const Regions lowest = geometry::unite(lowest_[level]);
     open = geometry::opening(lowest, narrow / 2);
+    if (!open.empty()) open = geometry::intersect(lowest, grown(open, narrow / 4));  // with its corners
     append(dense, open.empty() ? lowest : geometry::opening(geometry::subtract(lowest, grown(open, 50)), 20));
   }
   OfLevel out;
