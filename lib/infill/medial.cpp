@@ -162,9 +162,12 @@ void fill_medial(const Region& region, const SparseStyle& style, Beads& beads) {
   const Between between(region, spacing);
   if (!between.any()) return;
   const double count = std::max(1.0, std::round(between.depth() / spacing));
+  // in sharp corners walls and axis are nearer than a line is wide
+  constexpr double nearest_wall = 0.35;  // bands
+  const Regions room = geometry::offset({region}, {.by = -rounded(nearest_wall * style.band)});
   std::vector<Regions> levels;
   for (int k = 0; k < static_cast<int>(count); ++k) {
-    Regions level = geometry::intersect(between.beyond((k + 0.5) / count), {region});
+    Regions level = geometry::intersect(between.beyond((k + 0.5) / count), room);
     if (level.empty()) break;
     levels.push_back(std::move(level));
   }

@@ -104,6 +104,7 @@ class Web {
   std::uint32_t gap_of_loop(std::uint32_t end) const;
   std::uint32_t other_end_of_path(std::uint32_t end) const;
   std::uint32_t beside(std::uint32_t end, bool after) const;
+  std::vector<Place> way_of(std::uint32_t end) const;
   bool crosses_a_line(const std::vector<Place>& way, std::uint32_t a, std::uint32_t b) const;
   void join_far(double longest, double most_more);
   void anchor(double length);

@@ -61,7 +61,7 @@ bool Web::merge_at(std::uint32_t x, std::uint32_t y, std::uint32_t gap, double l
   // x at its own gap: there is nothing to close
   if (done && x2 != nobody) done = try_join(gap, closed(gap), longest);
   if (done && y2 != nobody) done = try_join(other_gap, closed(other_gap), longest);
-  if (done) return true;
+  if (done && !crosses_a_line(way_of(after ? x : y), x / 2, y / 2)) return true;
   for (Kept& k : kept) joint_[k.end] = nobody;
   for (Kept& k : kept) joint_[k.end] = k.joint, pull_[k.end] = k.pull, arc_[k.end] = std::move(k.arc);
   find_sets();
@@ -107,6 +107,14 @@ void Web::merge_loops(double longest) {
   }
 }
 
+/// Of the joint that was made from that end, with both its ends.
+std::vector<Place> Web::way_of(std::uint32_t end) const {
+  std::vector<Place> way{pulled(end)};
+  way.insert(way.end(), arc_[end].begin(), arc_[end].end());
+  way.push_back(pulled(joint_[end]));
+  return way;
+}
+
 /// Whether a way along the edge meets a line that comes near the edge without ending there. Its own two lines end it.
 bool Web::crosses_a_line(const std::vector<Place>& way, std::uint32_t a, std::uint32_t b) const {
   const auto turn = [](Place p, Place q, Place r) { return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x); };
@@ -145,9 +153,7 @@ void Web::join_far(double longest, double most_more) {
     if (joint_[pair.a] != nobody || joint_[pair.b] != nobody) continue;
     stop_if_asked();
     if (!try_join(pair.a, pair.b, std::min(longest, most_more))) continue;
-    std::vector<Place> way{pulled(pair.a)};
-    way.insert(way.end(), arc_[pair.a].begin(), arc_[pair.a].end());
-    way.push_back(pulled(pair.b));
+    const std::vector<Place> way = way_of(pair.a);
     if (crosses_a_line(way, pair.a / 2, pair.b / 2)) {
       part(pair.a);
       find_sets();
