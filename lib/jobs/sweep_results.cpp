@@ -22,8 +22,9 @@ double strength_estimate(const Record& record, const Settings& settings) {
   const double density = settings.infill.infill_sparse_density / 100;
   if (outline_mm3 <= 0) return 0;
   const double room_mm3 = density > 0 ? sparse_mm3 / density : 0;  // where the sparse infill stands
-  // of the plastic's stiffness, as much as Gibson and Ashby leave the pattern: two directions in the plane and one up
-  double bears = std::pow(density, 1.5);
+  const bool stretched = settings.infill.infill_pattern == InfillPattern::triangles;
+  double bears = stretched ? density : std::pow(density, 1.5);
+  // what Gibson and Ashby leave the pattern of the plastic's stiffness: two directions in the plane and one up
   if (const auto infill = report.find("infill"); infill != report.end() && infill->contains("stiffness_percent")) {
     const auto& stiffness = (*infill)["stiffness_percent"];
     bears = (2 * stiffness.value("plane", 0.0) + stiffness.value("z", 0.0)) / 300;

@@ -104,6 +104,9 @@ TEST_CASE("sweep: the strength of a solid is 100 and grows with density") {
   CHECK(at(25, 400, 150) == Approx(40 + 60 * 0.125));
   settings.infill.infill_pattern = InfillPattern::triangles;
   CHECK(at(25, 400, 150) == Approx(40 + 60 * 0.25));
+  // what the report says of the pattern holds: two directions in the plane and one up
+  record.line.insert(1, R"("infill": {"stiffness_percent": {"plane": 9, "z": 30}}, )");
+  CHECK(strength_estimate(record, settings) == Approx(40 + 60 * 0.16));
 }
 
 TEST_CASE("sweep: the page holds its data, whatever stands in it, and asks the network for nothing") {
