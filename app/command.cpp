@@ -3,6 +3,7 @@
 
 #include "pipeline/model_parts.h"
 #include "pipeline/profile_file.h"
+#include "pipeline/project.h"
 #include "pipeline/write_file.h"
 #include "profile/tool_values.h"
 #include "profile_folders.h"
@@ -14,6 +15,7 @@
 #include <array>
 #include <cctype>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <set>
@@ -102,6 +104,27 @@ po::options_description prusaslicer_options(const po::options_description& ours)
   return out;
 }
 
+/// Options that are followed by a word and any number of settings: they become one word, a line each.
+std::vector<std::string> gathered(const std::vector<std::string>& words) {
+  const auto is_setting = [](const std::string& word) {
+    const auto equals = word.find('=');
+    const auto in_key = [](char c) { return c == '_' || c == '.' || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); };
+    return equals != std::string::npos && equals > 0 &&
+           std::all_of(word.begin(), word.begin() + static_cast<std::ptrdiff_t>(equals), in_key);
+  };
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    std::string word = words[i];
+    const auto equals = std::min(word.find('='), word.size());
+    if (const auto option = word.substr(0, equals); option == "--for" || option == "--modifier") {
+      if (equals == word.size() && i + 1 < words.size()) word += "=" + words[++i];
+      while (i + 1 < words.size() && is_setting(words[i + 1])) word += "\n" + words[++i];
+    }
+    out.push_back(std::move(word));
+  }
+  return out;
+}
+
 /// Program_options takes "-90" for an option: a number behind a long option is joined to it. Underscores become dashes.
 std::vector<std::string> normalised(const std::vector<std::string>& words, const po::options_description& settings,
                                     const po::options_description& theirs) {
@@ -141,11 +164,11 @@ E choice(const std::string& option, const std::string& text, std::initializer_li
   throw Error{Error::Kind::usage, fmt::format("'{}' is not one of {}", text, known), option};
 }
 
-std::pair<std::string, std::string> assignment(const std::string& text) {
+std::pair<std::string, std::string> assignment(const std::string& text, const std::string& option = "--set") {
   const auto equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
-    throw Error{Error::Kind::usage, fmt::format("'{}' is not KEY=VALUE", text), "--set",
-                "as in --set layer_height=0.2"};
+    throw Error{Error::Kind::usage, fmt::format("'{}' is not KEY=VALUE", text), option,
+                "as in " + option + (option == "--set" ? "" : " …") + " layer_height=0.2"};
   return {std::string(value::trimmed(text.substr(0, equals))), text.substr(equals + 1)};
 }
 
@@ -219,6 +242,19 @@ ConsoleOptions console_options(const po::variables_map& o) {
 
 }  // namespace
 
+int copies_in(const std::string& text) {
+  int count = 0;
+  try {
+    value::parse(text, Unit::none, count);
+  } catch (const std::invalid_argument&) {
+    throw Error{Error::Kind::usage, fmt::format("'{}' is not N, and not NAME=N", text), "--copies",
+                "as in --copies 4, or --copies lid=4"};
+  }
+  if (count < 1 || count > 10000)
+    throw Error{Error::Kind::usage, fmt::format("{} is outside 1 … 10000", count), "--copies"};
+  return count;
+}
+
 namespace {
 
 /// What an option marks of the model before it.
@@ -226,6 +262,8 @@ std::optional<mesh::MarkKind> mark_of(std::string_view option) {
   if (option == "support-enforcer") return mesh::MarkKind::support_enforcer;
   if (option == "support-blocker") return mesh::MarkKind::support_blocker;
   if (option == "support-mesh") return mesh::MarkKind::support;
+  if (option == "modifier") return mesh::MarkKind::modifier;
+  if (option == "negative") return mesh::MarkKind::negative;
   return std::nullopt;
 }
 
@@ -269,6 +307,59 @@ void apply_setting(Profile& profile, const std::string& key, const std::string& 
   apply_value(profile, key, text, "--set " + key);
 }
 
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> out;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) out.push_back(line);
+  if (out.empty()) out.emplace_back();
+  return out;
+}
+
+/// NAME=…, of which the name may hold `=` itself. @throws Error{usage}
+std::pair<Named, std::string> named_value(const std::string& text, const std::string& option, const char* form) {
+  const auto equals = text.rfind('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+    throw Error{Error::Kind::usage, fmt::format("'{}' is not {}", text, form), option, fmt::format("as in {}", form)};
+  return {Named{text.substr(0, equals), {}, {}}, text.substr(equals + 1)};
+}
+
+ByName::Place place_in(const std::string& text) {
+  constexpr auto form = "NAME=X,Y[,DEG]";
+  const auto [named, rest] = named_value(text, "--place", form);
+  std::vector<double> numbers;
+  std::istringstream in(rest);
+  try {
+    for (std::string number; std::getline(in, number, ',');) value::parse(number, Unit::none, numbers.emplace_back());
+  } catch (const std::invalid_argument&) {
+    numbers.clear();
+  }
+  const auto beyond = [](double v) { return !(std::abs(v) <= 16000); };
+  if (numbers.size() < 2 || numbers.size() > 3 || std::any_of(numbers.begin(), numbers.end(), beyond))
+    throw Error{Error::Kind::usage, fmt::format("'{}' is not {} in mm and degrees", text, form), "--place",
+                "as in --place lid=60,40,90"};
+  return {named, {from_mm(numbers[0]), from_mm(numbers[1])}, numbers.size() > 2 ? numbers[2] : 0.0};
+}
+
+/// What is said of single objects.
+void take_by_name(Command& command, const po::option& option) {
+  if (option.string_key == "place") command.by_name.places.push_back(place_in(option.value.at(0)));
+  if (option.string_key == "copies") {
+    const auto& text = option.value.at(0);
+    if (text.find('=') == std::string::npos) return;
+    const auto [named, count] = named_value(text, "--copies", "NAME=N");
+    command.by_name.copies.push_back({named, copies_in(count)});
+  }
+  if (option.string_key != "for") return;
+  const auto lines = lines_of(option.value.at(0));
+  if (lines.size() < 2)
+    throw Error{Error::Kind::usage, fmt::format("'{}': no setting follows", lines.front()), "--for",
+                "as in --for lid infill_sparse_density=60"};
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const auto [key, text] = assignment(lines[i], "--for");
+    command.by_name.settings.push_back({{lines.front(), {}, {}}, key, text, "--for " + lines.front()});
+  }
+}
+
 /// A word whose place among the others matters: models and their marks, profiles, settings.
 /// @param settings, theirs the options that are weft's and PrusaSlicer's keys
 void take_in_order(Command& command, const po::option& option, const po::options_description& settings,
@@ -276,8 +367,15 @@ void take_in_order(Command& command, const po::option& option, const po::options
   if (const auto kind = mark_of(option.string_key)) {
     if (command.inputs.empty())
       throw Error{Error::Kind::usage, "stands before any model", "--" + option.string_key, "name the model first"};
-    command.marks.push_back({command.inputs.size() - 1, *kind, option.value.at(0)});
+    auto lines = lines_of(option.value.at(0));
+    ModelMark mark{command.inputs.size() - 1, *kind, lines.front()};
+    for (std::size_t i = 1; i < lines.size(); ++i) mark.settings.push_back(assignment(lines[i], "--modifier"));
+    if (*kind == mesh::MarkKind::modifier && mark.settings.empty())
+      throw Error{Error::Kind::usage, fmt::format("'{}' is to modify nothing", lines.front()), "--modifier",
+                  "as in --modifier grip.stl infill_sparse_density=60"};
+    command.marks.push_back(std::move(mark));
   }
+  take_by_name(command, option);
   if (option.string_key == "tool") {
     const auto [number, file] = tool_of(option.value.at(0));
     command.settings.emplace_back(fmt::format("tool.{}.inherits", number), file);
@@ -312,7 +410,7 @@ Command parse_command(const std::vector<std::string>& words, const po::options_d
 
   Command command;
   try {
-    const auto typed = normalised(words, settings, foreign);
+    const auto typed = normalised(gathered(words), settings, foreign);
     const auto style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
     const auto parsed = po::command_line_parser(typed).options(all).positional(positional).style(style).run();
     po::store(parsed, command.options);
@@ -349,6 +447,8 @@ std::string common_help() {
 Profile resolve(const Command& command) {
   Profile profile;
   for (const auto& file : command.profiles) apply_profile(profile, file, command.import);
+  const int plate = command.options.count("plate") ? command.options["plate"].as<int>() : 0;
+  apply_project(profile, command.inputs, command.profiles.empty(), plate, command.import);
   apply_options(profile, command.import);
   for (const auto& [key, text] : command.settings) apply_setting(profile, key, text, command.import);
   check_consistency(profile);

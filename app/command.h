@@ -25,6 +25,7 @@ struct Command {
   ConsoleOptions console;
   bool help = false;
   std::vector<ModelMark> marks;                   ///< --support-enforcer and its like, of the model before them
+  ByName by_name;                                 ///< --for, --place, --copies NAME=N
   boost::program_options::variables_map options;  ///< of the verb
   Files files;                                    ///< that are read, and written
 };
@@ -52,6 +53,9 @@ Profile resolve(const Command& command);
 
 /// Two numbers separated by a comma, mm. @throws Error{usage}
 Point parse_point(const std::string& text, const std::string& option);
+
+/// A number of copies. @throws Error{usage}
+int copies_in(const std::string& text);
 
 /// What is known to be in the way of writing there is told before the work, not after it. @throws Error{file}
 void check_writable(const std::string& destination);

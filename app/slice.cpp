@@ -39,7 +39,19 @@ po::options_description slice_options() {
       "support what lies in this mesh, or in box:x,y,z,x,y,z, of the model before it")(
       "support-blocker", po::value<std::vector<std::string>>()->value_name("FILE"), "support nothing in it")(
       "support-mesh", po::value<std::vector<std::string>>()->value_name("FILE"), "print it as support")(
-      "copies", po::value<int>()->value_name("N")->default_value(1), "N copies, arranged on the bed")(
+      "modifier", po::value<std::vector<std::string>>()->value_name("FILE KEY=VALUE..."),
+      "where this mesh, or box:…, meets the model before it, these settings hold; repeatable")(
+      "negative", po::value<std::vector<std::string>>()->value_name("FILE"),
+      "cut this mesh, or box:…, out of the model before it; repeatable")(
+      "for", po::value<std::vector<std::string>>()->value_name("NAME KEY=VALUE..."),
+      "settings of one object or part, by its name or its file's; repeatable")(
+      "place", po::value<std::vector<std::string>>()->value_name("NAME=X,Y[,DEG]"),
+      "put the middle of an object there, turned; the others are arranged around it; repeatable")(
+      "arrange", po::bool_switch(), "put models close together by their true outlines, not in rows")(
+      "fill", po::bool_switch(), "the same with as many copies as there is room for, of models in turns")(
+      "plate", po::value<int>()->value_name("N"), "which plate of a project of several is printed")(
+      "copies", po::value<std::vector<std::string>>()->value_name("[NAME=]N"),
+      "N copies of each model, or of one object; arranged on the bed; repeatable")(
       "spacing", po::value<double>()->value_name("MM")->default_value(6.0, "6"), "between copies, and between models")(
       "duplicate", po::value<int>()->value_name("N"), "the same")(
       "audit", po::value<std::string>()->value_name("reject|annotate")->default_value("reject"),
@@ -66,7 +78,17 @@ Placement placement_of(const po::variables_map& o) {
     throw Error{Error::Kind::usage, "contradicts --center", "--keep-position", "give one of the two"};
   p.rotate_deg = o["rotate"].as<double>();
   if (!(std::abs(p.rotate_deg) <= 36000)) throw Error{Error::Kind::usage, "must be an angle in degrees", "--rotate"};
-  p.copies = o.count("duplicate") ? o["duplicate"].as<int>() : o["copies"].as<int>();
+  if (o.count("duplicate"))
+    p.copies = o["duplicate"].as<int>();
+  else if (o.count("copies"))
+    for (const auto& text : o["copies"].as<std::vector<std::string>>())
+      if (text.find('=') == std::string::npos) p.copies = copies_in(text);
+  p.arrange = o["arrange"].as<bool>(), p.fill = o["fill"].as<bool>();
+  if (p.keep_position && (p.arrange || p.fill))
+    throw Error{Error::Kind::usage, "contradicts --arrange and --fill", "--keep-position", "give one of them"};
+  if (o.count("plate")) p.plate = o["plate"].as<int>();
+  if (p.plate < 0 || p.plate > 10000 || (o.count("plate") && p.plate < 1))
+    throw Error{Error::Kind::usage, fmt::format("{} is outside 1 … 10000", p.plate), "--plate"};
   if (p.copies < 1 || p.copies > 10000)
     throw Error{Error::Kind::usage, fmt::format("{} is outside 1 … 10000", p.copies), "--copies"};
   const double spacing_mm = o["spacing"].as<double>();
@@ -86,6 +108,7 @@ Job job_of(const Command& command, const Settings& settings) {
   job.settings = settings;
   job.placement = placement_of(command.options);
   job.marks = command.marks;
+  job.by_name = command.by_name;
   job.threads = command.threads;
   job.hash_gcode = command.report.has_value();
   const auto mode = command.options.count("audit") ? command.options["audit"].as<std::string>() : "reject";

@@ -71,10 +71,12 @@ void compare(const Command& command, Console& console) {
     for (const auto& part : model.further) job.models.back() += "+" + typed(part);
   }
   for (const auto& mark : made_of.marks)
-    job.marks.push_back(
-        {mark.model, mark.kind, mark.sha256.empty() ? mark.name : find_model({mark.sha256, mark.name}, named, path)});
+    job.marks.push_back({mark.model, mark.kind,
+                         mark.sha256.empty() ? mark.name : find_model({mark.sha256, mark.name}, named, path),
+                         mark.settings});
   job.settings = std::move(made_of.settings);
   job.placement = made_of.placement;
+  job.by_name = std::move(made_of.by_name);
   job.audit = made_of.audit;
   job.threads = command.threads;
   Report report;

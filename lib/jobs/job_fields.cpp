@@ -43,20 +43,15 @@ audit::Mode mode(const std::string& text) {
   throw std::invalid_argument(fmt::format("'{}' is not one of reject, annotate", text));
 }
 
-std::string placed(const std::string& path, const std::filesystem::path& folder) {
-  const std::filesystem::path p(path);
-  return p.is_absolute() || folder.empty() ? path : (folder / p).string();
-}
-
 /// A model: a file, or several between `+`, each in the folder.
 std::string placed_model(const std::string& typed, const std::filesystem::path& folder) {
-  auto whole = placed(typed, folder);
+  auto whole = path_in(folder, typed);
   std::error_code unknown;
   if (typed.find('+') == std::string::npos || std::filesystem::exists(whole, unknown)) return whole;
   std::string out;
   for (std::size_t begin = 0; begin <= typed.size();) {
     const auto end = std::min(typed.find('+', begin), typed.size());
-    out += (begin == 0 ? "" : "+") + placed(typed.substr(begin, end - begin), folder);
+    out += (begin == 0 ? "" : "+") + path_in(folder, typed.substr(begin, end - begin));
     begin = end + 1;
   }
   return out;
@@ -78,7 +73,7 @@ void add_profiles(JobLine& j, const Values& v, Folder folder) {
 template <mesh::MarkKind kind>
 void add_marks(JobLine& j, const Values& v, Folder folder) {
   for (const auto& source : v)
-    j.marks.push_back({0, kind, source.starts_with("box:") ? source : placed(source, folder)});
+    j.marks.push_back({0, kind, source.starts_with("box:") ? source : path_in(folder, source)});
 }
 constexpr std::array fields{
     Field{"id", false, [](JobLine& j, const Values& v, Folder) { j.id = v[0]; }},
@@ -95,6 +90,11 @@ constexpr std::array fields{
     Field{"support_enforcer", true, add_marks<mesh::MarkKind::support_enforcer>},
     Field{"support_blocker", true, add_marks<mesh::MarkKind::support_blocker>},
     Field{"support_mesh", true, add_marks<mesh::MarkKind::support>},
+    Field{"negative", true, add_marks<mesh::MarkKind::negative>},
+    Field{"arrange", false, [](JobLine& j, const Values& v, Folder) { j.placement.arrange = flag(v[0]); }},
+    Field{"fill", false, [](JobLine& j, const Values& v, Folder) { j.placement.fill = flag(v[0]); }},
+    Field{"plate", false,
+          [](JobLine& j, const Values& v, Folder) { j.placement.plate = static_cast<int>(number(v[0], 1, 10000)); }},
     Field{"copies", false,
           [](JobLine& j, const Values& v, Folder) {
             const double n = number(v[0], 1, 10000);
@@ -108,6 +108,11 @@ constexpr std::array fields{
 };
 
 }  // namespace
+
+std::string path_in(const std::filesystem::path& folder, const std::string& path) {
+  const std::filesystem::path p(path);
+  return p.is_absolute() || folder.empty() ? path : (folder / p).string();
+}
 
 const std::vector<std::string_view>& field_names() {
   static const std::vector<std::string_view> names = [] {

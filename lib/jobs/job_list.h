@@ -23,7 +23,8 @@ struct JobLine {
   std::filesystem::path folder;                               ///< of the list
   std::vector<std::pair<std::string, std::string>> settings;  ///< key and value, in the order given
   Placement placement;
-  std::vector<ModelMark> marks{};  ///< of its first model
+  std::vector<ModelMark> marks{};  ///< where no model is named, of its first one
+  ByName by_name{};
   audit::Mode audit = audit::Mode::reject;
   double timeout_s = 0;  ///< 0: that of the batch
   /// What the job is called or wanted for, by name: weft carries it to every report and reads none of it. Values are
@@ -39,8 +40,10 @@ struct JobList {
 
 /// One JSON object a line: {"id": …, "models": […], "profiles": […], "set": {…}, "output": …}, and where they are
 /// wanted "center": [x, y], "keep_position", "drop", "scale", "rotate", "copies", "spacing", "audit", "timeout" (s),
-/// and the free fields "label", "priority", "due" and "x-…". Blank lines do not count. Models and profiles are relative
-/// to `folder`.
+/// "plate", "arrange", "fill", and the free fields "label", "priority", "due" and "x-…". Blank lines do not count.
+/// Models and profiles are relative to `folder`. A model may be an object: {"file": …} or {"parts": [{"file": …,
+/// "tool": 1, "set": {…}}]}, "tool", "set", "copies", "place": [x, y, degrees], "modifiers": [{"file": …, "set": {…}}],
+/// "negatives": […].
 JobList read_jsonl(std::string_view text, const std::string& path, const std::filesystem::path& folder);
 
 /// A header line with the same names, of which models and profiles are lists separated by `;` (by `,` where
@@ -66,6 +69,9 @@ void complete(JobList& list);
 /// @return false when there is no such field  @throws std::invalid_argument with one clause when the value is not one
 bool set_field(JobLine& job, std::string_view name, const std::vector<std::string>& values,
                const std::filesystem::path& folder);
+
+/// A path of a list as it can be opened from here.
+std::string path_in(const std::filesystem::path& folder, const std::string& path);
 
 /// Whether it is the name of a field that is only carried: label, priority, due, or anything that begins with "x-".
 bool is_free_field(std::string_view name);

@@ -4,6 +4,7 @@
 #include "gcode/writer.h"
 #include "pipeline/model_parts.h"
 #include "pipeline/profile_file.h"
+#include "pipeline/project.h"
 
 #include <map>
 
@@ -51,6 +52,7 @@ Prepared prepare_one(JobLine line, const Common& common, ProfileShelf& shelf) {
   auto files = common.profiles;
   for (const auto& typed : line.profiles) files.push_back(profile_file(typed, line.folder, common.import.folders));
   Profile profile = shelf.of(files, common.import);
+  apply_project(profile, line.models, files.empty(), line.placement.plate, common.import);
   for (const auto& [key, text] : common.settings) apply_value(profile, key, text, "--set " + key);
   for (const auto& [key, text] : line.settings) apply_value(profile, key, text, line.where);
   check_consistency(profile);
@@ -60,10 +62,13 @@ Prepared prepare_one(JobLine line, const Common& common, ProfileShelf& shelf) {
              .settings = profile.settings,
              .placement = line.placement,
              .marks = line.marks,
+             .by_name = line.by_name,
              .audit = line.audit};
   out.notices = profile.notices;
   for (const auto& model : line.models)
     for (const auto& part : pipeline::parts_of(model)) out.read.push_back(part.file);
+  for (const auto& mark : line.marks)
+    if (!mark.source.starts_with("box:")) out.read.push_back(mark.source);
   out.read.insert(out.read.end(), files.begin(), files.end());
   out.read.insert(out.read.end(), profile.parents.begin(), profile.parents.end());
   out.line = std::move(line);

@@ -3,6 +3,8 @@
 #include "settings/catalogue.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <functional>
 #include <set>
 #include <stdexcept>
 
@@ -45,11 +47,108 @@ Json parse_line(std::string_view line) {
   }
 }
 
+void read_set(const Json& set, const std::function<void(std::string key, std::string text)>& take) {
+  if (!set.is_object()) throw std::invalid_argument("set: is not an object of settings");
+  for (const auto& [key, item] : set.items()) take(key, text_of(item));
+}
+
+/// One model of a line, with what is said of it.
+class ModelReader {
+ public:
+  ModelReader(JobLine& job, const std::filesystem::path& folder) : job_(job), folder_(folder) {}
+
+  void read(const Json& json) {
+    if (!json.is_object()) {
+      job_.models.push_back(path_in(folder_, text_of(json)));
+      return;
+    }
+    const Named model{{}, job_.models.size(), {}};
+    job_.models.emplace_back();
+    for (const auto& [name, v] : json.items()) {
+      if (name == "file" || name == "tool") continue;
+      if (name == "parts")
+        parts(v, model);
+      else if (name == "set")
+        set(v, model);
+      else if (name == "copies")
+        job_.by_name.copies.push_back({model, static_cast<int>(number(v, 1, 10000, "copies"))});
+      else if (name == "place")
+        place(v, model);
+      else if (name == "modifiers" || name == "negatives")
+        marks(name, v);
+      else
+        throw std::invalid_argument(fmt::format("models: unknown name '{}'", name));
+    }
+    if (json.contains("file")) job_.models.back() = file_of(json);
+    if (job_.models.back().empty()) throw std::invalid_argument(R"(models: names neither "file" nor "parts")");
+  }
+
+ private:
+  static double number(const Json& v, double least, double most, const char* name) {
+    if (!v.is_number() || !(v.get<double>() >= least && v.get<double>() <= most))
+      throw std::invalid_argument(fmt::format("models: {}: {} is no number of {} … {}", name, v.dump(), least, most));
+    return v.get<double>();
+  }
+  std::string file_of(const Json& json) const {
+    if (!json.is_object() || !json.contains("file")) throw std::invalid_argument(R"(models: a part names no "file")");
+    auto out = path_in(folder_, text_of(json["file"]));
+    if (json.contains("tool")) out += fmt::format("@T{:.0f}", number(json["tool"], 0, 31, "tool"));
+    return out;
+  }
+  void set(const Json& v, const Named& of) {
+    read_set(v, [&](std::string key, std::string text) {
+      job_.by_name.settings.push_back({of, std::move(key), std::move(text), job_.where});
+    });
+  }
+  void parts(const Json& list, const Named& model) {
+    if (!list.is_array() || list.empty()) throw std::invalid_argument("models: parts: is not a list");
+    std::string typed;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      typed += (i == 0 ? "" : "+") + file_of(list[i]);
+      for (const auto& [name, v] : list[i].items())
+        if (name == "set")
+          set(v, {{}, model.model, i});
+        else if (name != "file" && name != "tool")
+          throw std::invalid_argument(fmt::format("models: parts: unknown name '{}'", name));
+    }
+    job_.models.back() = typed;
+  }
+  void place(const Json& v, const Named& of) {
+    if (!v.is_array() || v.size() < 2 || v.size() > 3)
+      throw std::invalid_argument("models: place: is not [x, y, degrees]");
+    const auto at = [&](std::size_t i) { return number(v[i], -16000, 16000, "place"); };
+    job_.by_name.places.push_back({of, {from_mm(at(0)), from_mm(at(1))}, v.size() > 2 ? at(2) : 0.0});
+  }
+  void marks(const std::string& name, const Json& list) {
+    if (!list.is_array()) throw std::invalid_argument(fmt::format("models: {}: is not a list", name));
+    const bool modify = name == "modifiers";
+    for (const auto& item : list) {
+      const auto source = text_of(item.is_object() && item.contains("file") ? item["file"] : item);
+      ModelMark mark{job_.models.size() - 1, modify ? mesh::MarkKind::modifier : mesh::MarkKind::negative,
+                     source.starts_with("box:") ? source : path_in(folder_, source)};
+      if (item.is_object() && item.contains("set"))
+        read_set(item["set"], [&](std::string key, std::string text) {
+          mark.settings.emplace_back(std::move(key), std::move(text));
+        });
+      if (modify && mark.settings.empty()) throw std::invalid_argument(R"(models: a modifier has no "set")");
+      job_.marks.push_back(std::move(mark));
+    }
+  }
+
+  JobLine& job_;
+  const std::filesystem::path& folder_;
+};
+
 void set_all(JobLine& job, const Json& object, const std::filesystem::path& folder) {
   for (const auto& [name, v] : object.items()) {
     if (name == "set") {
-      if (!v.is_object()) throw std::invalid_argument("set: is not an object of settings");
-      for (const auto& [key, item] : v.items()) job.settings.emplace_back(key, text_of(item));
+      read_set(v,
+               [&](std::string key, std::string text) { job.settings.emplace_back(std::move(key), std::move(text)); });
+      continue;
+    }
+    if (name == "models" && v.is_array() &&
+        std::any_of(v.begin(), v.end(), [](const Json& model) { return model.is_object(); })) {
+      for (const auto& model : v) ModelReader(job, folder).read(model);
       continue;
     }
     if (is_free_field(name)) {

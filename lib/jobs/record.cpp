@@ -212,6 +212,7 @@ std::string inputs_hash(const Job& job, FileHashes& files) {
     exact::add(key, std::uint64_t{mark.model});
     exact::add(key, mark.kind);
     exact::add(key, mark.source.starts_with("box:") ? mark.source : files.of(mark.source));
+    for (const auto& [name, text] : mark.settings) exact::add(key, name), exact::add(key, text);
   }
   const auto& p = job.placement;
   exact::add(key, p.centre);
@@ -221,6 +222,10 @@ std::string inputs_hash(const Job& job, FileHashes& files) {
   exact::add(key, p.rotate_deg);
   exact::add(key, Um{p.copies});
   exact::add(key, p.spacing);
+  exact::add(key, Um{p.plate});
+  exact::add(key, p.arrange);
+  exact::add(key, p.fill);
+  if (!job.by_name.empty()) exact::add(key, text_of(job.by_name));
   for (const auto& word : pipeline::transform_words())
     if (const auto text = word.text(p); !text.empty() && word.key != "scale")
       exact::add(key, fmt::format("{}={}", word.key, text));

@@ -19,18 +19,24 @@ struct Source {
   std::string_view bytes;
   const std::string& path;
   double scale = 1.0;
+  int plate = 0;  ///< as in ReadOptions
 };
 
 struct Body {
   std::string name;
   Mesh mesh;
   std::vector<Mark> marks{};  ///< what is no part of it
+  std::size_t item = 0;       ///< as in Object, where there are items
+  std::vector<ForeignSetting> settings{};
 };
 
 struct Contents {
   std::vector<Body> bodies;
   std::string unit = "millimeter";
   Notices notices;  ///< what of the file was left out
+  Author author = Author::unknown;
+  std::vector<ItemOfFile> items{};  ///< empty: each body is one
+  std::vector<PlateOfFile> plates{};
 };
 
 /// More than this is refused: sides and vertices are counted in 32 bits, and a file may ask for endless copies.

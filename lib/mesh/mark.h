@@ -3,8 +3,11 @@
 #include "mesh/mesh.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace weft::mesh {
 
@@ -25,11 +28,24 @@ inline constexpr std::array mark_names{
     MarkName{MarkKind::support, "support", "", ""},
 };
 
+/// A setting of a volume, in the words of the program that wrote the file.
+struct ForeignSetting {
+  std::string key, value;
+  friend bool operator==(const ForeignSetting&, const ForeignSetting&) = default;
+};
+
+/// Whose words the settings of a file are.
+enum class Author : std::uint8_t { unknown, prusaslicer, orca, cura };
+
 /// A volume that is not printed, or a piece of painted surface: it says something of the part it lies in.
 struct Mark {
   MarkKind kind = MarkKind::modifier;
   bool painted = false;  ///< facets of the part's own surface; enforcers and blockers only
   Mesh mesh;             ///< in the coordinates of its object
+  std::string name{};
+  std::vector<ForeignSetting> settings{};  ///< of a modifier
+  Author author = Author::unknown;         ///< of them; unknown: they are weft's
+  std::size_t after = ~std::size_t{0};     ///< a negative volume cuts so many of the item's parts: those before it
   friend bool operator==(const Mark&, const Mark&) = default;
 };
 

@@ -26,7 +26,7 @@ Eigen::Rotation2Dd::Matrix2 turn(double degrees) {
   return result;
 }
 
-PlacedModel at_origin(Loaded loaded, const PlacementOptions& options, Point3& home) {
+PlacedModel at_origin(Loaded loaded, const PlacementOptions& options, double rotate_deg, Point3& home) {
   PlacedModel model{std::move(loaded.path), {}, {}, {}, {}, {}, {}};
   Box3 in_file;
   for (const Object& object : loaded.objects) in_file.add(box_of(object.mesh));
@@ -34,7 +34,7 @@ PlacedModel at_origin(Loaded loaded, const PlacementOptions& options, Point3& ho
   for (Object& object : loaded.objects) {
     const auto turned_in_place = [&](Mesh mesh) {
       mesh = stretched(std::move(mesh), options.stretch_xy, options.stretch_z, {about.x, about.y, 0});
-      return rotated(std::move(mesh), options.rotate_deg, about);
+      return rotated(std::move(mesh), rotate_deg, about);
     };
     model.objects.push_back(turned_in_place(std::move(object.mesh)));
     for (Mark& mark : object.marks) mark.mesh = turned_in_place(std::move(mark.mesh));
@@ -96,22 +96,49 @@ std::vector<PlacedModel> place(std::vector<Loaded> models, const PlacementOption
   if (options.keep_position && options.copies > 1)
     throw Error(Error::Kind::usage, "copies of one position would lie in each other", "--keep-position",
                 "leave out --copies or --keep-position");
+  const auto own = [&](std::size_t i) { return options.of_model.empty() ? PlacementOfModel{} : options.of_model[i]; };
   std::vector<PlacedModel> placed;
   std::vector<Point3> homes(models.size());
-  for (std::size_t i = 0; i < models.size(); ++i) placed.push_back(at_origin(std::move(models[i]), options, homes[i]));
-  if (options.keep_position) {
-    for (std::size_t i = 0; i < models.size(); ++i) {
+  for (std::size_t i = 0; i < models.size(); ++i)
+    placed.push_back(at_origin(std::move(models[i]), options, options.rotate_deg + own(i).rotate_deg, homes[i]));
+  Plate free = plate;  // without what stands where it is told to
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    if (const auto at = own(i).at) {
+      placed[i].instances = {*at};
+      const Box box = placed[i].box.footprint().grown(options.spacing);
+      free.keep_out.push_back(
+          {box.min + *at, Point{box.max.x, box.min.y} + *at, box.max + *at, Point{box.min.x, box.max.y} + *at});
+    } else if (options.keep_position) {
+      if (own(i).copies > 1)
+        throw Error(Error::Kind::usage, "copies of one position would lie in each other", "--keep-position",
+                    "leave out --copies or --keep-position");
       if (!options.drop) check_stands(placed[i].path, homes[i].z);
       placed[i].instances = {{homes[i].x, homes[i].y}};
     }
+  }
+  if (options.arranger) {
+    std::vector<ToPlace> wanted;
+    std::vector<std::size_t> of_wanted;
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+      if (!placed[i].instances.empty()) continue;
+      wanted.push_back({&placed[i], static_cast<std::size_t>(own(i).copies > 0 ? own(i).copies : options.copies)});
+      of_wanted.push_back(i);
+    }
+    auto places = options.arranger(wanted, free);
+    for (std::size_t k = 0; k < of_wanted.size(); ++k) placed[of_wanted[k]].instances = std::move(places[k]);
     return placed;
   }
-  const auto copies = static_cast<std::size_t>(options.copies);
   std::vector<Item> items;
-  for (const PlacedModel& model : placed)
-    items.insert(items.end(), copies, {model.box.footprint().size(), &model.hull});
-  const Arrangement arrangement = arrange(items, plate, options.center, options.spacing);
-  for (std::size_t i = 0; i < items.size(); ++i) placed[i / copies].instances.push_back(arrangement.at[i]);
+  std::vector<std::size_t> of_item;
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    if (!placed[i].instances.empty()) continue;
+    const int copies = own(i).copies > 0 ? own(i).copies : options.copies;
+    items.insert(items.end(), static_cast<std::size_t>(copies), {placed[i].box.footprint().size(), &placed[i].hull});
+    of_item.resize(items.size(), i);
+  }
+  if (items.empty()) return placed;
+  const Arrangement arrangement = arrange(items, free, options.center, options.spacing);
+  for (std::size_t i = 0; i < items.size(); ++i) placed[of_item[i]].instances.push_back(arrangement.at[i]);
   return placed;
 }
 

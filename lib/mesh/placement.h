@@ -2,6 +2,8 @@
 #pragma once
 #include "mesh/read.h"
 
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +18,22 @@ struct Plate {
   Um height = 0;                 ///< highest that may be printed
 };
 
+/// What one model has of its own.
+struct PlacementOfModel {
+  std::optional<Point> at{};  ///< the middle of its box; none: it is arranged with the others
+  double rotate_deg = 0;      ///< besides that of all models
+  int copies = 0;             ///< 0: as many as of all models. Pre: one, where it has a place
+  friend bool operator==(const PlacementOfModel&, const PlacementOfModel&) = default;
+};
+
+struct PlacedModel;
+
+/// Something to be placed, and how often.
+struct ToPlace {
+  const PlacedModel* model = nullptr;
+  std::size_t copies = 1;
+};
+
 struct PlacementOptions {
   double stretch_xy = 1, stretch_z = 1;  ///< about the middle of each model, and the bed
   double rotate_deg = 0;                 ///< counter-clockwise about a vertical axis through the middle of each model
@@ -24,6 +42,9 @@ struct PlacementOptions {
   std::optional<Point> center{};         ///< of the box of everything; none: the middle of the plate
   int copies = 1;                        ///< of each model, > 0
   Um spacing = 6_mm;                     ///< between the boxes of two models or copies, >= 0
+  std::vector<PlacementOfModel> of_model{};  ///< beside the models; empty: none has anything of its own
+  /// Finds places of its own for models that have none, on what is free; none: rows, or cells of a grid.
+  std::function<std::vector<std::vector<Point>>(std::span<const ToPlace> models, const Plate& free)> arranger{};
 };
 
 /// One file's objects, which keep their places among themselves. The model is sliced once, at its own origin; where its

@@ -80,13 +80,21 @@ Loaded loaded_from(Contents contents, Format format, const std::string& path_as_
   Loaded loaded{.path = path_as_typed, .format = format};
   loaded.unit = std::move(contents.unit);
   loaded.notices = std::move(contents.notices);
+  loaded.author = contents.author;
+  loaded.items = std::move(contents.items);
+  loaded.plates = std::move(contents.plates);
+  const bool bodies_are_items = loaded.items.empty();
   for (Body& body : contents.bodies) {
     stop_if_asked();
     loaded.triangles_in_file += body.mesh.triangles.size();
+    if (bodies_are_items) {
+      body.item = loaded.items.size();
+      loaded.items.push_back({body.name, {}, {}});
+    }
     Repaired repaired = repair(std::move(body.mesh));
     if (!repaired.mesh.triangles.empty())
-      loaded.objects.push_back(
-          {std::move(body.name), std::move(repaired.mesh), repaired.repairs, std::move(body.marks)});
+      loaded.objects.push_back({std::move(body.name), std::move(repaired.mesh), repaired.repairs, std::move(body.marks),
+                                body.item, std::move(body.settings)});
     else
       loaded.notices.push_back({"mesh_object_empty", fmt::format("{}: an object '{}' without a triangle was left out",
                                                                  path_as_typed, body.name)});
@@ -104,7 +112,7 @@ Loaded loaded_from(Contents contents, Format format, const std::string& path_as_
 }  // namespace
 
 Loaded read(std::string_view bytes, const std::string& path_as_typed, const ReadOptions& options) {
-  Source source{without_byte_order_mark(bytes), path_as_typed, options.scale};
+  Source source{without_byte_order_mark(bytes), path_as_typed, options.scale, options.plate};
   const Reader reader = reader_for(source);
   const bool says_unit = reader.format == Format::three_mf;
   if (!says_unit) source.scale *= options.mm_per_unit;
@@ -127,7 +135,8 @@ Loaded read_file(const std::string& path_as_typed, const ReadOptions& options) {
   char bytes[128];
   const std::string_view front(bytes, file.regular() ? file.front(bytes, sizeof bytes) : 0);
   if (!is_binary_stl(front, file.size()) || without_byte_order_mark(front) != front)
-    return read(FileBytes(file).view(), path_as_typed, {.scale = options.scale, .mm_per_unit = options.mm_per_unit});
+    return read(FileBytes(file).view(), path_as_typed,
+                {.scale = options.scale, .mm_per_unit = options.mm_per_unit, .sha256 = {}, .plate = options.plate});
   Sha256 hash;  // of the largest files, which are not needed as a whole
   auto contents = read_binary_stl(file, path_as_typed, options.scale * options.mm_per_unit,
                                   [&](std::string_view block) { hash.add(block); });

@@ -4,6 +4,7 @@
 #include "mesh/mesh.h"
 #include "mesh/repair.h"
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,28 @@ struct Object {
   Mesh mesh;                  ///< welded and repaired, in the coordinates of the file (of the build, for 3MF)
   Repairs repairs;            ///< what was done to it and what is still odd
   std::vector<Mark> marks{};  ///< what of the file is no part of it, but says something of it
+  std::size_t item = 0;       ///< what it is a part of: index into Loaded::items
+  std::vector<ForeignSetting> settings{};  ///< its own, where the item has several parts
+};
+
+/// Settings of the layers whose bottoms lie in [from, to).
+struct RangeOfItem {
+  Um from = 0, to = 0;
+  std::vector<ForeignSetting> settings{};
+};
+
+/// What is printed as one: its objects are its parts, of which the later one wins where they overlap.
+struct ItemOfFile {
+  std::string name{};
+  std::vector<ForeignSetting> settings{};
+  std::vector<RangeOfItem> ranges{};
+};
+
+/// One of the plates of a project.
+struct PlateOfFile {
+  int number = 0;  ///< from 1
+  std::string name{};
+  std::size_t objects = 0;  ///< that stand on it, copies counted
 };
 
 struct Loaded {
@@ -30,6 +53,9 @@ struct Loaded {
   std::size_t triangles_in_file = 0;  ///< before any repair; every copy in a 3MF's build counts
   std::vector<Object> objects{};      ///< not empty, and each has a triangle
   Notices notices{};                  ///< what of the file was left out; repairs are noticed with each object
+  Author author = Author::unknown;
+  std::vector<ItemOfFile> items{};    ///< not empty; an item whose parts were all left out has no object
+  std::vector<PlateOfFile> plates{};  ///< of a project that has them
 };
 
 struct ReadOptions {
@@ -40,11 +66,13 @@ struct ReadOptions {
   double mm_per_unit = 1.0;
   /// Of the bytes, from who knows it; empty: it is found out. Of a file it is not asked.
   std::string sha256{};
+  int plate = 0;  ///< of a project of several plates, the one that is meant, from 1; 0: there is one; -1: all of them
 };
 
 /// The model in `bytes`. Its format is told by its content, never by its name.
 /// Throws: Error::Kind::model, naming the triangle, byte or line, for what is not a model, is damaged (truncated, wrong
 /// count, bad index, not a finite number, beyond ±16 m) or holds nothing to print.
+/// Error::Kind::usage, for a project of several plates of which none is named, or one that it does not have.
 /// Cost: linear.
 Loaded read(std::string_view bytes, const std::string& path_as_typed, const ReadOptions& options = {});
 

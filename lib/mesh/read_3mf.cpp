@@ -5,6 +5,12 @@
 #include "mesh/three_mf.h"
 #include "mesh/weld.h"
 
+#include <algorithm>
+#include <array>
+#include <compare>
+#include <deque>
+#include <optional>
+
 #include <fmt/format.h>
 
 namespace weft::mesh {
@@ -16,6 +22,7 @@ class Build {
   Build(const Source& source, ThreeMf document) : source_(source), document_(std::move(document)) {}
 
   Contents contents() {
+    choose_plate();
     if (document_.items.empty())
       throw Error(Error::Kind::model, "its build holds nothing to print", source_.path, "export the model again");
     Contents contents;
@@ -29,14 +36,55 @@ class Build {
       if (sum > max_triangles)
         refuse(item, fmt::format("the build asks for more than {} triangles and vertices", max_triangles));
     }
-    for (const Reference& item : document_.items) stop_if_asked(), contents.bodies.push_back(body(item));
+    const auto places = places_of_objects();
+    std::vector<Cura> says;
+    for (const Reference& item : document_.items) {
+      stop_if_asked();
+      says.push_back(cura_of(item));
+      const auto* said = said_of(item);
+      ItemOfFile what{object(item).name, said ? said->settings : says.back().settings, {}};
+      if (what.name.empty() && said) what.name = said->name;
+      if (const auto at = places.find(item.object.second); at != places.end())
+        if (const auto ranges = document_.parts.ranges.find(at->second); ranges != document_.parts.ranges.end())
+          what.ranges = ranges->second;
+      contents.items.push_back(std::move(what));
+      for (auto& body : bodies(item, said)) {
+        body.item = contents.items.size() - 1;
+        contents.bodies.push_back(std::move(body));
+      }
+    }
+    lay_beside(says, contents);
     contents.unit = document_.unit;
     contents.notices = std::move(document_.notices);
+    contents.author = document_.parts.author;
+    for (const auto& plate : document_.parts.plates)
+      contents.plates.push_back({plate.number, plate.name, plate.instances.size()});
     return contents;
   }
 
  private:
   static constexpr int deepest = 64;
+
+  /// Of several plates that something stands on, what stands on the one that is meant.
+  void choose_plate() {
+    auto plates = document_.parts.plates;
+    std::erase_if(plates, [](const PlateSaid& plate) { return plate.instances.empty(); });
+    if (source_.plate < 0 || (plates.size() < 2 && source_.plate <= 1)) return;
+    const auto wanted = [&](const PlateSaid& plate) { return plate.number == source_.plate; };
+    const auto chosen = std::find_if(plates.begin(), plates.end(), wanted);
+    if (source_.plate == 0 || chosen == plates.end())
+      throw Error(Error::Kind::usage,
+                  source_.plate == 0 ? fmt::format("{} plates", plates.size())
+                                     : fmt::format("there is no plate {} with something on it", source_.plate),
+                  source_.path,
+                  plates.size() < 2 ? "it has one plate"
+                                    : fmt::format("--plate {} … {}", plates.front().number, plates.back().number));
+    std::map<std::uint32_t, std::uint32_t> seen;  // copies of each object so far
+    std::erase_if(document_.items, [&](const Reference& item) {
+      const std::pair instance(item.object.second, seen[item.object.second]++);
+      return std::find(chosen->instances.begin(), chosen->instances.end(), instance) == chosen->instances.end();
+    });
+  }
 
   const Resource& object(const Reference& reference) const {
     const auto at = document_.objects.find(reference.object);
@@ -56,23 +104,111 @@ class Build {
     return sizes_[reference.object] = size;
   }
 
-  Body body(const Reference& item) {
-    Weld weld(sizes_[item.object] / 2);
-    Body result{object(item).name, {}, {}};
-    marks_.clear();
-    add(item, Eigen::Affine3d(Eigen::Scaling(document_.mm_per_unit * source_.scale)), nullptr, weld,
-        result.mesh.triangles);
-    result.mesh.vertices = weld.take_vertices();
-    for (auto& [name, mark] : marks_) {
-      Mark out{name.first, name.second, {mark.weld.take_vertices(), std::move(mark.triangles)}};
-      drop_degenerate(out.mesh);
-      if (out.kind == MarkKind::modifier)
-        document_.notices.push_back(
-            {"mesh_modifier_left_out",
-             fmt::format("{}: '{}' has modifiers, whose settings have no effect here", source_.path, result.name)});
-      result.marks.push_back(std::move(out));
+  /// What is said of an item's object; of what is a copy of another, what is said of that.
+  const ObjectSaid* said_of(const Reference& item) const {
+    const Reference* at = &item;
+    for (int depth = 0; depth < deepest; ++depth) {
+      if (at->object.first != document_.root) return nullptr;
+      if (const auto* said = document_.parts.of(at->object.second)) return said;
+      const auto& components = object(*at).components;
+      if (components.size() != 1) return nullptr;
+      at = &components.front();
     }
-    return result;
+    return nullptr;
+  }
+
+  /// Ranges of heights go by the place of an object among those with a mesh or with parts.
+  std::map<std::uint32_t, std::uint32_t> places_of_objects() const {
+    std::map<std::uint32_t, std::uint32_t> out;
+    std::uint32_t place = 0;
+    for (const auto& [key, resource] : document_.objects)
+      if (key.first == document_.root && document_.parts.of(key.second)) out[key.second] = ++place;
+    return out;
+  }
+
+  /// Are the item's parts kept apart? Where one has settings of its own, or a negative volume cuts some of them only.
+  static bool keeps_parts(const ObjectSaid* said) {
+    if (!said) return false;
+    std::vector<const VolumeSaid*> volumes;
+    for (const auto& volume : said->volumes) volumes.push_back(&volume);
+    for (const auto& [component, volume] : said->components) volumes.push_back(&volume);
+    const auto is_part = [](const VolumeSaid* volume) { return !volume->kind; };
+    if (std::count_if(volumes.begin(), volumes.end(), is_part) < 2) return false;
+    return std::any_of(volumes.begin(), volumes.end(), [&](const VolumeSaid* volume) {
+      if (is_part(volume)) return !volume->settings.empty();
+      return volume->kind == MarkKind::negative &&
+             std::any_of(volumes.begin(), volumes.end(),
+                         [&](const VolumeSaid* other) { return is_part(other) && other->number > volume->number; });
+    });
+  }
+
+  std::vector<Body> bodies(const Reference& item, const ObjectSaid* said) {
+    marks_.clear(), parts_.clear();
+    apart_ = keeps_parts(said);
+    if (!apart_) parts_.push_back({nullptr, Weld(sizes_[item.object] / 2), {}});
+    add(item, Eigen::Affine3d(Eigen::Scaling(document_.mm_per_unit * source_.scale)), {});
+    if (parts_.empty()) parts_.push_back({nullptr, Weld(64), {}});
+    std::sort(parts_.begin(), parts_.end(),
+              [](const PartInWork& a, const PartInWork& b) { return a.number() < b.number(); });
+    std::vector<Body> out;
+    for (auto& part : parts_) {
+      out.push_back({object(item).name, {part.weld.take_vertices(), std::move(part.triangles)}});
+      if (!part.volume) continue;
+      if (!part.volume->name.empty()) out.back().name = part.volume->name;
+      out.back().settings = part.volume->settings;
+    }
+    for (auto& [key, mark] : marks_) {
+      Mark made{key.kind, key.painted, {mark.weld.take_vertices(), std::move(mark.triangles)}};
+      drop_degenerate(made.mesh);
+      if (mark.volume) {
+        made.name = mark.volume->name;
+        made.settings = mark.volume->settings, made.author = document_.parts.author;
+        const auto before = std::count_if(parts_.begin(), parts_.end(),
+                                          [&](const PartInWork& part) { return part.number() < mark.volume->number; });
+        if (apart_ && key.kind == MarkKind::negative) made.after = static_cast<std::size_t>(before);
+      }
+      out.front().marks.push_back(std::move(made));
+    }
+    return out;
+  }
+
+  /// What Cura says of an item: settings, and whether it is no part of the print.
+  struct Cura {
+    std::optional<MarkKind> kind{};
+    std::vector<ForeignSetting> settings{};
+  };
+  Cura cura_of(const Reference& item) const {
+    struct Row {
+      std::string_view key;
+      MarkKind kind;
+    };
+    constexpr std::array rows{Row{"infill_mesh", MarkKind::modifier}, Row{"cutting_mesh", MarkKind::modifier},
+                              Row{"support_mesh", MarkKind::support},
+                              Row{"anti_overhang_mesh", MarkKind::support_blocker}};
+    constexpr std::array<std::string_view, 6> of_the_scene{"drop_to_buildplate", "print_order", "mesh_order",
+                                                           "infill_mesh_order",  "infill_mesh", "cutting_mesh"};
+    Cura out;
+    for (const auto& setting : object(item).settings) {
+      const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.key == setting.key; });
+      const bool on = setting.value == "True" || setting.value == "true";
+      if (row != rows.end() && on) out.kind = row->kind;
+      if (row == rows.end() && std::find(of_the_scene.begin(), of_the_scene.end(), setting.key) == of_the_scene.end())
+        out.settings.push_back(setting);
+    }
+    return out;
+  }
+
+  /// Cura's meshes that modify or mark lie beside the others: whatever they meet is meant.
+  static void lay_beside(const std::vector<Cura>& says, Contents& contents) {
+    std::vector<Mark> marks;
+    for (const auto& body : contents.bodies)
+      if (const auto& cura = says[body.item]; cura.kind)
+        marks.push_back({*cura.kind, false, body.mesh, body.name, cura.settings, Author::cura});
+    if (marks.empty()) return;
+    std::erase_if(contents.bodies, [&](const Body& body) { return says[body.item].kind.has_value(); });
+    for (std::size_t i = 0; i < contents.bodies.size(); ++i)
+      if (i == 0 || contents.bodies[i].item != contents.bodies[i - 1].item)
+        contents.bodies[i].marks.insert(contents.bodies[i].marks.end(), marks.begin(), marks.end());
   }
 
   /// Corners of a triangle as they are wound in a mirrored object, too.
@@ -87,14 +223,35 @@ class Build {
     return {lattice(mm.x()), lattice(mm.y()), lattice(mm.z())};
   }
 
-  /// One mesh a kind: what it holds may overlap.
+  /// What becomes of triangles: part of the item where it has no kind.
+  struct Belongs {
+    const VolumeSaid* volume = nullptr;
+    std::optional<MarkKind> kind{};
+  };
+  struct PartInWork {
+    const VolumeSaid* volume;
+    Weld weld;
+    std::vector<Triangle> triangles;
+    std::size_t number() const { return volume ? volume->number : 0; }
+  };
+  /// One mesh a kind, and of those that modify or cut one a volume: what it holds may overlap.
+  struct MarkKey {
+    MarkKind kind;
+    bool painted = false;
+    std::size_t volume = 0;
+    auto operator<=>(const MarkKey&) const = default;
+  };
   struct MarkInWork {
     Weld weld{64};
     std::vector<Triangle> triangles;
+    const VolumeSaid* volume = nullptr;
   };
-  void mark(const Resource& resource, const Eigen::Affine3d& transform, const Reference& reference, MarkKind kind,
-            std::size_t t, bool mirrored) {
-    auto& to = marks_[{kind, false}];
+
+  void mark(const Resource& resource, const Eigen::Affine3d& transform, const Reference& reference,
+            const Belongs& belongs, std::size_t t, bool mirrored) {
+    const bool by_volume = *belongs.kind == MarkKind::modifier || *belongs.kind == MarkKind::negative;
+    auto& to = marks_[{*belongs.kind, false, by_volume && belongs.volume ? belongs.volume->number : 0}];
+    if (by_volume) to.volume = belongs.volume;
     Triangle corners;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto v = resource.triangles[t][i];
@@ -105,7 +262,7 @@ class Build {
   void paint(const Resource& resource, const Eigen::Affine3d& transform, const Reference& reference, bool mirrored) {
     for (const auto& facet : resource.painted) {
       auto& to =
-          marks_[{facet.paint == Paint::enforcer ? MarkKind::support_enforcer : MarkKind::support_blocker, true}];
+          marks_[{facet.paint == Paint::enforcer ? MarkKind::support_enforcer : MarkKind::support_blocker, true, 0}];
       Triangle corners;
       for (std::size_t i = 0; i < 3; ++i)
         corners[i] = to.weld.index(placed(transform * facet.corners[i], reference, 0));
@@ -113,13 +270,24 @@ class Build {
     }
   }
 
-  /// @param kind of all of it; null: it is part of the object
-  void add(const Reference& reference, const Eigen::Affine3d& outer, const MarkKind* kind, Weld& weld,
-           std::vector<Triangle>& triangles) {
+  PartInWork& part_of(const VolumeSaid* volume) {
+    if (!apart_) volume = nullptr;
+    for (auto& part : parts_)
+      if (part.volume == volume) return part;
+    return parts_.emplace_back(PartInWork{volume, Weld(64), {}});
+  }
+
+  bool is_divided(const ObjectSaid& said) const {
+    return !said.volumes.empty() &&
+           (apart_ || std::any_of(said.volumes.begin(), said.volumes.end(),
+                                  [](const VolumeSaid& volume) { return volume.kind.has_value(); }));
+  }
+
+  /// @param belongs what all of it is, where it is said
+  void add(const Reference& reference, const Eigen::Affine3d& outer, Belongs belongs) {
     const Resource& resource = object(reference);
-    const MarkKind stands = MarkKind::support;
     if (resource.type == "support" || resource.type == "solidsupport") {
-      if (kind == nullptr) kind = &stands;
+      if (!belongs.kind) belongs = {nullptr, MarkKind::support};
     } else if (resource.type != "model" && resource.type != "surface") {
       document_.notices.push_back(
           {"mesh_object_left_out", fmt::format("{}: object {} is of type '{}' and was left out", reference.where,
@@ -129,28 +297,35 @@ class Build {
     const Eigen::Affine3d transform = outer * reference.transform;
     const bool mirrored = transform.linear().determinant() < 0;
     const auto& [part, number] = reference.object;
+    const auto& said = document_.parts;
+    const bool in_root = part == document_.root;
+    const bool divided = in_root && !belongs.kind && said.of(number) && is_divided(*said.of(number));
     std::vector<std::uint32_t> welded(resource.vertices.size(), unwelded);
-    const auto corner = [&](std::uint32_t v) {
-      if (welded[v] == unwelded) welded[v] = weld.index(placed(transform * resource.vertices[v], reference, v));
+    PartInWork* last = nullptr;  // that corners were welded in
+    const auto corner = [&](PartInWork& to, std::uint32_t v) {
+      if (&to != last) std::fill(welded.begin(), welded.end(), unwelded), last = &to;
+      if (welded[v] == unwelded) welded[v] = to.weld.index(placed(transform * resource.vertices[v], reference, v));
       return welded[v];
     };
-    const bool all_of_it = kind == nullptr && document_.parts.ranges.count(number) == 0;
-    if (all_of_it)
-      for (std::uint32_t v = 0; v < welded.size(); ++v) corner(v);
+    if (!belongs.kind && !divided && !resource.vertices.empty())
+      for (std::uint32_t v = 0; v < welded.size(); ++v) corner(part_of(belongs.volume), v);
     for (std::size_t t = 0; t < resource.triangles.size(); ++t) {
-      const MarkKind* of = kind == nullptr && part == document_.root ? document_.parts.of_triangle(number, t) : kind;
-      if (of != nullptr) {
-        mark(resource, transform, reference, *of, t, mirrored);
+      Belongs own = belongs;
+      if (divided)
+        if (const auto* volume = said.of_triangle(number, t)) own = {volume, volume->kind};
+      if (own.kind) {
+        mark(resource, transform, reference, own, t, mirrored);
         continue;
       }
+      auto& to = part_of(own.volume);
       const auto& [a, b, c] = resource.triangles[t];
-      triangles.push_back(wound({corner(a), corner(b), corner(c)}, mirrored));
+      const std::uint32_t i = corner(to, a), j = corner(to, b), k = corner(to, c);
+      to.triangles.push_back(wound({i, j, k}, mirrored));
     }
-    if (kind == nullptr) paint(resource, transform, reference, mirrored);
+    if (!belongs.kind) paint(resource, transform, reference, mirrored);
     for (const Reference& component : resource.components) {
-      const MarkKind* of =
-          part == document_.root ? document_.parts.of_component(number, component.object.second) : nullptr;
-      add(component, transform, kind != nullptr ? kind : of, weld, triangles);
+      const auto* volume = in_root && !belongs.kind ? said.of_component(number, component.object.second) : nullptr;
+      add(component, transform, volume ? Belongs{volume, volume->kind} : belongs);
     }
   }
 
@@ -163,7 +338,9 @@ class Build {
   ThreeMf document_;
   std::map<ObjectKey, std::size_t> sizes_;
   static constexpr std::uint32_t unwelded = ~std::uint32_t{0};
-  std::map<std::pair<MarkKind, bool>, MarkInWork> marks_;  ///< of the body in work; the flag: painted
+  std::map<MarkKey, MarkInWork> marks_;  ///< of the item in work
+  std::deque<PartInWork> parts_;         ///< of it; references stay
+  bool apart_ = false;                   ///< whether its parts are kept apart
 };
 
 }  // namespace

@@ -35,6 +35,9 @@ constexpr std::array<Unit, 6> units = {
 /// PrusaSlicer's namespace is an address, and the attribute of what is painted for support in it.
 constexpr std::string_view painted_by_prusaslicer = "http://schemas.slic3r.org/3mf/2017/06|custom_supports";
 
+/// What Cura's settings of an object are called in its metadata.
+constexpr std::string_view of_cura = "cura:";
+
 std::string part_name(std::string_view target) {
   while (target.starts_with('/')) target.remove_prefix(1);
   return std::string(target);
@@ -54,7 +57,12 @@ class ModelPart {
     parse_xml(archive, part_, path_,
               {.start = [this](auto name, const auto& attributes, auto line) { start(name, attributes, line); },
                .end = [this](auto name) { end(name); },
-               .prefix = [this](auto prefix, auto uri) { prefixes_[std::string(prefix)] = uri; }});
+               .prefix = [this](auto prefix, auto uri) { prefixes_[std::string(prefix)] = uri; },
+               .text_in = "metadata",
+               .text =
+                   [this](auto piece) {
+                     if (!setting_.empty()) object_->settings.back().value += piece;
+                   }});
   }
 
  private:
@@ -79,9 +87,14 @@ class ModelPart {
       object_->components.push_back(reference(attributes));
     else if (name == "item" && root_)
       item(attributes);
+    else if (name == "metadata" && object_ && attributes.find("name").value_or("").starts_with(of_cura)) {
+      setting_ = attributes.find("name")->substr(of_cura.size());
+      object_->settings.push_back({setting_, {}});
+    }
   }
 
   void end(std::string_view name) {
+    if (local(name) == "metadata") setting_.clear();
     if (local(name) == "object" && name.starts_with(core_)) object_ = nullptr;
   }
 
@@ -210,6 +223,7 @@ class ModelPart {
   std::map<std::string, std::string> prefixes_;
   Resource* object_ = nullptr;  ///< that we are in
   std::uint32_t object_id_ = 0;
+  std::string setting_;  ///< that we are in
   std::size_t line_ = 0;
 };
 
@@ -247,6 +261,9 @@ ThreeMf parse_3mf(Archive& archive, const std::string& path) {
   for (const std::string& part : others) ModelPart(document, part, path, false).parse(archive);
   document.root = root;
   document.parts = parts_of(archive, path);
+  if (std::any_of(document.objects.begin(), document.objects.end(),
+                  [](const auto& object) { return !object.second.settings.empty(); }))
+    document.parts.author = Author::cura;
   return document;
 }
 

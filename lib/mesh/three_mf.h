@@ -32,7 +32,8 @@ struct Resource {
   std::vector<Eigen::Vector3d> vertices;  ///< in the file's unit
   std::vector<Triangle> triangles;        ///< indices are checked
   std::vector<Reference> components;
-  std::vector<PaintedFacet> painted;  ///< for support, in the file's unit
+  std::vector<PaintedFacet> painted;     ///< for support, in the file's unit
+  std::vector<ForeignSetting> settings;  ///< Cura's: metadata whose name begins with `cura:`
 };
 
 struct ThreeMf {

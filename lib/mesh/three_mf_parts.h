@@ -2,31 +2,54 @@
 #pragma once
 #include "mesh/archive.h"
 #include "mesh/mark.h"
+#include "mesh/read.h"
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+/// What slicers say beside the model of a 3MF: which volumes objects are made of, and what holds for them.
+/// Sources: the files that PrusaSlicer 2.5 … 2.9, OrcaSlicer and BambuStudio write.
 namespace weft::mesh {
 
-/// What slicers say beside the model of the volumes that an object is made of: which of them are no parts.
-struct ThreeMfParts {
-  /// PrusaSlicer: triangles [first, last] of an object.
-  struct Range {
-    std::uint32_t first = 0, last = 0;
-    MarkKind kind = MarkKind::modifier;
-  };
-  std::map<std::uint32_t, std::vector<Range>> ranges;  ///< by the object's id
-  /// OrcaSlicer and BambuStudio: components of an object, by the id of the object that they name.
-  std::map<std::uint32_t, std::map<std::uint32_t, MarkKind>> components;  ///< by the object's id
-
-  /// The kind of triangle `t` of that object; null when it is part of it.
-  const MarkKind* of_triangle(std::uint32_t object, std::size_t t) const;
-  const MarkKind* of_component(std::uint32_t object, std::uint32_t component) const;
+struct VolumeSaid {
+  std::uint32_t first = 0, last = 0;  ///< PrusaSlicer's: triangles of the object
+  std::size_t number = 0;             ///< its place among the object's volumes
+  std::optional<MarkKind> kind{};     ///< none: it is a part
+  std::string name{};
+  std::vector<ForeignSetting> settings{};
 };
 
-/// Reads `Metadata/Slic3r_PE_model.config` and `Metadata/model_settings.config`, where they are.
+struct ObjectSaid {
+  std::string name{};
+  std::vector<ForeignSetting> settings{};
+  std::vector<VolumeSaid> volumes{};                 ///< PrusaSlicer's
+  std::map<std::uint32_t, VolumeSaid> components{};  ///< OrcaSlicer's, by the id of the object that they name
+};
+
+/// A plate of a project: which instances of which objects stand on it.
+struct PlateSaid {
+  int number = 0;
+  std::string name{};
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> instances{};  ///< id of an object, and of which of its copies
+};
+
+struct ThreeMfParts {
+  Author author = Author::unknown;
+  std::map<std::uint32_t, ObjectSaid> objects{};               ///< by id
+  std::map<std::uint32_t, std::vector<RangeOfItem>> ranges{};  ///< by the object's place among objects, from 1
+  std::vector<PlateSaid> plates{};
+
+  const ObjectSaid* of(std::uint32_t object) const;
+  /// The volume of triangle `t` of that object; null where nothing is said of it.
+  const VolumeSaid* of_triangle(std::uint32_t object, std::size_t t) const;
+  const VolumeSaid* of_component(std::uint32_t object, std::uint32_t component) const;
+};
+
+/// Reads `Metadata/Slic3r_PE_model.config`, `Metadata/model_settings.config` and the ranges of heights, where they are.
 /// Throws: Error::Kind::model.
 ThreeMfParts parts_of(Archive& archive, const std::string& path);
 

@@ -21,6 +21,7 @@ struct State {
   std::size_t depth = 0;
   std::exception_ptr thrown{};
 
+  bool is_of_text(std::string_view name) const { return name.substr(name.rfind('|') + 1) == events.text_in; }
   std::size_t line() const { return XML_GetCurrentLineNumber(parser); }
   Error error(std::string what, std::string hint) const {
     return {Error::Kind::model, std::move(what), fmt::format("{}:{}", where, line()), std::move(hint)};
@@ -39,16 +40,22 @@ void guarded(void* data, F f) noexcept {
   }
 }
 
+void XMLCALL on_text(void* data, const XML_Char* piece, int size) {
+  guarded(data, [&](State& state) { state.events.text({piece, static_cast<std::size_t>(size)}); });
+}
+
 void XMLCALL on_start(void* data, const XML_Char* name, const XML_Char** attributes) {
   guarded(data, [&](State& state) {
     if (++state.depth > deepest) throw state.error("XML nested too deeply", "no model is: do not trust the file");
     if (state.events.start) state.events.start(name, XmlAttributes(attributes), state.line());
+    if (state.events.text && state.is_of_text(name)) XML_SetCharacterDataHandler(state.parser, on_text);
   });
 }
 
 void XMLCALL on_end(void* data, const XML_Char* name) {
   guarded(data, [&](State& state) {
     --state.depth;
+    if (state.events.text) XML_SetCharacterDataHandler(state.parser, nullptr);
     if (state.events.end) state.events.end(name);
   });
 }

@@ -25,6 +25,8 @@ struct XmlEvents {
   std::function<void(std::string_view name, const XmlAttributes& attributes, std::size_t line)> start;
   std::function<void(std::string_view name)> end;
   std::function<void(std::string_view prefix, std::string_view of_namespace)> prefix;
+  std::string_view text_in{};  ///< of elements that are called so, whatever their namespace, `text` is told the text
+  std::function<void(std::string_view piece)> text{};  ///< in pieces
 };
 
 /// Reads a part of the archive as XML. Throws: Error::Kind::model, naming part and line, for what is no XML, declares a

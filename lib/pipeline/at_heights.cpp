@@ -77,4 +77,27 @@ void pause_before(LayerPlan& layer, const std::vector<Pause>& pauses) {
   put_before(layer, std::move(steps));
 }
 
+std::vector<Um> heights_before(const Timeline& timeline, Um z_offset) {
+  std::vector<Um> out{0};
+  for (const auto& layer : timeline) out.push_back(std::max(out.back(), layer.z + z_offset));
+  return out;
+}
+
+void go_over(const MachineSettings& machine, Um standing, Point3 from, LayerPlan& layer) {
+  constexpr Um clearance = 2000;
+  const auto first = std::find_if(layer.steps.begin(), layer.steps.end(), [](const Step& step) {
+    const auto* bead = std::get_if<Extrude>(&step);
+    return bead != nullptr && !bead->path.empty();
+  });
+  if (first == layer.steps.end()) return;
+  const Point3 to = place_of(std::get<Extrude>(*first), 0, layer.z);
+  const Um over = std::max(from.z, std::min(standing + clearance, reach_z_max(machine)));
+  Travel way;
+  way.path = {{from.x, from.y, over}, {to.x, to.y, over}};
+  std::vector<Step> steps;
+  steps.emplace_back(std::in_place_type<Retract>);
+  steps.emplace_back(std::in_place_type<Travel>, std::move(way));
+  put_before(layer, std::move(steps));
+}
+
 }  // namespace weft::pipeline

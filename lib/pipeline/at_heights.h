@@ -3,6 +3,7 @@
 #include "core/notice.h"
 #include "model/plan.h"
 #include "model/sequence.h"
+#include "settings/groups/machine.h"
 #include "settings/groups/tools.h"
 
 #include <span>
@@ -22,5 +23,12 @@ void put_before(LayerPlan& layer, std::vector<Step> steps);
 
 /// Filament is drawn back, the printer waits.
 void pause_before(LayerPlan& layer, const std::vector<Pause>& pauses);
+
+/// Of each layer, how high what is printed before it reaches.
+std::vector<Um> heights_before(const Timeline& timeline, Um z_offset);
+
+/// One object after the other: up over all that stands, and across, before the way down to the next.
+/// @param from where the nozzle is  @param standing how high what is printed reaches
+void go_over(const MachineSettings& machine, Um standing, Point3 from, LayerPlan& layer);
 
 }  // namespace weft::pipeline

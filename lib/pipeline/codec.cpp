@@ -21,14 +21,28 @@ inline constexpr auto fields<mesh::Repairs> = listed(&mesh::Repairs::degenerate,
                                                      &mesh::Repairs::open_edges, &mesh::Repairs::non_manifold_edges,
                                                      &mesh::Repairs::one_sided_shells);
 template <>
-inline constexpr auto fields<mesh::Mark> = listed(&mesh::Mark::kind, &mesh::Mark::painted, &mesh::Mark::mesh);
+inline constexpr auto fields<mesh::ForeignSetting> = listed(&mesh::ForeignSetting::key, &mesh::ForeignSetting::value);
+template <>
+inline constexpr auto fields<mesh::Mark> = listed(&mesh::Mark::kind, &mesh::Mark::painted, &mesh::Mark::mesh,
+                                                  &mesh::Mark::name, &mesh::Mark::settings, &mesh::Mark::author,
+                                                  &mesh::Mark::after);
 template <>
 inline constexpr auto fields<mesh::Object> = listed(&mesh::Object::name, &mesh::Object::mesh, &mesh::Object::repairs,
-                                                    &mesh::Object::marks);
+                                                    &mesh::Object::marks, &mesh::Object::item, &mesh::Object::settings);
+template <>
+inline constexpr auto fields<mesh::RangeOfItem> = listed(&mesh::RangeOfItem::from, &mesh::RangeOfItem::to,
+                                                         &mesh::RangeOfItem::settings);
+template <>
+inline constexpr auto fields<mesh::ItemOfFile> = listed(&mesh::ItemOfFile::name, &mesh::ItemOfFile::settings,
+                                                        &mesh::ItemOfFile::ranges);
+template <>
+inline constexpr auto fields<mesh::PlateOfFile> = listed(&mesh::PlateOfFile::number, &mesh::PlateOfFile::name,
+                                                         &mesh::PlateOfFile::objects);
 template <>
 inline constexpr auto fields<mesh::Loaded> = listed(&mesh::Loaded::path, &mesh::Loaded::format, &mesh::Loaded::sha256,
                                                     &mesh::Loaded::unit, &mesh::Loaded::triangles_in_file,
-                                                    &mesh::Loaded::objects, &mesh::Loaded::notices);
+                                                    &mesh::Loaded::objects, &mesh::Loaded::notices,
+                                                    &mesh::Loaded::author, &mesh::Loaded::items, &mesh::Loaded::plates);
 template <>
 inline constexpr auto fields<pipeline::FilledLayer> = listed(&pipeline::FilledLayer::top, &pipeline::FilledLayer::skin,
                                                              &pipeline::FilledLayer::sparse,

@@ -18,7 +18,7 @@
 /// before. Of their own version: `codec_version` is part of every key.
 namespace weft::pipeline {
 
-inline constexpr int codec_version = 2;
+inline constexpr int codec_version = 3;
 
 /// What the stages from shells to infill make of a layer.
 struct FilledLayer {

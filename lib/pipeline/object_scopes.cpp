@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,7 +18,7 @@ namespace {
 
 void check_heights(const Object& object, const ObjectScopes& runs, const Scopes& scopes) {
   for (const auto& run : runs)
-    for (const ScopeId id : run.of_volume) {
+    for (const ScopeId id : run.of_mix) {
       const Um height = scopes[id].layers.layer_height, nozzle = scopes[id].machine.nozzle_diameter;
       if (height > nozzle)
         throw Error{Error::Kind::settings,
@@ -42,13 +43,14 @@ ObjectScopes scopes_of(const Object& object, ToolScopes& tools, Scopes& scopes) 
     const bool raft = scopes[id].adhesion.adhesion_type == AdhesionType::raft;
     return raft ? scopes.on_raft(id) : scopes.on_first_layer(id);
   };
+  const auto mixes = mixes_of(object);
   ObjectScopes out;
   for (const Um bottom : heights_of_change(object)) {
     ScopesFrom run{bottom, {}}, first{0, {}};
-    for (const auto& volume : object.volumes) {
-      const auto overlays = overlays_at(object, volume, bottom);
-      run.of_volume.push_back(tools.area(object, overlays, scopes));
-      if (bottom == 0) first.of_volume.push_back(tools.lowest(run.of_volume.back(), lowest));
+    for (const auto& mix : mixes) {
+      const auto overlays = overlays_at(object, object.volumes[mix.part], bottom, mix.modifiers);
+      run.of_mix.push_back(tools.area(object, overlays, scopes));
+      if (bottom == 0) first.of_mix.push_back(tools.lowest(run.of_mix.back(), lowest));
     }
     if (bottom == 0) {  // whatever lies a micron higher is no first layer
       out.push_back(std::move(first));
@@ -70,39 +72,134 @@ std::vector<Areas> areas_of_one(const ObjectScopes& scopes, const std::vector<sl
   std::vector<Areas> out;
   out.reserve(cuts.size());
   for (const auto& cut : cuts)
-    out.push_back({{at(scopes, cut.layer.z - cut.layer.height).of_volume.front(),
+    out.push_back({{at(scopes, cut.layer.z - cut.layer.height).of_mix.front(),
                     static_cast<std::uint32_t>(cut.layer.regions.size())}});
   return out;
 }
 
-std::vector<slice::Cut> united(const ObjectScopes& scopes, const std::vector<const std::vector<slice::Cut>*>& cuts,
-                               std::vector<Areas>& areas) {
+namespace {
+
+/// Regions of a layer that are of one mix.
+struct Piece {
+  std::size_t mix = 0;
+  ScopeId scope = 0;
+  Regions regions;
+};
+
+/// How the volumes of an object make its layers.
+class Union {
+ public:
+  Union(const Object& object, const ObjectScopes& scopes) : object_(object), scopes_(scopes), mixes_(mixes_of(object)) {
+    modified_ = std::any_of(object.volumes.begin(), object.volumes.end(),
+                            [](const Volume& volume) { return volume.kind == VolumeKind::modifier; });
+  }
+
+  /// @param cuts of one layer, beside the volumes; null above a volume
+  std::vector<Piece> pieces(Um bottom, const std::vector<const slice::Cut*>& cuts) const {
+    const auto& scopes = at(scopes_, bottom).of_mix;
+    std::vector<Piece> out;
+    for (std::size_t v = 0, part = 0; v < cuts.size(); ++v) {
+      const auto kind = object_.volumes[v].kind;
+      const std::size_t mix = part;
+      if (kind == VolumeKind::model) ++part;
+      if (!cuts[v]) continue;
+      if (kind == VolumeKind::model) add(mix, scopes[mix], cuts[v]->layer.regions, out);
+      if (kind == VolumeKind::negative)
+        for (auto& piece : out) piece.regions = geometry::subtract(piece.regions, cuts[v]->layer.regions);
+    }
+    for (std::size_t v = 0; v < cuts.size(); ++v)
+      if (object_.volumes[v].kind == VolumeKind::modifier && cuts[v]) modify(v, cuts[v]->layer.regions, scopes, out);
+    if (modified_) join(out);
+    const auto nothing = [](const Piece& piece) { return piece.regions.empty(); };
+    if (std::all_of(out.begin(), out.end(), nothing)) out.resize(std::min<std::size_t>(out.size(), 1));
+    if (out.size() > 1) std::erase_if(out, nothing);
+    return out;
+  }
+
+ private:
+  /// Where it overlaps others it has it. Parts of one scope are one, unless modifiers may tell them apart.
+  void add(std::size_t mix, ScopeId scope, const Regions& regions, std::vector<Piece>& to) const {
+    const auto one = [&](const Piece& other) { return other.scope == scope && !(modified_ && told(other.mix, mix)); };
+    for (auto& other : to)
+      if (!one(other)) other.regions = geometry::subtract(other.regions, regions);
+    const auto same = std::find_if(to.begin(), to.end(), one);
+    if (same == to.end())
+      to.push_back({mix, scope, regions});
+    else
+      same->regions = geometry::unite(same->regions, regions);
+  }
+  /// May modifiers make of two parts what is not the same?
+  bool told(std::size_t a, std::size_t b) const {
+    const auto &x = object_.volumes[mixes_[a].part], &y = object_.volumes[mixes_[b].part];
+    if (!x.said.empty() || !y.said.empty()) return true;
+    for (const auto& mix : mixes_)  // of a part alone none is known where their boxes are apart
+      for (const std::size_t other : {a, b})
+        if (!mix.modifiers.empty() && mix.part == mixes_[other].part &&
+            !index_of({mixes_[other == a ? b : a].part, mix.modifiers}))
+          return true;
+    return false;
+  }
+  std::optional<std::size_t> index_of(const Mix& mix) const {
+    const auto found = std::find(mixes_.begin(), mixes_.end(), mix);
+    return found == mixes_.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - mixes_.begin()));
+  }
+  void modify(std::size_t modifier, const Regions& by, const std::vector<ScopeId>& scopes,
+              std::vector<Piece>& pieces) const {
+    if (by.empty()) return;
+    for (std::size_t i = 0, before = pieces.size(); i < before; ++i) {
+      Mix mix = mixes_[pieces[i].mix];
+      mix.modifiers.push_back(modifier);
+      const auto index = index_of(mix);
+      if (!index) continue;
+      // Where it changes nothing it divides nothing, unless what is said of it by name may hold over another's.
+      if (scopes[*index] == pieces[i].scope && object_.volumes[modifier].said.empty()) continue;
+      Regions inside = geometry::intersect(pieces[i].regions, by);
+      if (inside.empty()) continue;
+      pieces[i].regions = geometry::subtract(pieces[i].regions, by);
+      pieces.push_back({*index, scopes[*index], std::move(inside)});
+    }
+  }
+  /// No two of one scope.
+  static void join(std::vector<Piece>& pieces) {
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+      for (std::size_t k = pieces.size(); --k > i;)
+        if (pieces[k].scope == pieces[i].scope) {
+          pieces[i].regions = geometry::unite(pieces[i].regions, pieces[k].regions);
+          pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(k));
+        }
+  }
+
+  const Object& object_;
+  const ObjectScopes& scopes_;
+  std::vector<Mix> mixes_;
+  bool modified_ = false;
+};
+
+}  // namespace
+
+std::vector<slice::Cut> united(const Object& object, const ObjectScopes& scopes,
+                               const std::vector<const std::vector<slice::Cut>*>& cuts, std::vector<Areas>& areas) {
   std::size_t count = 0;
-  for (const auto* of_volume : cuts) count = std::max(count, of_volume->size());
+  for (std::size_t v = 0; v < cuts.size(); ++v)
+    if (object.volumes[v].kind == VolumeKind::model) count = std::max(count, cuts[v]->size());
+  const Union whole(object, scopes);
   struct Layer {
     slice::Cut cut;
     Areas areas;
   };
   auto layers = tasks::parallel_map(count, [&](std::size_t i) {
     Layer out;
-    std::vector<std::pair<ScopeId, Regions>> parts;  // by scope, in the order of volumes
+    std::vector<const slice::Cut*> own;
     for (std::size_t v = 0; v < cuts.size(); ++v) {
-      if (i >= cuts[v]->size()) continue;
-      const auto& cut = (*cuts[v])[i];
+      own.push_back(i < cuts[v]->size() ? &(*cuts[v])[i] : nullptr);
+      if (!own.back() || object.volumes[v].kind != VolumeKind::model) continue;
+      const auto& cut = *own.back();
       out.cut.layer.z = cut.layer.z, out.cut.layer.height = cut.layer.height;
       out.cut.closed = both(out.cut.closed, cut.closed), out.cut.bridged = both(out.cut.bridged, cut.bridged);
-      const ScopeId scope = at(scopes, cut.layer.z - cut.layer.height).of_volume[v];
-      for (auto& [other, regions] : parts)
-        if (other != scope) regions = geometry::subtract(regions, cut.layer.regions);
-      const auto same = std::find_if(parts.begin(), parts.end(), [&](const auto& part) { return part.first == scope; });
-      if (same == parts.end())
-        parts.emplace_back(scope, cut.layer.regions);
-      else
-        same->second = geometry::unite(same->second, cut.layer.regions);
     }
-    for (auto& [scope, regions] : parts) {
-      out.areas.push_back({scope, static_cast<std::uint32_t>(regions.size())});
-      std::move(regions.begin(), regions.end(), std::back_inserter(out.cut.layer.regions));
+    for (auto& piece : whole.pieces(out.cut.layer.z - out.cut.layer.height, own)) {
+      out.areas.push_back({piece.scope, static_cast<std::uint32_t>(piece.regions.size())});
+      std::move(piece.regions.begin(), piece.regions.end(), std::back_inserter(out.cut.layer.regions));
     }
     return out;
   });

@@ -12,10 +12,10 @@
 /// Which settings hold where in an object: overlays become scopes, and layers get their areas.
 namespace weft::pipeline {
 
-/// From one height on, the scope of each volume.
+/// From one height on, the scope of each part, alone and where modifiers hold.
 struct ScopesFrom {
-  Um bottom = 0;                   ///< of the lowest layer
-  std::vector<ScopeId> of_volume;  ///< beside Object::volumes
+  Um bottom = 0;                ///< of the lowest layer
+  std::vector<ScopeId> of_mix;  ///< beside mixes_of(object)
 };
 
 /// Upwards from the bed. The first is that of the first layer alone.
@@ -28,11 +28,12 @@ ObjectScopes scopes_of(const Object& object, ToolScopes& tools, Scopes& scopes);
 /// What holds for a layer that has its bottom there.
 const ScopesFrom& at(const ObjectScopes& scopes, Um bottom);
 
-/// The layers of several volumes put together: where they overlap the later one has it, and those of one scope are
-/// united. Beside them goes what areas each has.
-/// @param cuts beside the volumes; all at the same heights, each as far up as its volume reaches
-std::vector<slice::Cut> united(const ObjectScopes& scopes, const std::vector<const std::vector<slice::Cut>*>& cuts,
-                               std::vector<Areas>& areas);
+/// The layers of several volumes put together: where parts overlap the later one has it, and those of one scope are
+/// united; negative volumes cut parts before them; modifiers divide what they meet. Beside them goes what areas each
+/// has.
+/// @param cuts beside the object's volumes, all at the same heights
+std::vector<slice::Cut> united(const Object& object, const ObjectScopes& scopes,
+                               const std::vector<const std::vector<slice::Cut>*>& cuts, std::vector<Areas>& areas);
 
 /// The areas of layers of one volume: one each.
 std::vector<Areas> areas_of_one(const ObjectScopes& scopes, const std::vector<slice::Cut>& cuts);

@@ -12,6 +12,7 @@
 #include "pipeline/estimate.h"
 #include "pipeline/give_back.h"
 #include "pipeline/model_parts.h"
+#include "pipeline/one_at_a_time.h"
 #include "pipeline/passes.h"
 #include "pipeline/place_heat.h"
 #include "pipeline/plate.h"
@@ -203,6 +204,23 @@ void keep(const Sample& sample, std::size_t at_least, PrintedLayers& layers) {
     if (!sample.has(i)) layers[i] = {layers[i].z, layers[i].height, {}, {}, {}, {}, {}, {}};
 }
 
+/// In which order copies are printed: all at once, or one after the other.
+Sequence sequence_of(const Settings& settings, const Plate& plate, const std::vector<PrintedLayers>& layers,
+                     const std::vector<SupportOf>& supports) {
+  if (settings.plate.print_sequence == PrintSequence::all_at_once || copies_on(plate) < 2)
+    return by_layer(copies_on(plate));
+  std::vector<Standing> copies;
+  for (std::size_t o = 0; o < plate.objects.size(); ++o)
+    for (std::size_t c = 0; c < plate.objects[o].copies.size(); ++c) {
+      const auto& object = plate.objects[o];
+      const auto name = object.copies.size() == 1 ? object.name : fmt::format("{}_{}", object.name, c + 1);
+      copies.push_back({name, object.copies[c], {&layers[o], &supports[o].layers}, 0});
+      for (const auto* list : copies.back().layers)
+        for (const auto& layer : *list) copies.back().height = std::max(copies.back().height, layer.z);
+    }
+  return one_at_a_time(settings, copies);
+}
+
 /// From the plate to its plan.
 Planned plan(const Job& job, Printing& what, const Running& running, PlanFor use) {
   auto& plate = what.plate;
@@ -223,18 +241,21 @@ Planned plan(const Job& job, Printing& what, const Running& running, PlanFor use
   Box3 box;
   auto supports = rooms_of(scopes, plate);
   for (std::size_t o = 0; o < plate.objects.size(); ++o) {
-    for (const auto& volume : plate.objects[o].volumes) box.add(box_of(volume.mesh));
+    for (const auto& volume : plate.objects[o].volumes)
+      if (volume.kind == VolumeKind::model) box.add(box_of(volume.mesh));
     layers.push_back(print_object(running, scopes, tools, of_object[o], plate.objects[o], supports[o]));
     keep(running.sample, adhesion::layers_needed(job.settings.adhesion), layers.back());
   }
   beside.wait();
+  if (what.sequence.empty()) what.sequence = sequence_of(job.settings, plate, layers, supports);
   for (auto& object : plate.objects)
     for (auto& volume : object.volumes) volume.mesh = {};
   refuse_emptiness(what.name, box, layers);
   give_back_memory();
   begin<Stage::travel>(running.watch);
   auto& report = running.report;
-  out.plate = plan_plate(scopes, tools, plate, what.sequence, std::move(layers), std::move(supports), report, use);
+  out.plate = plan_plate(scopes, tools, plate, what.sequence, std::move(layers), std::move(supports), report,
+                         {use, job.audit == audit::Mode::annotate});
   const auto& plan = out.plate.plan;
   report.layers = plan.layers.size();
   for (const auto& layer : plan.layers)
@@ -269,7 +290,7 @@ std::optional<audit::Passed> print(const Job& job, Printing what, const Watch& w
                   statistics,
                   std::filesystem::path(what.name).stem().string(),
                   {},
-                  provenance_lines(report.models, report.marks, job.placement) + overlay_lines(what.plate),
+                  provenance_lines(report.models, report.marks, job.placement, job.by_name) + overlay_lines(what.plate),
                   std::move(digests),
                   tool_count(job.settings) > 1 ? settings_of_tools(job.settings) : std::vector<Settings>{},
                   std::move(cold_at_start)};
@@ -291,7 +312,8 @@ constexpr std::size_t estimate_stride = 4;
 std::size_t layers_of(const Settings& settings, const Plate& plate) {
   Um height = 0;
   for (const auto& object : plate.objects)
-    for (const auto& volume : object.volumes) height = std::max(height, box_of(volume.mesh).max.z);
+    for (const auto& volume : object.volumes)
+      if (volume.kind == VolumeKind::model) height = std::max(height, box_of(volume.mesh).max.z);
   return static_cast<std::size_t>(height / std::max(settings.layers.layer_height, Um{1}));
 }
 
@@ -326,7 +348,6 @@ auto run_stages(const Job& job, const Watch& watch, Report& report, const Prepar
     const Stopwatch stopwatch(report.timings_ms.total);
     gcode::check_custom_code(job.settings);
     Printing what = prepare();
-    if (what.sequence.empty()) what.sequence = by_layer(copies_on(what.plate));
     report.settings_sha256 = sha256(as_text(job.settings) + overlay_lines(what.plate));
     return end(std::move(what));
   } catch (const Stopped&) {

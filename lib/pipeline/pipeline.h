@@ -4,6 +4,7 @@
 #include "mesh/mark.h"
 #include "mesh/mesh.h"
 #include "model/sequence.h"
+#include "pipeline/by_name.h"
 #include "pipeline/report.h"
 #include "pipeline/stage_cache.h"
 #include "pipeline/write_gcode.h"
@@ -14,6 +15,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace weft {
@@ -50,7 +52,10 @@ struct Placement {
   double scale = 1.0;
   double rotate_deg = 0.0;  ///< about Z, counter-clockwise
   int copies = 1;
-  Um spacing = 6000;  ///< between copies and models
+  Um spacing = 6000;     ///< between copies and models
+  bool arrange = false;  ///< close together, by their true outlines
+  bool fill = false;     ///< the same, with as many copies of each as there is room for
+  int plate = 0;         ///< of projects of several plates, the one that is printed, from 1; 0: they have one
   Transform transform{};
 };
 
@@ -58,7 +63,8 @@ struct Placement {
 struct ModelMark {
   std::size_t model = 0;  ///< index into Job::models, in whose coordinates it is
   mesh::MarkKind kind = mesh::MarkKind::support_enforcer;
-  std::string source;  ///< as typed
+  std::string source;                                           ///< as typed
+  std::vector<std::pair<std::string, std::string>> settings{};  ///< of a modifier: what holds in it
 };
 
 /// Everything a slice depends on: two equal jobs give equal bytes.
@@ -67,6 +73,7 @@ struct Job {
   Settings settings;
   Placement placement;
   std::vector<ModelMark> marks{};
+  ByName by_name{};
   audit::Mode audit = audit::Mode::reject;
   unsigned threads = 0;    ///< 0: all cores. The result does not depend on it
   bool hash_gcode = true;  ///< whether the report is to hold the SHA-256 of the G-code

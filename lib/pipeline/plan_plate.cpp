@@ -9,6 +9,8 @@
 #include "pipeline/at_heights.h"
 #include "pipeline/check.h"
 #include "pipeline/codec.h"
+#include "pipeline/conflicts.h"
+#include "pipeline/labels.h"
 #include "pipeline/ooze_shield.h"
 #include "pipeline/passes.h"
 #include "pipeline/place_heat.h"
@@ -35,21 +37,6 @@ Beads moved(Beads beads, Point by) {
   for (auto& bead : beads)
     for (auto& junction : bead.path) junction.at = junction.at + by;
   return beads;
-}
-
-/// What firmware is told of each copy.
-std::vector<ObjectLabel> labels_of(const Plate& plate) {
-  std::vector<ObjectLabel> out;
-  for (const auto& object : plate.objects) {
-    for (std::size_t copy = 0; copy < object.copies.size(); ++copy) {
-      Ring outline = object.hull;
-      for (auto& p : outline) p = p + object.copies[copy];
-      const Point centre = box_of(outline).centre();
-      out.push_back({object.copies.size() == 1 ? object.name : fmt::format("{}_{}", object.name, copy + 1), centre,
-                     std::move(outline)});
-    }
-  }
-  return out;
 }
 
 /// Where a copy's layers come from. What stands under a copy is a copy of its own, which firmware knows as the same.
@@ -261,16 +248,19 @@ struct MovesOf {
   const ToolScopes& tools;
   const Passes& passes;
   const std::vector<std::vector<Pause>>& pauses;  ///< of each layer
+  std::vector<Um> standing;                       ///< of each layer, how high what is printed before it reaches
   const Vase& vase;
 };
 
-/// Where each pass begins, as far as it is known: after another tool was loaded the nozzle may be anywhere.
-std::vector<std::optional<Point>> starts_of(const MovesOf& of, const std::vector<travel::Ordered>& ordered) {
+/// Where each pass begins, as far as it is known: after another tool was loaded the nozzle may be anywhere,
+/// and the way to the next object is one over all that stands (go_over).
+std::vector<std::optional<Point>> starts_of(const MovesOf& of, const std::vector<travel::Prepared>& prepared,
+                                            const std::vector<travel::Ordered>& ordered) {
   std::vector<std::optional<Point>> from(ordered.size());
   if (!from.empty()) from[0] = start_of(of.scopes[0]);
   for (std::size_t p = 1; p < ordered.size(); ++p) {
     from[p] = ordered[p - 1].end ? ordered[p - 1].end : from[p - 1];
-    if (of.passes.passes[p].changes) from[p].reset();
+    if (of.passes.passes[p].changes || prepared[p].input.time.comes_down) from[p].reset();
   }
   return from;
 }
@@ -313,7 +303,7 @@ std::vector<PackedLayer> plan_moves(const MovesOf& of, std::vector<travel::Prepa
                                     std::vector<travel::Ordered> ordered, Notices& notices, PlanFor use) {
   const auto& scopes = of.scopes;
   const Settings& settings = scopes[0];
-  const auto from = starts_of(of, ordered);
+  const auto from = starts_of(of, prepared, ordered);
   const auto rules = rules_of(scopes);
   const auto strands = strands_of(scopes);
   std::vector<motion::Rules> of_tools;
@@ -348,6 +338,7 @@ std::vector<PackedLayer> plan_moves(const MovesOf& of, std::vector<travel::Prepa
         const auto& passes = of.passes;
         if (of.vase.has(i)) wind(of.vase, i, turns[i], spiral, plan);
         const ToolId loaded = i > 0 ? passes.passes[passes.begin[i] - 1].tool : any_tool;
+        if (plan.time.comes_down && at) go_over(settings.machine, of.standing[i], *at, plan);
         Begun layer{std::move(plan), at, loaded};
         at = motion::start_after(layer.plan, at);
         return layer;
@@ -442,7 +433,8 @@ void give_room(const Settings& settings, std::vector<travel::LayerInput>& inputs
 
 PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, const Sequence& sequence,
                         std::vector<PrintedLayers> layers, std::vector<SupportOf> supports, Report& report,
-                        PlanFor use) {
+                        PlanOptions options) {
+  const PlanFor use = options.use;
   const Stopwatch stopwatch(report.timings_ms[Stage::travel]);
   const Settings& settings = scopes[0];
   const ScopeId on_first_layer = scopes.on_first_layer(0);
@@ -472,6 +464,7 @@ PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, c
   for (auto& notice : check(settings)) plan.notices.push_back(std::move(notice));
   const Vase vase = settings.layers.magic_spiralize ? vase_of(settings, inputs, plan.notices) : Vase{};
   inputs = split(passes, settings, tools, scopes, std::move(inputs));
+  check_conflicts(inputs, plan.objects, settings.plate.conflict_tolerance, options.annotate, report.warnings);
   auto [prepared_passes, linked_passes] = prepared_and_linked(settings.travel, std::move(inputs));
   auto& prepared = prepared_passes;  // clang 14 takes no structured binding into a lambda
   const auto& linked = linked_passes;
@@ -479,8 +472,8 @@ PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, c
       prepared.size(), [&](std::size_t i) { return travel::order(settings.travel, prepared[i], linked[i]); });
   if (report.tours) *report.tours = tours_of(prepared, ordered);
   const auto pauses = pauses_of(settings.tools, timeline, plan.notices);
-  auto planned =
-      plan_moves({scopes, tools, passes, pauses, vase}, std::move(prepared), std::move(ordered), plan.notices, use);
+  auto planned = plan_moves({scopes, tools, passes, pauses, heights_before(timeline, settings.machine.z_offset), vase},
+                            std::move(prepared), std::move(ordered), plan.notices, use);
   out.purge_wanted_mm3 = passes.purged.wanted_mm3;
   tell_slow_ironing(planned, plan.notices);
   std::vector<LayerTimes> times;

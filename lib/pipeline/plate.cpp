@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/plate.h"
 
+#include "core/convex_hull.h"
 #include "core/error.h"
 #include "core/file_bytes.h"
 #include "core/hash.h"
@@ -8,11 +9,14 @@
 #include "mesh/read.h"
 #include "pipeline/cached.h"
 #include "pipeline/model_parts.h"
+#include "pipeline/nest.h"
 #include "pipeline/provenance.h"
 #include "pipeline/stopwatch.h"
 #include "pipeline/transform_models.h"
 #include "pipeline/transform_words.h"
 #include "preview/thumbnail.h"
+#include "profile/foreign_overlay.h"
+#include "settings/head_profile.h"
 #include "settings/value.h"
 #include "tasks/parallel.h"
 
@@ -20,18 +24,28 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
+#include <map>
+#include <optional>
+#include <set>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
 namespace weft::pipeline {
 namespace {
 
+std::string stem_of(const mesh::Loaded& model, std::size_t number, std::size_t count) {
+  const auto stem = std::filesystem::path(model.path).stem().string();
+  return count == 1 ? stem : fmt::format("{}_{}", stem, number + 1);
+}
 std::string name_of(const mesh::Loaded& model, std::size_t object) {
   const auto& own = model.objects[object].name;
-  if (!own.empty()) return own;
-  const auto stem = std::filesystem::path(model.path).stem().string();
-  return model.objects.size() == 1 ? stem : fmt::format("{}_{}", stem, object + 1);
+  return own.empty() ? stem_of(model, object, model.objects.size()) : own;
+}
+std::string name_of_item(const mesh::Loaded& model, std::size_t item) {
+  const auto& own = model.items[item].name;
+  return own.empty() ? stem_of(model, item, model.items.size()) : own;
 }
 
 void note_model(const mesh::Loaded& model, Report& report) {
@@ -57,11 +71,17 @@ mesh::Loaded read_model(const std::string& path, const mesh::ReadOptions& read, 
   return cached(
              cache,
              [&] {
-               return StageKey(row_of<Stage::read>()).with(path).with(hash).with(read.scale).with(read.mm_per_unit);
+               return StageKey(row_of<Stage::read>())
+                   .with(path)
+                   .with(hash)
+                   .with(read.scale)
+                   .with(read.mm_per_unit)
+                   .with(Um{read.plate});
              },
              [&] {
-               return mesh::read(file.view(), path,
-                                 {.scale = read.scale, .mm_per_unit = read.mm_per_unit, .sha256 = hash});
+               auto options = read;
+               options.sha256 = hash;
+               return mesh::read(file.view(), path, options);
              })
       .take();
 }
@@ -69,35 +89,37 @@ mesh::Loaded read_model(const std::string& path, const mesh::ReadOptions& read, 
 Typed read_typed(const std::string& typed, const mesh::ReadOptions& read, StageCache* cache) {
   const auto parts = parts_of(typed);
   Typed out;
+  out.one_object = parts.size() > 1;
   for (const auto& part : parts) {
     auto model = read_model(part.file, read, cache);
+    if (out.one_object)
+      for (auto& object : model.objects) {
+        object.item = 0;
+        if (object.name.empty()) object.name = std::filesystem::path(part.file).stem().string();
+      }
     out.tools.insert(out.tools.end(), model.objects.size(), part.tool);
     if (out.tools.size() == model.objects.size()) {
+      if (out.one_object) model.items.resize(1), model.items.front().name = model.objects.front().name;
       out.model = std::move(model);
       continue;
     }
-    out.one_object = true;
     auto& all = out.model;
     all.sha256 = sha256(all.sha256 + model.sha256);
     all.triangles_in_file += model.triangles_in_file;
     std::move(model.objects.begin(), model.objects.end(), std::back_inserter(all.objects));
     std::move(model.notices.begin(), model.notices.end(), std::back_inserter(all.notices));
   }
-  out.one_object = out.one_object || parts.size() > 1;
   out.model.path = typed;
   return out;
 }
 
 /// The tool that is named behind a model's file holds for that object, or part of one.
-void give_tool(std::optional<int> tool, Overlay& overlay, const std::string& what, Scope scope,
-               const std::string& typed) {
-  if (!tool) return;
-  overlay.what = what, overlay.scope = scope;
-  overlay.add("extruder_nr", std::to_string(*tool), typed);
+void give_tool(std::optional<int> tool, Overlay& overlay, const std::string& typed) {
+  if (tool) overlay.add("extruder_nr", std::to_string(*tool), typed);
 }
 
 /// The eight corners and twelve triangles of a box. @throws Error{usage}
-Mesh box_mesh(const std::string& source, double scale) {
+Mesh box_mesh(const std::string& source, double scale, const std::string& option) {
   std::vector<double> at;
   std::string_view rest = std::string_view(source).substr(4);
   try {
@@ -112,7 +134,7 @@ Mesh box_mesh(const std::string& source, double scale) {
   const auto beyond = [](double v) { return !(std::abs(v) <= 16000); };
   for (double& v : at) v *= scale;
   if (at.size() != 6 || std::any_of(at.begin(), at.end(), beyond))
-    throw Error{Error::Kind::usage, fmt::format("'{}' is not six numbers of mm", source), "--support-enforcer",
+    throw Error{Error::Kind::usage, fmt::format("'{}' is not six numbers of mm", source), option,
                 "as in box:0,0,0,10,10,5: two opposite corners"};
   Mesh out;
   for (std::size_t i = 0; i < 8; ++i) {
@@ -126,40 +148,281 @@ Mesh box_mesh(const std::string& source, double scale) {
   return out;
 }
 
-/// What the command line or a job lays beside a model.
+/// The option that a mark is named with.
+std::string option_of(mesh::MarkKind kind) {
+  std::string out = "--" + std::string(mark_key(kind));
+  std::replace(out.begin(), out.end(), '_', '-');
+  return out;
+}
+
+/// What the command line or a job lays beside a model: beside each object that is printed of it.
 void add_marks(const Job& job, const mesh::ReadOptions& read, std::vector<Typed>& typed, Report& report) {
   for (const auto& mark : job.marks) {
     std::vector<Mesh> meshes;
-    Report::Mark told{mark.model, std::string(mark_key(mark.kind)), mark.source, {}};
+    Report::Mark told{mark.model, std::string(mark_key(mark.kind)), mark.source, {}, mark.settings};
     if (mark.source.starts_with("box:")) {
-      meshes.push_back(box_mesh(mark.source, read.scale * read.mm_per_unit));
+      meshes.push_back(box_mesh(mark.source, read.scale * read.mm_per_unit, option_of(mark.kind)));
     } else {
-      auto file = mesh::read_file(mark.source, read);
+      auto file = mesh::read_file(mark.source, {.scale = read.scale, .mm_per_unit = read.mm_per_unit});
       told.sha256 = file.sha256;
       for (auto& object : file.objects) meshes.push_back(std::move(object.mesh));
     }
     report.marks.push_back(std::move(told));
+    const bool is_box = mark.source.starts_with("box:");
+    mesh::Mark out{mark.kind, false, {}, is_box ? mark.source : std::filesystem::path(mark.source).stem().string()};
+    for (const auto& [key, text] : mark.settings) out.settings.push_back({key, text});
+    std::set<std::size_t> items;
     for (auto& object : typed[mark.model].model.objects)
-      for (const Mesh& mesh : meshes) object.marks.push_back({mark.kind, false, mesh});
+      if (items.insert(object.item).second)
+        for (const Mesh& mesh : meshes) out.mesh = mesh, object.marks.push_back(out);
   }
 }
 
-/// What is to be printed, with the tools that it is printed with, and without meshes.
-Plate plate_of(const std::vector<mesh::Loaded>& loaded, const std::vector<Typed>& typed) {
-  Plate out;
-  for (std::size_t m = 0; m < loaded.size(); ++m) {
-    const auto& model = loaded[m];
-    const auto& [moved, tools, one_object] = typed[m];
-    if (one_object) out.objects.push_back({name_of(model, 0), std::vector<Volume>(model.objects.size())});
-    for (std::size_t i = 0; i < model.objects.size(); ++i) {
-      const auto name = name_of(model, i);
-      if (!one_object) out.objects.push_back({name, {Volume{}}});
-      auto& object = out.objects.back();
-      const auto what = fmt::format("{} '{}'", one_object ? "part" : "object", name);
-      give_tool(tools[i], one_object ? object.volumes[i].overlay : object.overlay, what,
-                one_object ? Scope::region : Scope::object, model.path);
+/// Objects of one model that are placed together.
+struct Together {
+  std::size_t model = 0;
+  std::vector<std::size_t> objects;  ///< of the model
+  mesh::PlacementOfModel own{};
+};
+
+/// Puts what files say of objects on the plate, and makes them findable by name.
+class Builder {
+ public:
+  Builder(const Job& job, std::vector<Typed> typed, Report& report)
+      : job_(job), typed_(std::move(typed)), notices_(report.warnings) {
+    for (std::size_t m = 0; m < typed_.size(); ++m) add(m);
+  }
+
+  /// What is placed: a model each, but for its objects of which something of their own is said.
+  std::vector<Together> together() const {
+    std::vector<Together> out;
+    for (std::size_t m = 0; m < typed_.size(); ++m) {
+      const auto& objects = typed_[m].model.objects;
+      Together rest{m, {}, {}};
+      std::map<std::size_t, Together> alone;  // by item
+      for (std::size_t i = 0; i < objects.size(); ++i) {
+        const std::size_t object = object_of_.at({m, objects[i].item});
+        auto own = own_of(object);
+        if (!own) {
+          rest.objects.push_back(i);
+          continue;
+        }
+        auto& to = alone[objects[i].item];
+        to.model = m, to.own = *own;
+        to.objects.push_back(i);
+      }
+      const auto same = [&](const auto& each) { return each.second.own == alone.begin()->second.own; };
+      if (rest.objects.empty() && !alone.empty() &&
+          std::all_of(alone.begin(), alone.end(), same)) {  // said of the model as a whole
+        Together whole{m, {}, alone.begin()->second.own};
+        for (std::size_t i = 0; i < objects.size(); ++i) whole.objects.push_back(i);
+        out.push_back(std::move(whole));
+        continue;
+      }
+      if (!rest.objects.empty()) out.push_back(std::move(rest));
+      for (auto& [item, each] : alone) out.push_back(std::move(each));
+    }
+    return out;
+  }
+
+  /// The model's objects, for once.
+  mesh::Loaded take(const Together& what) {
+    auto& model = typed_[what.model].model;
+    mesh::Loaded out;
+    out.path = model.path;
+    for (const std::size_t i : what.objects) out.objects.push_back(std::move(model.objects[i]));
+    return out;
+  }
+
+  void put(const Together& what, mesh::PlacedModel placed) {
+    const auto& tools = typed_[what.model].tools;
+    std::map<std::size_t, std::vector<std::size_t>> parts_of;  // by object of the plate: indices into `placed`
+    for (std::size_t k = 0; k < what.objects.size(); ++k)
+      parts_of[object_of_.at({what.model, item_of_[what.model][what.objects[k]]})].push_back(k);
+    for (const auto& [o, parts] : parts_of) {
+      auto& object = plate_.objects[o];
+      for (const std::size_t k : parts) {
+        auto& volume = object.volumes[volume_of_[what.model][what.objects[k]]];
+        volume.mesh = std::move(placed.objects[k]);
+        give_tool(tools[what.objects[k]], typed_[what.model].one_object ? volume.overlay : object.overlay,
+                  typed_[what.model].model.path);
+        for (auto& mark : placed.marks[k]) add_mark(std::move(mark), typed_[what.model].model.path, object);
+      }
+      in_order(object);
+      object.hull = parts.size() == placed.footprints.size() ? placed.hull : hull_of(placed, parts);
+      object.copies = placed.instances;
     }
   }
+
+  Plate take_plate() && {
+    pipeline::lay_by_name(job_.by_name, plate_, origins_);
+    return std::move(plate_);
+  }
+
+ private:
+  void add(std::size_t m) {
+    const auto& model = typed_[m].model;
+    for (const auto& object : model.objects) {
+      const auto [at, is_new] = object_of_.try_emplace({m, object.item}, plate_.objects.size());
+      if (is_new) {
+        plate_.objects.push_back({name_of_item(model, object.item), {}});
+        auto& added = plate_.objects.back();
+        added.overlay = {fmt::format("object '{}'", added.name), Scope::object};
+        const auto& item = model.items[object.item];
+        lay(model, item.settings, added.overlay);
+        for (const auto& range : item.ranges) {
+          added.ranges.push_back(
+              {range.from,
+               range.to,
+               {fmt::format("object '{}', {} … {} mm", added.name, to_mm(range.from), to_mm(range.to)), Scope::layer}});
+          lay(model, range.settings, added.ranges.back().overlay);
+        }
+        origins_.typed.push_back(model.path);
+        origins_.model.push_back(number_of(m));
+      }
+      auto& to = plate_.objects[at->second];
+      Volume part{.name = object.name.empty() ? to.name : object.name, .mesh = {}};
+      part.overlay = {fmt::format("part '{}'", part.name), Scope::region};
+      lay(model, object.settings, part.overlay);
+      item_of_[m].push_back(object.item);
+      volume_of_[m].push_back(to.volumes.size());
+      to.volumes.push_back(std::move(part));
+    }
+  }
+
+  void lay_words(mesh::Author author, const std::vector<mesh::ForeignSetting>& said, const std::string& path,
+                 Overlay& to) {
+    ForeignSettings foreign;
+    foreign.dialect = author == mesh::Author::cura   ? Dialect::cura
+                      : author == mesh::Author::orca ? Dialect::orca
+                                                     : Dialect::prusaslicer;
+    for (const auto& [key, value] : said) foreign.values.emplace_back(key, value);
+    lay_foreign(foreign, job_.settings, std::filesystem::path(path).filename().string(), to, notices_);
+  }
+  void lay(const mesh::Loaded& model, const std::vector<mesh::ForeignSetting>& said, Overlay& to) {
+    if (!said.empty()) lay_words(model.author, said, model.path, to);
+  }
+
+  /// Its place among the models of the job; what comes of a cut or a split is of the model that it comes of.
+  std::size_t number_of(std::size_t m) const {
+    if (typed_.size() == job_.models.size()) return m;
+    const auto at = std::find(job_.models.begin(), job_.models.end(), typed_[m].model.path);
+    return at == job_.models.end() ? 0 : static_cast<std::size_t>(at - job_.models.begin());
+  }
+
+  /// What is said of where an object stands, and how often.
+  std::optional<mesh::PlacementOfModel> own_of(std::size_t object) const {
+    std::optional<mesh::PlacementOfModel> out;
+    for (const auto& place : job_.by_name.places)
+      if (pipeline::means(place.of, plate_, origins_, object)) {
+        if (!out) out.emplace();
+        out->at = place.at, out->rotate_deg = place.rotate_deg, out->copies = 1;
+      }
+    for (const auto& copies : job_.by_name.copies)
+      if (pipeline::means(copies.of, plate_, origins_, object)) {
+        if (!out) out.emplace();
+        if (out->at && copies.count > 1)
+          throw Error{Error::Kind::usage,
+                      fmt::format("'{}' is to stand in one place, {} times", plate_.objects[object].name, copies.count),
+                      "--place", "leave out --copies of it, or its --place"};
+        out->copies = copies.count;
+      }
+    return out;
+  }
+
+  void add_mark(mesh::Mark mark, const std::string& path, Object& object) {
+    if (mark.kind != mesh::MarkKind::modifier && mark.kind != mesh::MarkKind::negative) {
+      object.marks.push_back(std::move(mark));
+      return;
+    }
+    const bool modifies = mark.kind == mesh::MarkKind::modifier;
+    Volume volume{.name = mark.name,
+                  .mesh = std::move(mark.mesh),
+                  .kind = modifies ? VolumeKind::modifier : VolumeKind::negative};
+    volume.overlay = {fmt::format("modifier '{}'", volume.name), Scope::region};
+    if (mark.author == mesh::Author::unknown)
+      for (const auto& [key, text] : mark.settings) volume.overlay.add(key, text, "--modifier " + volume.name);
+    else
+      lay_words(mark.author, mark.settings, path, volume.overlay);
+    later_[&object].push_back({mark.after, std::move(volume)});
+  }
+
+  /// Negative volumes behind the parts that they cut, modifiers behind them all.
+  void in_order(Object& object) {
+    auto& later = later_[&object];
+    std::vector<Volume> out;
+    std::size_t part = 0;
+    const auto negatives_after = [&](std::size_t from, std::size_t to) {
+      for (auto& [after, volume] : later)
+        if (volume.kind == VolumeKind::negative && after >= from && after < to) out.push_back(std::move(volume));
+    };
+    for (auto& volume : object.volumes) {
+      out.push_back(std::move(volume));
+      ++part;
+      if (part < object.volumes.size()) negatives_after(part, part + 1);
+    }
+    negatives_after(part, ~std::size_t{0});
+    for (auto& [after, volume] : later)
+      if (volume.kind == VolumeKind::negative && after == ~std::size_t{0}) out.push_back(std::move(volume));
+    for (auto& [after, volume] : later)
+      if (volume.kind == VolumeKind::modifier) out.push_back(std::move(volume));
+    object.volumes = std::move(out);
+    later_.erase(&object);
+  }
+
+  static Ring hull_of(const mesh::PlacedModel& placed, const std::vector<std::size_t>& parts) {
+    if (parts.size() == 1) return placed.footprints[parts.front()];
+    std::vector<Point> corners;
+    for (const std::size_t k : parts)
+      corners.insert(corners.end(), placed.footprints[k].begin(), placed.footprints[k].end());
+    return convex_hull(std::move(corners));
+  }
+
+  struct Later {
+    std::size_t after;
+    Volume volume;
+  };
+  const Job& job_;
+  std::vector<Typed> typed_;
+  Notices& notices_;
+  Plate plate_;
+  pipeline::Origins origins_;
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> object_of_;  ///< of the plate, by model and item
+  std::map<std::size_t, std::vector<std::size_t>> item_of_, volume_of_;   ///< of each object of a model
+  std::map<const Object*, std::vector<Later>> later_;
+};
+
+/// How far beyond its outline an object needs room for what is printed around it, and for the head where objects are
+/// printed one after the other.
+Um brim_of(const Settings& settings) {
+  const auto& a = settings.adhesion;
+  const bool brim = a.adhesion_type == AdhesionType::brim || a.adhesion_type == AdhesionType::as_set;
+  return brim ? a.brim_width : 0;
+}
+Um head_of(const Settings& settings) {
+  Um out = 0;
+  if (settings.plate.print_sequence == PrintSequence::one_at_a_time)
+    for (const auto& slab : parse_head_profile(settings.plate.machine_head_profile))
+      for (const Point p : slab.outline) out = std::max({out, std::abs(p.x), std::abs(p.y)});
+  return out;
+}
+
+/// Places by true outlines. @throws Error{audit} where not all fit, and are not as many as fit
+std::vector<std::vector<Point>> nested(const Job& job, std::span<const mesh::ToPlace> models, const mesh::Plate& free) {
+  const bool fill = job.placement.fill;
+  std::vector<NestKind> kinds;
+  for (const auto& model : models)
+    kinds.push_back({silhouette_of(model.model->objects), fill && model.copies == 1 ? 0 : model.copies});
+  NestBed bed{free.surface, free.keep_out, job.placement.centre.value_or(weft::box_of(free.surface).centre()),
+              std::max(job.placement.spacing, head_of(job.settings)), brim_of(job.settings)};
+  auto out = nest(kinds, bed);
+  for (std::size_t k = 0; k < models.size(); ++k)
+    if (out[k].size() < std::max<std::size_t>(kinds[k].copies, 1))
+      throw Error{
+          Error::Kind::audit,
+          kinds[k].copies == 0 ? "there is no room for it"
+                               : fmt::format("there is room for {} of {} copies of it", out[k].size(), kinds[k].copies),
+          models[k].model->path, "print fewer, or with less --spacing; --fill prints as many as there is room for"};
   return out;
 }
 
@@ -169,7 +432,8 @@ Plate place_models(const Job& job, Report& report, StageCache* cache) {
   const Stopwatch stopwatch(report.timings_ms[Stage::read]);
   const auto& transform = job.placement.transform;
   const bool turned = transforms(transform);
-  const mesh::ReadOptions read{.scale = job.placement.scale, .mm_per_unit = transform.mm_per_unit};
+  const mesh::ReadOptions read{
+      .scale = job.placement.scale, .mm_per_unit = transform.mm_per_unit, .sha256 = {}, .plate = job.placement.plate};
   auto typed =
       tasks::parallel_map(job.models.size(), [&](std::size_t i) { return read_typed(job.models[i], read, cache); });
   add_marks(job, read, typed, report);
@@ -177,46 +441,32 @@ Plate place_models(const Job& job, Report& report, StageCache* cache) {
   if (turned || transform.mm_per_unit != 1)
     for (auto& model : report.models) tell_transforms(job.placement, model);
   if (turned) typed = transformed(job.settings, job.placement, std::move(typed), report.models);
-  std::vector<mesh::Loaded> loaded;
-  for (auto& each : typed) loaded.push_back(std::move(each.model));
-  Plate out = plate_of(loaded, typed);
-
+  Builder builder(job, std::move(typed), report);
+  auto together = builder.together();
+  mesh::PlacementOptions options{.stretch_xy = job.settings.material.material_shrinkage_percentage_xy / 100,
+                                 .stretch_z = job.settings.material.material_shrinkage_percentage_z / 100,
+                                 .rotate_deg = turned ? 0 : job.placement.rotate_deg,
+                                 .keep_position = job.placement.keep_position,
+                                 .drop = job.placement.drop,
+                                 .center = job.placement.centre,
+                                 .copies = job.placement.copies,
+                                 .spacing = job.placement.spacing};
+  if (job.placement.arrange || job.placement.fill)
+    options.arranger = [&](std::span<const mesh::ToPlace> models, const mesh::Plate& free) {
+      return nested(job, models, free);
+    };
+  std::vector<mesh::Loaded> taken;
+  for (const auto& each : together) {
+    taken.push_back(builder.take(each));
+    options.of_model.push_back(each.own);
+  }
   const auto& machine = job.settings.machine;
   const mesh::Plate bed{print_surface(machine), machine.bed_exclude_areas, height_of(machine)};
-  auto placed = mesh::place(std::move(loaded),
-                            {.stretch_xy = job.settings.material.material_shrinkage_percentage_xy / 100,
-                             .stretch_z = job.settings.material.material_shrinkage_percentage_z / 100,
-                             .rotate_deg = turned ? 0 : job.placement.rotate_deg,
-                             .keep_position = job.placement.keep_position,
-                             .drop = job.placement.drop,
-                             .center = job.placement.centre,
-                             .copies = job.placement.copies,
-                             .spacing = job.placement.spacing},
-                            bed);
+  auto placed = mesh::place(std::move(taken), options, bed);
   // What does not fit is told before an hour of slicing; to annotate, the audit must see it.
   if (job.audit == audit::Mode::reject) mesh::check_fits(placed, bed, job.settings.audit.audit_tolerance);
-
-  auto object = out.objects.begin();
-  for (std::size_t m = 0; m < placed.size(); ++m) {
-    auto& model = placed[m];
-    if (typed[m].one_object) {
-      for (std::size_t i = 0; i < model.objects.size(); ++i) {
-        object->volumes[i].mesh = std::move(model.objects[i]);
-        std::move(model.marks[i].begin(), model.marks[i].end(), std::back_inserter(object->marks));
-      }
-      object->hull = std::move(model.hull);
-      object->copies = model.instances;
-      ++object;
-      continue;
-    }
-    for (std::size_t i = 0; i < model.objects.size(); ++i, ++object) {
-      object->volumes.front().mesh = std::move(model.objects[i]);
-      object->hull = std::move(model.footprints[i]);
-      object->marks = std::move(model.marks[i]);
-      object->copies = model.instances;
-    }
-  }
-  return out;
+  for (std::size_t i = 0; i < placed.size(); ++i) builder.put(together[i], std::move(placed[i]));
+  return std::move(builder).take_plate();
 }
 
 std::vector<gcode::Thumbnail> thumbnails_of(const Settings& settings, const Plate& plate) {
@@ -224,7 +474,8 @@ std::vector<gcode::Thumbnail> thumbnails_of(const Settings& settings, const Plat
   if (sizes.empty() || plate.objects.empty()) return {};
   std::vector<preview::Standing> standing;
   for (const auto& object : plate.objects)
-    for (const auto& volume : object.volumes) standing.push_back({&volume.mesh, object.copies.front()});
+    for (const auto& volume : object.volumes)
+      if (volume.kind == VolumeKind::model) standing.push_back({&volume.mesh, object.copies.front()});
   return tasks::parallel_map(sizes.size(), [&](std::size_t i) {
     const auto size = sizes[i];
     const auto png = preview::thumbnail(standing, {size.width, size.height});

@@ -6,10 +6,12 @@
 #include "model/flow.h"
 #include "overhangs/overhangs.h"
 #include "pipeline/cached.h"
+#include "pipeline/handed_to.h"
 #include "pipeline/infill_figures.h"
 #include "pipeline/key_bytes.h"
 #include "pipeline/object_scopes.h"
 #include "pipeline/prepared_infill.h"
+#include "pipeline/slice_object.h"
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
 #include "pipeline/support_object.h"
@@ -39,45 +41,10 @@ void append(Notices& to, std::vector<PlacedNotice> from, Point offset) {
   }
 }
 
-using Cuts = ResultOf<Stage::slice>;
 using Walls = ResultOf<Stage::walls>;
 using Fills = ResultOf<Stage::infill>;
-
-/// What a stage is handed of the settings that hold somewhere on the plate.
-template <Stage stage>
-using HandedTo = Handed<std::remove_const_t<decltype(RowOf<stage>::reads)>>;
-using SliceHands = HandedTo<Stage::slice>;
 using WallHands = HandedTo<Stage::walls>;
 using FillHands = HandedTo<Stage::infill>;
-template <Stage stage>
-HandedTo<stage> hand(const Scopes& scopes) {
-  return {row_of<stage>().reads, scopes};
-}
-
-/// The key of a stage, with what it is handed for each height and volume, and which volumes share their areas.
-template <Stage stage>
-StageKey key_of(const ObjectScopes& scopes, const HandedTo<stage>& handed) {
-  StageKey key(row_of<stage>());
-  key.with(std::uint64_t{scopes.size()});
-  for (const auto& from : scopes) {
-    key.with(from.bottom).with(std::uint64_t{from.of_volume.size()});
-    for (const ScopeId id : from.of_volume) {
-      std::uint64_t first = 0;
-      while (from.of_volume[first] != id) ++first;
-      key.with(first).with(handed.bytes_of(id));
-    }
-  }
-  return key;
-}
-
-StageKey slice_key(const Mesh& mesh, const std::vector<mesh::Mark>& marks, const ObjectScopes& scopes,
-                   const SliceHands& handed) {
-  auto key = key_of<Stage::slice>(scopes, handed);
-  key.with(sha256(bytes_of(mesh)));
-  for (const auto& mark : marks)
-    if (mark.kind == mesh::MarkKind::negative) key.with(sha256(bytes_of(mark.mesh)));
-  return key;
-}
 
 /// What rests on support is printed otherwise than what hangs.
 StageKey with_held(StageKey key, const std::vector<Regions>& held) {
@@ -85,27 +52,6 @@ StageKey with_held(StageKey key, const std::vector<Regions>& held) {
   for (const auto& regions : held) bytes += bytes_of(regions);
   if (!held.empty()) key.with(sha256(bytes));
   return key;
-}
-
-Cuts slice_mesh(const SliceHands& handed, const ObjectScopes& scopes, const Mesh& mesh,
-                const std::vector<mesh::Mark>& marks) {
-  std::vector<slice::HeightFrom> heights;
-  for (const auto& from : scopes) {
-    const auto& [layers] = handed[from.of_volume.front()];
-    heights.push_back({from.bottom, layers.layer_height});
-  }
-  const slice::Cutter cutter(mesh, slice::planes(heights, box_of(mesh).max.z));
-  const auto& [layers] = handed[scopes.front().of_volume.front()];
-  auto cuts = tasks::parallel_map(cutter.size(), [&](std::size_t i) { return cutter.cut(i, layers); });
-  for (const auto& mark : marks) {
-    if (mark.kind != mesh::MarkKind::negative) continue;
-    const slice::Cutter away(mark.mesh, {cutter.planes().begin(), cutter.planes().end()});
-    tasks::for_each_index(cuts.size(), [&](std::size_t i) {
-      const auto hole = away.cut(i, layers).layer.regions;
-      if (!hole.empty()) cuts[i].layer.regions = geometry::subtract(cuts[i].layer.regions, hole);
-    });
-  }
-  return cuts;
 }
 
 /// The scopes of a layer that a stage can tell apart, each with the regions that it holds for.
@@ -426,24 +372,6 @@ PrintedLayers put_together(Cuts cuts, const std::vector<Areas>& areas, Walls wal
   return out;
 }
 
-/// The object's layers, each with its areas.
-Result<Cuts> slice_object(const Running& job, const Object& object, const ObjectScopes& scopes,
-                          const SliceHands& handed, std::vector<Areas>& areas) {
-  std::vector<Result<Cuts>> of_volume;
-  for (const auto& volume : object.volumes)
-    of_volume.push_back(run_stage<Stage::slice>(
-        job, [&] { return slice_key(volume.mesh, object.marks, scopes, handed); },
-        [&] { return slice_mesh(handed, scopes, volume.mesh, object.marks); }));
-  if (of_volume.size() == 1) {
-    areas = areas_of_one(scopes, *of_volume.front());
-    return std::move(of_volume.front());
-  }
-  const Stopwatch stopwatch(job.report.timings_ms[Stage::slice]);
-  std::vector<const Cuts*> cuts;
-  for (const auto& result : of_volume) cuts.push_back(&*result);
-  return Result<Cuts>(united(scopes, cuts, areas));
-}
-
 }  // namespace
 
 PrintedLayers print_object(const Running& job, const Scopes& all_scopes, const ToolScopes& tools,
@@ -455,12 +383,7 @@ PrintedLayers print_object(const Running& job, const Scopes& all_scopes, const T
   auto sliced = slice_object(job, object, scopes, slice_hands, areas);
   append(notices, slice::notices_of(*sliced, object.name), at);
 
-  const auto sliced_by = [&] {
-    std::vector<std::string> out;
-    for (const auto& volume : object.volumes)
-      out.push_back(slice_key(volume.mesh, object.marks, scopes, slice_hands).hash());
-    return out;
-  };
+  const auto sliced_by = [&] { return slice_hashes(object, scopes, slice_hands); };
   support_object(job, all_scopes, scopes, object, *sliced, sliced_by, support);
 
   const auto wall_hands = hand<Stage::walls>(all_scopes);
@@ -483,7 +406,7 @@ PrintedLayers print_object(const Running& job, const Scopes& all_scopes, const T
     auto key = key_of<Stage::infill>(scopes, fill_hands).with(walled_by().hash()).with(files_of_infill(all_scopes, at));
     if (tools.several())
       for (const auto& from : scopes)
-        for (const ScopeId id : from.of_volume) key.with(fill_hands.bytes_of(tools.infill_of(id, all_scopes)));
+        for (const ScopeId id : from.of_mix) key.with(fill_hands.bytes_of(tools.infill_of(id, all_scopes)));
     return key;
   };
   auto filled = run_stage<Stage::infill>(kept, filled_by, [&] {
@@ -493,7 +416,7 @@ PrintedLayers print_object(const Running& job, const Scopes& all_scopes, const T
   auto out = put_together(std::move(sliced).take(), areas, std::move(walled).take(), std::move(filled).take(),
                           support.held, at, notices);
   for (auto& layer : out) tools.tell(layer.beads, all_scopes);
-  if (job.sample.all()) tell_infill(all_scopes[scopes.front().of_volume.front()], out, job.report);
+  if (job.sample.all()) tell_infill(all_scopes[scopes.front().of_mix.front()], out, job.report);
   return out;
 }
 

@@ -23,12 +23,14 @@ struct Provenance {
   struct Mark {
     std::size_t model = 0;  ///< index into `models`
     mesh::MarkKind kind = mesh::MarkKind::support_enforcer;
-    std::string sha256, name;  ///< of the file; of a box only its text, as name
+    std::string sha256, name;                                     ///< of the file; of a box only its text, as name
+    std::vector<std::pair<std::string, std::string>> settings{};  ///< of a modifier
   };
   std::string version;
   std::vector<Model> models;
   std::vector<Mark> marks;
   Placement placement;
+  ByName by_name{};
   Settings settings;
   audit::Mode audit = audit::Mode::reject;
 };
@@ -37,10 +39,12 @@ struct Provenance {
 /// further part of the same object and `; weft_tool = N` after a file that names one; and `; weft_placement = …` where
 /// it is not the default. Settings stand in a block of their own. Marks are `; weft_support_enforcer = NUMBER SHA256
 /// NAME`, or `NUMBER box:…`; the number is that of the model.
+/// `; weft_modifier_set = KEY=VALUE` belongs to the modifier above it; `; weft_objects = JSON` is what is said by name.
 std::string provenance_lines(const std::vector<Report::Model>& models, const std::vector<Report::Mark>& marks,
-                             const Placement& placement);
+                             const Placement& placement, const ByName& by_name = {});
 
-/// How a mark is called in options, jobs and files: support_enforcer, support_blocker, support_mesh.
+/// How a mark is called in options, jobs and files: support_enforcer, support_blocker, support_mesh,
+/// modifier, negative.
 std::string_view mark_key(mesh::MarkKind kind);
 
 /// Reads them back. @param path for messages

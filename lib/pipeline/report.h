@@ -40,11 +40,12 @@ struct Report {
     std::vector<std::string> transforms{};    ///< what was done with it before it was placed, in words
     std::vector<Orientation> orientations{};  ///< the best that were found, best first, where it was to be laid
   };
-  /// What was laid beside a model for support.
+  /// What was laid beside a model: for support, to modify it, to cut it.
   struct Mark {
     std::size_t model = 0;       ///< its place in the list of models
-    std::string kind;            ///< support_enforcer, support_blocker, support_mesh
+    std::string kind;            ///< support_enforcer, support_blocker, support_mesh, modifier, negative
     std::string source, sha256;  ///< a file and what it held, or `box:…` and nothing
+    std::vector<std::pair<std::string, std::string>> settings{};  ///< of a modifier
   };
   struct Feature {
     double mm = 0, mm3 = 0, s = 0;

@@ -57,6 +57,10 @@ struct PlannedPlate {
 
 /// What a plan is for: to be written, or for its figures only.
 enum class PlanFor { writing, figures };
+struct PlanOptions {
+  PlanFor use = PlanFor::writing;
+  bool annotate = false;  ///< what is wrong with it is told, and does not end the job
+};
 
 /// The whole plate as steps: copies put in their places, adhesion around them, order, seams and travels, speeds and
 /// times.
@@ -66,6 +70,6 @@ enum class PlanFor { writing, figures };
 /// @param scopes 0 is the plate's own; its first layer's is added
 PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, const Sequence& sequence,
                         std::vector<PrintedLayers> layers, std::vector<SupportOf> supports, Report& report,
-                        PlanFor use = PlanFor::writing);
+                        PlanOptions options = {});
 
 }  // namespace weft::pipeline

@@ -189,7 +189,7 @@ std::vector<SupportOf> rooms_of(const Scopes& scopes, const Plate& plate) {
 void support_object(const Running& job, const Scopes& all, const ObjectScopes& scopes, const Object& object,
                     const std::vector<slice::Cut>& cuts, const std::function<std::vector<std::string>()>& sliced_by,
                     SupportOf& out) {
-  const ScopeId on_first_layer = scopes.front().of_volume.front();
+  const ScopeId on_first_layer = scopes.front().of_mix.front();
   const ScopeId above = all.above_first_layer(on_first_layer);
   const Settings& settings = all[above];
   if (!supports(settings)) {
@@ -212,7 +212,7 @@ void support_object(const Running& job, const Scopes& all, const ObjectScopes& s
 
 void tell_missing_support(const Running& job, const Scopes& all, const ObjectScopes& scopes, const Object& object,
                           const std::vector<slice::Cut>& cuts, const std::vector<WallLayer>& walls) {
-  const Settings& settings = all[all.above_first_layer(scopes.front().of_volume.front())];
+  const Settings& settings = all[all.above_first_layer(scopes.front().of_mix.front())];
   if (supports(settings)) return;
   const Stopwatch stopwatch(job.report.timings_ms[Stage::support]);
   const auto outlines = outlines_of(settings, cuts);

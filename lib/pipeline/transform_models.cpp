@@ -87,6 +87,7 @@ mesh::Linear map_of(const Settings& settings, const Placement& p, const mesh::Lo
 mesh::Loaded file_of(const mesh::Loaded& model) {
   mesh::Loaded out{.path = model.path, .format = model.format};
   out.sha256 = model.sha256, out.unit = model.unit, out.triangles_in_file = model.triangles_in_file;
+  out.author = model.author, out.items = model.items;
   return out;
 }
 
@@ -113,6 +114,7 @@ void name_parts(Typed& typed, const std::string& what) {
   const auto stem = std::filesystem::path(typed.model.path).stem().string();
   for (auto& object : typed.model.objects)
     object.name = fmt::format("{}_{}", object.name.empty() ? stem : object.name, what);
+  for (auto& item : typed.model.items) item.name = fmt::format("{}_{}", item.name.empty() ? stem : item.name, what);
 }
 
 std::vector<Typed> cut(const Placement& p, Typed typed) {
@@ -141,7 +143,7 @@ std::vector<Typed> split(Typed typed) {
     if (bodies.size() == 1 && typed.model.objects.size() == 1) return {std::move(typed)};
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       Typed one{file_of(typed.model), {typed.tools[i]}, false};
-      one.model.objects.push_back({object.name, std::move(bodies[b]), {}, object.marks});
+      one.model.objects.push_back({object.name, std::move(bodies[b]), {}, object.marks, object.item, object.settings});
       out.push_back(std::move(one));
     }
   }
@@ -151,7 +153,18 @@ std::vector<Typed> split(Typed typed) {
 
 std::vector<Typed> merged(std::vector<Typed> models) {
   Typed out = std::move(models.front());
+  const auto in_one = [](mesh::Loaded& model) {  // what holds for an item holds for each of its parts
+    for (auto& object : model.objects) {
+      const auto& item = model.items[object.item];
+      object.settings.insert(object.settings.begin(), item.settings.begin(), item.settings.end());
+      if (object.name.empty()) object.name = std::filesystem::path(model.path).stem().string();
+      object.item = 0;
+    }
+  };
+  in_one(out.model);
+  out.model.items = {{out.model.objects.front().name, {}, {}}};
   for (std::size_t i = 1; i < models.size(); ++i) {
+    in_one(models[i].model);
     std::move(models[i].model.objects.begin(), models[i].model.objects.end(), std::back_inserter(out.model.objects));
     out.tools.insert(out.tools.end(), models[i].tools.begin(), models[i].tools.end());
   }

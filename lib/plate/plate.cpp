@@ -29,11 +29,12 @@ void check_printable(const Plate& plate) {
       throw Error{Error::Kind::model, fmt::format("object '{}': {}", object.name, what), {}, {}};
     };
     if (object.copies.empty()) refuse("no copy of it stands on the plate");
-    if (object.volumes.empty()) refuse("it has no volumes");
+    const auto is = [](VolumeKind kind) { return [kind](const Volume& volume) { return volume.kind == kind; }; };
+    if (std::none_of(object.volumes.begin(), object.volumes.end(), is(VolumeKind::model)))
+      refuse("it has no part that is printed");
     for (const auto& volume : object.volumes)
-      if (volume.kind != VolumeKind::model)
-        refuse(
-            fmt::format("a {} ('{}') has no effect on a print yet; leave it out", name_of(volume.kind), volume.name));
+      if (volume.kind > VolumeKind::modifier)
+        refuse(fmt::format("a {} ('{}') is a mark, not a volume", name_of(volume.kind), volume.name));
   }
 }
 
@@ -48,6 +49,8 @@ std::string overlay_lines(const Plate& plate) {
     add(object.overlay);
     for (const auto& range : object.ranges) add(range.overlay);
     for (const auto& volume : object.volumes) add(volume.overlay);
+    add(object.said);
+    for (const auto& volume : object.volumes) add(volume.said);
   }
   return out;
 }
@@ -62,11 +65,54 @@ std::vector<Um> heights_of_change(const Object& object) {
   return heights;
 }
 
-std::vector<const Overlay*> overlays_at(const Object& object, const Volume& volume, Um bottom) {
+std::vector<const Overlay*> overlays_at(const Object& object, const Volume& part, Um bottom,
+                                        std::span<const std::size_t> modifiers) {
   std::vector<const Overlay*> out{&object.overlay};
   for (const auto& range : object.ranges)
     if (bottom >= range.from && bottom < range.to) out.push_back(&range.overlay);
-  out.push_back(&volume.overlay);
+  out.push_back(&part.overlay);
+  for (const std::size_t m : modifiers) out.push_back(&object.volumes[m].overlay);
+  out.push_back(&object.said);
+  out.push_back(&part.said);
+  for (const std::size_t m : modifiers) out.push_back(&object.volumes[m].said);
+  return out;
+}
+
+namespace {
+
+Box3 common(const Box3& a, const Box3& b) {
+  return {{std::max(a.min.x, b.min.x), std::max(a.min.y, b.min.y), std::max(a.min.z, b.min.z)},
+          {std::min(a.max.x, b.max.x), std::min(a.max.y, b.max.y), std::min(a.max.z, b.max.z)}};
+}
+
+constexpr std::size_t most_mixes = 4096;  // of an object; scopes are numbered by two bytes
+
+}  // namespace
+
+std::vector<Mix> mixes_of(const Object& object) {
+  std::vector<Mix> out;
+  std::vector<Box3> boxes;  // beside them: where all of a mix overlap
+  std::vector<std::size_t> modifiers;
+  for (std::size_t v = 0; v < object.volumes.size(); ++v) {
+    if (object.volumes[v].kind == VolumeKind::model)
+      out.push_back({v}), boxes.push_back(box_of(object.volumes[v].mesh));
+    if (object.volumes[v].kind == VolumeKind::modifier) modifiers.push_back(v);
+  }
+  for (const std::size_t m : modifiers) {
+    const Box3 box = box_of(object.volumes[m].mesh);
+    for (std::size_t i = 0, before = out.size(); i < before; ++i) {
+      const Box3 both = common(boxes[i], box);
+      if (both.empty()) continue;
+      Mix mix = out[i];
+      mix.modifiers.push_back(m);
+      out.push_back(std::move(mix)), boxes.push_back(both);
+      if (out.size() > most_mixes)
+        throw Error{Error::Kind::settings,
+                    fmt::format("object '{}': its modifiers overlap in more than {} ways", object.name, most_mixes),
+                    {},
+                    "join those that say the same"};
+    }
+  }
   return out;
 }
 

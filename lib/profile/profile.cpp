@@ -9,6 +9,7 @@
 #include "prusaslicer/keys.h"
 #include "settings/catalogue.h"
 #include "settings/gcode_variables.h"
+#include "settings/head_profile.h"
 #include "settings/ini.h"
 #include "settings/pattern_list.h"
 #include "settings/tools.h"
@@ -445,6 +446,12 @@ void check_consistency(const Profile& profile) {
   check_tools(profile);
   check_branches(s.support, refuse);
   check_infill(profile, refuse);
+  try {
+    (void)parse_head_profile(s.plate.machine_head_profile);
+  } catch (const std::invalid_argument& problem) {
+    refuse("machine_head_profile", problem.what(),
+           "as in: 0: -10x-10, 10x-10, 10x10, -10x10; 12: -30x-25, 45x-25, 45x60, -30x60");
+  }
   try {
     (void)parse_gcode_variables(s.gcode.gcode_variables);
   } catch (const std::invalid_argument& problem) {

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -47,6 +49,24 @@ void draft_shield(Lines& lines, const Outlet& out) {
   constexpr int every_layer = 100'000;
   out.set("skirt_height", number(every_layer), *e);
   out.instead_of("skirt_height");
+}
+
+/// One object after the other: a head that is round, and a bar along X above it.
+void one_at_a_time(Lines& lines, const Outlet& out) {
+  const auto* wanted = lines.find("complete_objects");
+  const auto *radius = lines.find("extruder_clearance_radius"), *height = lines.find("extruder_clearance_height");
+  if (!wanted || !lines.flag(*wanted)) return;
+  out.set("print_sequence", "one_at_a_time", *wanted);
+  if (radius) {
+    // An octagon around the disc, which is no smaller anywhere.
+    const double r = lines.figure(*radius).v, s = r * 0.41421356;
+    const auto corner = [](double x, double y) { return number(x, 3) + "x" + number(y, 3); };
+    std::string outline;
+    for (const auto& [x, y] : {std::pair(r, -s), {r, s}, {s, r}, {-s, r}, {-r, s}, {-r, -s}, {-s, -r}, {s, -r}})
+      outline += (outline.empty() ? "0: " : ", ") + corner(x, y);
+    out.set("machine_head_profile", outline, *radius);
+  }
+  if (height) out.set("gantry_height", number(lines.figure(*height).v, 3), *height);
 }
 
 void scarfs(Lines& lines, const Outlet& out) {
@@ -197,6 +217,7 @@ void import_single_keys(Lines& lines, double infill_mm_s, double solid_mm_s, con
   bound_infill(lines, infill_mm_s, out);
   first_layer_infill(lines, solid_mm_s, out);
   draft_shield(lines, out);
+  one_at_a_time(lines, out);
   scarfs(lines, out);
   ramping_lift(lines, out);
   cooling(lines, out);

@@ -43,8 +43,6 @@ constexpr auto rows = std::to_array<Key>({
     Key{.name = "max_layer_height",
         .fate = "only for layers of varying height, which a config.ini cannot hold",
         .initial = "0"},
-    Key{.name = "extruder_clearance_radius", .fate = "only for printing one object after the other", .initial = "20"},
-    Key{.name = "extruder_clearance_height", .fate = "only for printing one object after the other", .initial = "20"},
     Key{.name = "silent_mode",
         .fate = "the estimate of time uses the limits of the axes",
         .written = Written::flag,

@@ -48,11 +48,6 @@ constexpr auto rows = std::to_array<Key>({
         .fate = "not supported yet",
         .written = Written::flag,
         .initial = "0"},
-    Key{.name = "complete_objects",
-        .neutral = "0",
-        .fate = "not supported yet",
-        .written = Written::flag,
-        .initial = "0"},
 });
 
 }  // namespace

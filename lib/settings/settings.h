@@ -8,6 +8,7 @@
 #include "settings/groups/layers.h"
 #include "settings/groups/machine.h"
 #include "settings/groups/material.h"
+#include "settings/groups/plate.h"
 #include "settings/groups/raft.h"
 #include "settings/groups/retraction.h"
 #include "settings/groups/shells.h"
@@ -35,6 +36,7 @@ struct Settings {
   SpeedSettings speeds;
   CoolingSettings cooling;
   ToolSettings tools;
+  PlateSettings plate;
   GcodeSettings gcode;
   AuditSettings audit;
 };
@@ -65,6 +67,7 @@ inline constexpr Rows sections{
     Section{"speeds", &Settings::speeds, speed_schema},
     Section{"cooling", &Settings::cooling, cooling_schema},
     Section{"tools", &Settings::tools, tool_schema},
+    Section{"plate", &Settings::plate, plate_schema},
     Section{"gcode", &Settings::gcode, gcode_schema},
     Section{"audit", &Settings::audit, audit_schema},
 };

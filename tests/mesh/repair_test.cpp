@@ -135,7 +135,8 @@ TEST_CASE("mesh: flipped triangles are turned round, whichever they are", "[mesh
       if (random() % 3 == 0) facet = reversed(facet), ++flips;
     std::shuffle(facets.begin(), facets.end(), random);
     const Loaded loaded = read(binary_stl(facets));
-    const auto& [name, mesh, repairs, marks] = loaded.objects[0];
+    const auto& mesh = loaded.objects[0].mesh;
+    const auto& repairs = loaded.objects[0].repairs;
     CHECK(volume_mm3(mesh) == Approx(9000));
     CHECK(repairs.flipped + 12 * repairs.inverted_shells <= std::max(flips, std::size_t{12}));
     CHECK(repairs.watertight());

@@ -254,9 +254,12 @@ TEST_CASE("plate: what cannot be printed is refused by name") {
   };
   auto one = object("one", {20_mm, 20_mm, 0}, {20_mm, 20_mm, 2_mm});
   auto cut = one;
-  cut.volumes.push_back(
-      {.name = "hole", .mesh = box({25_mm, 25_mm, 0}, {5_mm, 5_mm, 2_mm}), .kind = VolumeKind::negative});
-  CHECK_THAT(message({{cut}}), Contains("object 'one': a negative volume ('hole') has no effect on a print yet"));
+  cut.volumes.front().kind = VolumeKind::negative;
+  CHECK_THAT(message({{cut}}), Contains("object 'one': it has no part that is printed"));
+  auto marked = one;
+  marked.volumes.push_back(
+      {.name = "here", .mesh = box({25_mm, 25_mm, 0}, {5_mm, 5_mm, 2_mm}), .kind = VolumeKind::support_enforcer});
+  CHECK_THAT(message({{marked}}), Contains("object 'one': a support enforcer ('here') is a mark, not a volume"));
   CHECK_THAT(message({}), Contains("the plate holds no objects"));
   auto nowhere = one;
   nowhere.copies.clear();

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/slice_object.h"
+
+#include "pipeline/key_bytes.h"
+#include "slice/slice.h"
+#include "tasks/parallel.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace weft::pipeline {
+namespace {
+
+/// How high what is printed of the object reaches.
+Um top_of(const Object& object) {
+  Um out = 0;
+  for (const auto& volume : object.volumes)
+    if (volume.kind == VolumeKind::model) out = std::max(out, box_of(volume.mesh).max.z);
+  return out;
+}
+
+StageKey slice_key(const Mesh& mesh, Um top, const ObjectScopes& scopes, const SliceHands& handed) {
+  return key_of<Stage::slice>(scopes, handed).with(sha256(bytes_of(mesh))).with(top);
+}
+
+Cuts slice_mesh(const SliceHands& handed, const ObjectScopes& scopes, const Mesh& mesh, Um top) {
+  std::vector<slice::HeightFrom> heights;
+  for (const auto& from : scopes) {
+    const auto& [layers] = handed[from.of_mix.front()];
+    heights.push_back({from.bottom, layers.layer_height});
+  }
+  const slice::Cutter cutter(mesh, slice::planes(heights, top));
+  const auto& [layers] = handed[scopes.front().of_mix.front()];
+  return tasks::parallel_map(cutter.size(), [&](std::size_t i) { return cutter.cut(i, layers); });
+}
+
+}  // namespace
+
+Result<Cuts> slice_object(const Running& job, const Object& object, const ObjectScopes& scopes,
+                          const SliceHands& handed, std::vector<Areas>& areas) {
+  const Um top = top_of(object);
+  std::vector<Result<Cuts>> of_volume;
+  for (const auto& volume : object.volumes)
+    of_volume.push_back(run_stage<Stage::slice>(
+        job, [&] { return slice_key(volume.mesh, top, scopes, handed); },
+        [&] { return slice_mesh(handed, scopes, volume.mesh, top); }));
+  if (of_volume.size() == 1) {
+    areas = areas_of_one(scopes, *of_volume.front());
+    return std::move(of_volume.front());
+  }
+  const Stopwatch stopwatch(job.report.timings_ms[Stage::slice]);
+  std::vector<const Cuts*> cuts;
+  for (const auto& result : of_volume) cuts.push_back(&*result);
+  return Result<Cuts>(united(object, scopes, cuts, areas));
+}
+
+std::vector<std::string> slice_hashes(const Object& object, const ObjectScopes& scopes, const SliceHands& handed) {
+  const Um top = top_of(object);
+  std::vector<std::string> out;
+  for (const auto& volume : object.volumes) {
+    auto key = slice_key(volume.mesh, top, scopes, handed);
+    if (volume.kind != VolumeKind::model) key.with(std::uint64_t{static_cast<std::uint8_t>(volume.kind)});
+    out.push_back(key.hash());
+  }
+  return out;
+}
+
+}  // namespace weft::pipeline

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Plates of several objects, as users meet them: settings, places and copies of single ones, modifiers, holes.
+#include "cli/program.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+using Catch::Matchers::Contains;
+using nlohmann::json;
+
+namespace {
+
+struct Boxes {
+  Scratch scratch;
+  Boxes() {
+    scratch.write("base.stl", box_stl(20, 20, 4));
+    scratch.write("lid.stl", box_stl(20, 20, 4));
+    scratch.write("p.ini",
+                  "machine_width = 200\nmachine_depth = 200\nfirmware = klipper\ngcode_label_objects = firmware\n"
+                  "home_position = 0x0\nmachine_start_gcode = G28\n");
+  }
+  Run slice(std::vector<std::string> more) const {
+    std::vector<std::string> words{"slice"};
+    words.insert(words.end(), more.begin(), more.end());
+    words.insert(words.end(), {"-p", "p.ini", "-o", "out.gcode", "-q", "--report", "report.json"});
+    return weft(words, scratch.path());
+  }
+  json sliced(const std::vector<std::string>& more) const {
+    const auto run = slice(more);
+    INFO(run.err);
+    REQUIRE(run.status == 0);
+    return json::parse(scratch.read("report.json"));
+  }
+  std::string gcode() const { return scratch.read("out.gcode"); }
+  void check_verified() const {
+    const auto run = weft({"verify", "out.gcode", "-q"}, scratch.path());
+    INFO(run.err);
+    CHECK(run.status == 0);
+  }
+};
+
+std::size_t count_of(const std::string& text, const std::string& what) {
+  std::size_t out = 0;
+  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++out;
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("weft slice: --for gives one object settings of its own, over those of the command line") {
+  const Boxes boxes;
+  const double sparse = boxes.sliced({"base.stl", "lid.stl"})["filament"]["mm3"];
+  const double one =
+      boxes.sliced({"base.stl", "lid.stl", "--for", "lid", "infill_sparse_density=100"})["filament"]["mm3"];
+  CHECK_THAT(boxes.gcode(), Contains("; weft_overlay = object 'lid': infill_sparse_density = 100 (--for lid)"));
+  boxes.check_verified();
+  const double both = boxes.sliced({"base.stl", "lid.stl", "-s", "infill_sparse_density=100"})["filament"]["mm3"];
+  CHECK(one - sparse == Approx(both - one).epsilon(0.02));  // the skirt is the same, the objects are alike
+  CHECK(one > 1.2 * sparse);
+  // Several settings behind one name, and names as files have them.
+  boxes.sliced({"base.stl", "--for", "base.stl", "infill_sparse_density=100", "wall_line_count=3", "lid.stl"});
+  CHECK_THAT(boxes.gcode(), Contains("object 'base': wall_line_count = 3 (--for base.stl)"));
+
+  const auto unknown = boxes.slice({"base.stl", "--for", "led", "infill_sparse_density=50"});
+  CHECK(unknown.status == 2);
+  CHECK_THAT(unknown.err, Contains("no object and no part is called 'led'") && Contains("there are base"));
+  const auto wide = boxes.slice({"base.stl", "--for", "base", "material_bed_temperature=50"});
+  CHECK(wide.status == 3);
+  CHECK_THAT(wide.err, Contains("object 'base': material_bed_temperature holds for"));
+  const auto nothing = boxes.slice({"base.stl", "--for", "base"});
+  CHECK(nothing.status == 2);
+  CHECK_THAT(nothing.err, Contains("no setting follows"));
+}
+
+TEST_CASE("weft slice: --for gives a part settings of its own") {
+  const Boxes boxes;
+  boxes.scratch.write("pin.stl", box_stl(5, 5, 6));
+  const double plain = boxes.sliced({"base.stl+pin.stl"})["filament"]["mm3"];
+  const double dense =
+      boxes.sliced({"base.stl+pin.stl", "--for", "pin", "infill_sparse_density=100"})["filament"]["mm3"];
+  CHECK(dense > plain + 10);
+  CHECK(dense < plain + 150);  // 5 × 5 × 6 mm
+  CHECK_THAT(boxes.gcode(), Contains("; weft_overlay = part 'pin': infill_sparse_density = 100"));
+}
+
+TEST_CASE("weft slice: --place puts an object there, turned, and the others beside it") {
+  const Boxes boxes;
+  boxes.scratch.write("bar.stl", box_stl(40, 10, 2));
+  boxes.sliced({"bar.stl", "base.stl", "--place", "bar=100,100,90"});
+  const auto gcode = boxes.gcode();
+  CHECK_THAT(gcode, Contains("EXCLUDE_OBJECT_DEFINE NAME=bar CENTER=100,100 ") && Contains("[95,80]") &&
+                        Contains("[105,120]"));
+  const auto at = gcode.find("EXCLUDE_OBJECT_DEFINE NAME=base CENTER=");
+  REQUIRE(at != std::string::npos);
+  double x = 0, y = 0;
+  REQUIRE(std::sscanf(gcode.c_str() + at, "EXCLUDE_OBJECT_DEFINE NAME=base CENTER=%lf,%lf", &x, &y) == 2);
+  CHECK((std::abs(x - 100) >= 15 + 6 || std::abs(y - 100) >= 30 + 6));  // half of both, and --spacing
+  boxes.check_verified();
+
+  const auto outside = boxes.slice({"base.stl", "--place", "base=195,100"});
+  CHECK(outside.status == 5);
+  CHECK_THAT(outside.err, Contains("base.stl") && Contains("outside the print surface"));
+  CHECK(boxes.slice({"base.stl", "--place", "base=195"}).status == 2);
+  CHECK_THAT(boxes.slice({"base.stl", "--place", "top=5,5"}).err, Contains("no object and no part is called 'top'"));
+  CHECK_THAT(boxes.slice({"base.stl", "--place", "base=50,50", "--copies", "base=2"}).err,
+             Contains("'base' is to stand in one place, 2 times"));
+}
+
+TEST_CASE("weft slice: --copies NAME=N copies one model, N all others") {
+  const Boxes boxes;
+  boxes.sliced({"base.stl", "lid.stl", "--copies", "lid=3"});
+  CHECK(count_of(boxes.gcode(), "EXCLUDE_OBJECT_DEFINE NAME=lid_") == 3);
+  CHECK(count_of(boxes.gcode(), "EXCLUDE_OBJECT_DEFINE NAME=base ") == 1);
+  boxes.check_verified();
+  boxes.sliced({"base.stl", "lid.stl", "--copies", "2", "--copies", "lid=1"});
+  CHECK(count_of(boxes.gcode(), "EXCLUDE_OBJECT_DEFINE NAME=base_") == 2);
+  CHECK(count_of(boxes.gcode(), "EXCLUDE_OBJECT_DEFINE NAME=lid ") == 1);
+  boxes.sliced({"base.stl", "base.stl", "lid.stl"});  // no two of one name
+  CHECK(count_of(boxes.gcode(), "EXCLUDE_OBJECT_DEFINE NAME=base_1 ") == 1);
+  CHECK(count_of(boxes.gcode(), "EXCLUDE_OBJECT_DEFINE NAME=base_2 ") == 1);
+  CHECK(count_of(boxes.gcode(), "EXCLUDE_OBJECT_DEFINE NAME=lid ") == 1);
+  CHECK_THAT(boxes.slice({"base.stl", "--copies", "base=0"}).err, Contains("0 is outside 1 … 10000"));
+  CHECK_THAT(boxes.slice({"base.stl", "--copies", "two"}).err, Contains("'two' is not N, and not NAME=N"));
+}
+
+TEST_CASE("weft slice: a modifier changes settings where it is, a negative volume leaves a hole") {
+  const Boxes boxes;
+  const double plain = boxes.sliced({"base.stl"})["filament"]["mm3"];
+  const double half =
+      boxes.sliced({"base.stl", "--modifier", "box:0,0,0,10,20,4", "infill_sparse_density=100"})["filament"]["mm3"];
+  boxes.check_verified();
+  const double full = boxes.sliced({"base.stl", "-s", "infill_sparse_density=100"})["filament"]["mm3"];
+  CHECK(half > plain + 0.4 * (full - plain));
+  CHECK(half < plain + 0.6 * (full - plain));
+  const double cut = boxes.sliced(
+      {"base.stl", "-s", "infill_sparse_density=100", "--negative", "box:5,5,0,15,15,4"})["filament"]["mm3"];
+  CHECK(cut == Approx(full - 10 * 10 * 4).epsilon(0.03));  // walls round the hole are no more than what fills
+  boxes.check_verified();
+  CHECK_THAT(boxes.slice({"base.stl", "--modifier", "lid.stl"}).err, Contains("'lid.stl' is to modify nothing"));
+  CHECK_THAT(boxes.slice({"base.stl", "--modifier", "lid.stl", "layer_height=0.1"}).err,
+             Contains("modifier 'lid': layer_height holds for a whole layer"));
+  CHECK_THAT(boxes.slice({"--negative", "lid.stl", "base.stl"}).err, Contains("stands before any model"));
+}
+
+TEST_CASE("weft batch: a line says of its models what the command line says of objects") {
+  const Boxes boxes;
+  boxes.scratch.write(
+      "jobs.jsonl",
+      R"({"id": "plate", "profile": "p.ini", "models": [{"parts": [{"file": "base.stl"}, {"file": "lid.stl", "set": {"infill_sparse_density": 80}}], "place": [60, 60]}, {"file": "lid.stl", "copies": 2, "set": {"wall_line_count": 4}, "modifiers": [{"file": "box:0,0,0,5,5,4", "set": {"infill_sparse_density": 90}}]}]})"
+      "\n");
+  const auto run = weft({"batch", "jobs.jsonl", "-o", "out", "-q"}, boxes.scratch.path());
+  INFO(run.err);
+  REQUIRE(run.status == 0);
+  const auto gcode = boxes.scratch.read("out/plate.gcode");
+  CHECK_THAT(gcode, Contains("part 'lid': infill_sparse_density = 80") &&
+                        Contains("object 'lid': wall_line_count = 4") &&
+                        Contains("modifier 'box:0,0,0,5,5,4': infill_sparse_density = 90") &&
+                        Contains("NAME=base CENTER=60,60"));
+  CHECK(count_of(gcode, "EXCLUDE_OBJECT_DEFINE NAME=lid_") == 2);
+  for (const auto& [line, problem] : std::vector<std::pair<std::string, std::string>>{
+           {R"({"models": [{"fil": "a.stl"}]})", "models: unknown name 'fil'"},
+           {R"({"models": [{"set": {}}]})", "names neither"},
+           {R"({"models": [{"file": "base.stl", "modifiers": ["lid.stl"]}]})", "a modifier has no \"set\""},
+           {R"({"models": [{"file": "base.stl", "place": [1]}]})", "place: is not [x, y, degrees]"}}) {
+    boxes.scratch.write("bad.jsonl", line + "\n");
+    const auto bad = weft({"batch", "bad.jsonl", "-p", "p.ini", "-o", "out", "-q"}, boxes.scratch.path());
+    CHECK(bad.status == 2);
+    CHECK_THAT(bad.err, Contains(problem));
+  }
+}
+
+TEST_CASE("weft slice: objects that lie in each other are refused, by name, place and depth") {
+  const Boxes boxes;
+  const auto run = boxes.slice({"base.stl", "lid.stl", "--place", "base=60,60", "--place", "lid=75,60"});
+  CHECK(run.status == 5);
+  CHECK_THAT(run.err, Contains("plate: 'base' and 'lid' overlap at layer 0, z 0.200, (") && Contains("mm deep"));
+  CHECK_FALSE(boxes.scratch.has("out.gcode"));
+  const auto report = json::parse(boxes.scratch.read("report.json"));
+  CHECK(report["warnings"].dump().find("paths_conflict") != std::string::npos);
+  CHECK(
+      boxes.slice({"base.stl", "lid.stl", "--place", "base=60,60", "--place", "lid=80,60", "-s", "skirt_line_count=0"})
+          .status == 0);
+  CHECK(boxes.slice({"base.stl", "lid.stl", "--place", "base=60,60", "--place", "lid=75,60", "--audit", "annotate"})
+            .status == 0);
+}
+
+TEST_CASE("weft slice: one object at a time, over all that stands, and refused where the head has no way") {
+  const Boxes boxes;
+  const std::vector<std::string> one_by_one{"base.stl", "lid.stl",
+                                            "-s",       "print_sequence=one_at_a_time",
+                                            "-s",       "machine_head_profile=0: -10x-10, 10x-10, 10x10, -10x10"};
+  auto words = one_by_one;
+  words.insert(words.end(),
+               {"--place", "base=50,50", "--place", "lid=120,50", "-s", "between_objects_gcode=; next one"});
+  boxes.sliced(words);
+  const auto gcode = boxes.gcode();
+  const auto next = gcode.find("\n; next one\n");
+  REQUIRE(next != std::string::npos);
+  CHECK(next == gcode.rfind("\n; next one\n"));
+  CHECK_THAT(gcode.substr(next, 600), Contains("Z6"));  // 4 mm stand, and 2 mm over them
+  const auto first_base = gcode.find("EXCLUDE_OBJECT_START NAME=base"),
+             last_base = gcode.rfind("EXCLUDE_OBJECT_START NAME=base"),
+             first_lid = gcode.find("EXCLUDE_OBJECT_START NAME=lid"),
+             last_lid = gcode.rfind("EXCLUDE_OBJECT_START NAME=lid");
+  CHECK((last_base < first_lid || last_lid < first_base));
+  words = one_by_one;
+  words.insert(words.end(), {"--place", "base=50,50", "--place", "lid=75,50", "-s", "skirt_line_count=0"});
+  const auto run = boxes.slice(words);
+  CHECK(run.status == 5);
+  CHECK_THAT(run.err,
+             Contains("print_sequence: the head hits 'base' while 'lid' is printed, and 'lid' while 'base' is"));
+  CHECK(boxes.slice({"base.stl", "lid.stl", "-s", "print_sequence=one_at_a_time"}).status == 3);
+  CHECK(boxes.slice({"base.stl", "-s", "machine_head_profile=0: 0x0, 1x1"}).status == 3);
+}
+
+TEST_CASE("weft slice: --arrange puts models close together, --fill as many as there is room for") {
+  const Boxes boxes;
+  boxes.sliced({"base.stl", "lid.stl", "--copies", "3", "--arrange", "--spacing", "2", "-s", "skirt_line_count=0"});
+  CHECK(count_of(boxes.gcode(), "EXCLUDE_OBJECT_DEFINE NAME=") == 6);
+  boxes.check_verified();
+  boxes.scratch.write("big.stl", box_stl(60, 60, 1));
+  boxes.sliced({"big.stl", "--fill", "--spacing", "4", "-s", "skirt_line_count=0"});
+  CHECK(count_of(boxes.gcode(), "EXCLUDE_OBJECT_DEFINE NAME=big_") == 9);
+  const auto run =
+      boxes.slice({"big.stl", "--copies", "10", "--arrange", "--spacing", "4", "-s", "skirt_line_count=0"});
+  CHECK(run.status == 5);
+  CHECK_THAT(run.err, Contains("big.stl: there is room for 9 of 10 copies of it"));
+}
