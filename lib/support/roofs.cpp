@@ -81,10 +81,19 @@ void Roofs::rest(std::size_t level, const Branches& branches, Spans spans) {
   take(branches.tips, spans.of_tips), take(branches.passing, spans.of_passing);
   if (rings.empty()) return;
   const Regions held = geometry::regions_from_rings(rings);
-  for (const std::size_t k : held_from_[level]) {
-    const Regions part = geometry::intersect(wide_[k], held);
-    append(lowest_[level + 1], part);
-    for (std::size_t j = level + 2; j <= k; ++j) append(laid_[j], part);
+  for (const std::size_t k : held_from_[level]) resting_.push_back({level, k, geometry::intersect(wide_[k], held)});
+}
+
+void Roofs::lay(const std::vector<Regions>& branches) {
+  const Um span = roof_span(o_.nozzle) / 2 + o_.nozzle;
+  for (std::size_t from = 0; from < resting_.size();) {
+    const std::size_t level = resting_[from].level;
+    const Regions near = grown(branches[level], span);
+    for (; from < resting_.size() && resting_[from].level == level; ++from) {
+      const Regions part = geometry::intersect(resting_[from].area, near);
+      append(lowest_[level + 1], part);
+      for (std::size_t j = level + 2; j <= resting_[from].contact; ++j) append(laid_[j], part);
+    }
   }
 }
 
@@ -121,7 +130,8 @@ Roofs::OfLevel Roofs::of_level(std::size_t level, const KeepOut& keep_out) const
   return out;
 }
 
-Roofs::Laid Roofs::laid(const std::vector<KeepOut>& keep_out) && {
+Roofs::Laid Roofs::laid(const std::vector<KeepOut>& keep_out, const std::vector<Regions>& branches) && {
+  lay(branches);
   auto levels = tasks::parallel_map(laid_.size(), [&](std::size_t k) {
     stop_if_asked();
     return laid_[k].empty() && lowest_[k].empty() ? OfLevel{} : of_level(k, keep_out[k]);

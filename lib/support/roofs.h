@@ -31,14 +31,20 @@ class Roofs {
   /// Lays the roofs that begin above that level where they rest on branches.
   void rest(std::size_t level, const Branches& branches, Spans spans);
 
-  /// By level, within the room.
+  /// By level, within the room, and where there is something left of branches in their room.
   struct Laid {
     std::vector<Regions> areas;
     std::vector<Joists> joists;
   };
-  Laid laid(const std::vector<KeepOut>& keep_out) &&;
+  Laid laid(const std::vector<KeepOut>& keep_out, const std::vector<Regions>& branches) &&;
 
  private:
+  /// A roof on branches of a level, up to a contact.
+  struct Resting {
+    std::size_t level, contact;
+    Regions area;
+  };
+  void lay(const std::vector<Regions>& branches);
   struct OfLevel {
     Regions area;
     Joists joists;
@@ -53,8 +59,9 @@ class Roofs {
   std::vector<Regions> bare_, begins_, laid_;
   std::vector<std::vector<std::size_t>> held_from_;  ///< of each level: the contacts whose roofs begin above it
   std::vector<Regions> wide_;                        ///< of each contact, what gets a roof
-  std::vector<Regions> lowest_;                      ///< of each level, the roofs' that begin there
-  std::vector<std::vector<Point>> tips_;             ///< of each level, what those lie on
+  std::vector<Resting> resting_;
+  std::vector<Regions> lowest_;           ///< of each level, the roofs' that begin there
+  std::vector<std::vector<Point>> tips_;  ///< of each level, what those lie on
 };
 
 }  // namespace weft::support

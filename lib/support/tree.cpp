@@ -55,7 +55,7 @@ class Grower {
       step(slab);
     }
     tree_.areas = branch_areas(s_, o_, stack_, keep_out, contacts_, discs_);
-    auto laid = std::move(roofs).laid(keep_out);
+    auto laid = std::move(roofs).laid(keep_out, tree_.areas);
     tree_.roofs = std::move(laid.areas), tree_.joists = std::move(laid.joists);
     return std::move(tree_);
   }
