@@ -116,6 +116,8 @@ Split cheaper(const SupportSettings& s, const Object& object, const Stack& stack
     if (branches.left[k].empty()) continue;
     Regions held = branches.areas[k];
     append(held, branches.roofs[k]);
+    if (k + 1 < branches.roofs.size())  // what lies on the tips of that level
+      append(held, branches.roofs[k + 1]), append(held, branches.joists[k + 1].area);
     for (const Region& region : opened(geometry::subtract(branches.left[k], grown(geometry::unite(held), reached)), 50))
       branches_mm3[patch_of(region)] += column_mm3(s, {region}, line, stack.levels[k].z - object.floor);
   }
