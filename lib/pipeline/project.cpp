@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -68,12 +70,21 @@ void apply_changes(Profile& profile, const mesh::Project& project, const std::st
   }
 }
 
+/// By its name: a batch opens no file that did not change, and a project under another name is a model like any other.
+bool may_be_project(const std::string& path) {
+  auto ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending == ".3mf";
+}
+
 }  // namespace
 
 void apply_project(Profile& profile, const std::vector<std::string>& models, bool alone, int plate,
                    const ImportOptions& options) {
   for (const auto& typed : models)
     for (const auto& part : pipeline::parts_of(typed)) {
+      if (!may_be_project(part.file)) continue;
       const auto project = mesh::read_project(part.file);
       if (!project) continue;
       const bool configured = !project->configuration.empty();
