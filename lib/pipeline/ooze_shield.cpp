@@ -52,7 +52,10 @@ void add_ooze_shield(const Settings& plate, const Regions& shield, const Passes&
                      std::span<travel::LayerInput> layers) {
   if (shield.empty()) return;
   const std::size_t end = std::min(end_of_changes(passes), layers.size());
+  const bool on_brim =
+      plate.adhesion.adhesion_type == AdhesionType::brim && plate.adhesion.brim_width > plate.tools.ooze_shield_dist;
   for (std::size_t i = 0; i < end; ++i) {
+    if (on_brim && layers[i].time.first()) continue;
     const Um width = width_of(plate, layers[i].height);
     for (const auto& region : geometry::offset(shield, {.by = -width / 2, .corner = geometry::Corner::round})) {
       Bead bead;

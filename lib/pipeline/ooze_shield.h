@@ -10,7 +10,8 @@ namespace weft::pipeline {
 /// @throws Error{audit} where it leaves the print surface
 Regions ooze_shield(const Settings& plate, std::span<const travel::LayerInput> layers, const Passes& passes);
 
-/// Puts its wall before the other beads of every layer up to the last change of the tool.
+/// Puts its wall before the other beads of every layer up to the last change of the tool; on a brim that reaches below
+/// it from the second on.
 void add_ooze_shield(const Settings& plate, const Regions& shield, const Passes& passes,
                      std::span<travel::LayerInput> layers);
 

@@ -412,9 +412,11 @@ std::pair<std::vector<travel::Prepared>, std::vector<travel::Linked>> prepared_a
 }
 
 /// The tower and the shield, which skirt and brim go round.
-Regions beside_objects(const ToolSettings& settings, const Passes& passes) {
-  Regions out = passes.shield;
-  if (passes.has_tower()) out.insert(out.begin(), {tools::tower_outline(settings, passes.size, passes.corner), {}});
+Regions beside_objects(const Settings& settings, const Passes& passes) {
+  // A brim goes within the shield.
+  Regions out = settings.adhesion.adhesion_type == AdhesionType::brim ? Regions{} : passes.shield;
+  if (passes.has_tower())
+    out.insert(out.begin(), {tools::tower_outline(settings.tools, passes.size, passes.corner), {}});
   return out;
 }
 
@@ -457,7 +459,7 @@ PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, c
   auto& plan = out.plan;
   plan.objects = labels_of(plate);
   auto passes = passes_of(settings, tools, scopes, inputs, plan.notices);
-  add_adhesion_to_rises(settings, inputs, beside_objects(settings.tools, passes), plan.notices);
+  add_adhesion_to_rises(settings, inputs, beside_objects(settings, passes), plan.notices);
   give_adhesion(settings, tools, scopes, inputs);
   add_ooze_shield(settings, passes.shield, passes, inputs);
   give_room(settings, inputs);

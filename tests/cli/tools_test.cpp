@@ -361,6 +361,12 @@ TEST_CASE("cli: a shield stands around everything up to the last change") {
   const auto report = json::parse(boxes.scratch.read("out.json"));
   CHECK(report["features"]["skirt"]["mm"].get<double>() > 10 * 80);  // ten layers around two boxes of 10 mm
   CHECK(report["audit"]["verdict"] == "pass");
+  const auto brim_of = [&](const char* shield) {
+    boxes.slice({"a.stl", "b.stl@T1", "-p", "two.ini", "-s", "adhesion_type=brim", "--report", "out.json", "-s",
+                 std::string("ooze_shield_enabled=") + shield});
+    return json::parse(boxes.scratch.read("out.json"))["features"]["brim"]["mm"].get<double>();
+  };
+  CHECK(brim_of("true") == Approx(brim_of("false")));  // the boxes keep theirs
 }
 
 TEST_CASE("cli: a filament that the file draws out of a shared nozzle is shaped, parked, and the other pushed in") {
