@@ -123,8 +123,12 @@ std::vector<Level> levels_of(std::span<const travel::LayerInput> layers) {
       for (const auto& bead : object.beads)
         add(level(object.height > 0 ? object.height : layer.height),
             {object.support ? Owner::Kind::support : Owner::Kind::object, object.object}, bead);
-    for (const auto& bead : layer.adhesion)
+    for (const auto& bead : layer.adhesion) {
+      // Infill that is purged into is printed first of its layer, and an object's all the same.
+      const auto kind = row_of(bead.role).kind;
+      if (kind == RoleKind::wall || kind == RoleKind::skin || kind == RoleKind::fill) continue;
       add(level(layer.height), {Owner::Kind::adhesion, static_cast<std::uint32_t>(bead.role)}, bead);
+    }
     std::vector<Level> out;
     for (auto& [height, each] : by_height) out.push_back(std::move(each));
     return out;
