@@ -161,7 +161,7 @@ std::vector<Row> rows() {
       {"support_enable", "true", On::tee, all_support, more},
       {"support_auto", "false", On::tee, all_support, less, c},
       {"support_structure", "tree", On::tee, tips, more, c},
-      {"support_structure", "hybrid", On::tee, all_support, less, by_branches},
+      {"support_structure", "hybrid", On::fork, all_support, less, by_branches},
       {"support_normal_shape", "grid", On::tee, columns, more, c},
       {"support_type", "buildplate", On::over, on_part, less, c},
       {"support_angle", "80", On::slope, needed, less, c},
