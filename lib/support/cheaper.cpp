@@ -34,7 +34,8 @@ double column_mm3(const SupportSettings& s, const Regions& area, Um line, Um hei
 double walls_mm2(const SupportSettings& s, const Region& branch, Um line) {
   const double thick_mm = to_mm(s.support_tree_branch_diameter_double_wall);
   const bool two = thick_mm > 0 && area_mm2(branch) > std::numbers::pi / 4 * thick_mm * thick_mm;
-  return s.support_wall_count.value_or(two ? 2 : 1) * perimeter_mm({branch}) * to_mm(line);
+  const double loop_mm = perimeter_mm({branch}) - std::numbers::pi * to_mm(line);  // half a line further in
+  return std::min(area_mm2(branch), s.support_wall_count.value_or(two ? 2 : 1) * loop_mm * to_mm(line));
 }
 
 /// Columns as they would stand, every two millimetres of height: visit(region, height that it stands for), and
