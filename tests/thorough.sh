@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # What takes too long for .ci/run, to be run before a capability is called done:  bash tests/thorough.sh
+#   - every test under the address and undefined-behaviour sanitizers,
 #   - the thread sanitizer over what runs on several threads,
 #   - the same bytes from clang as from g++ (tests/jobs/compilers.sh),
 #   - 3,000 mutated inputs of every kind through the program,
@@ -14,6 +15,9 @@ results=() failed=0
 told() {  # what, status
   if [ "$2" -eq 0 ]; then results+=("passed  $1"); else results+=("FAILED  $1"); failed=$((failed + 1)); fi
 }
+
+bash tests/run.sh asan
+told 'every test under the address and undefined-behaviour sanitizers' $?
 
 threaded='^(tasks|batch:|jobs|job lists|pipeline|cache:|stop inside|small memory|shards|memory|sweep|thread sanitizer)'
 cmake --preset tsan > /dev/null &&
