@@ -4,7 +4,6 @@
 if(CMAKE_SCRIPT_MODE_FILE)
   file(READ ${IN} hex HEX)
   string(REGEX REPLACE "([0-9a-f][0-9a-f])" "\\\\x\\1" hex "${hex}")
-  string(REGEX REPLACE "((\\\\x[0-9a-f][0-9a-f])+)" "\\1" hex "${hex}")
   file(SIZE ${IN} size)
   string(LENGTH "${hex}" length)
   set(lines "")

@@ -5,18 +5,19 @@
 #include "core/error.h"
 #include "core/file_bytes.h"
 #include "core/hash.h"
+#include "geometry/offset.h"
 #include "mesh/placement.h"
 #include "mesh/read.h"
 #include "pipeline/cached.h"
 #include "pipeline/model_parts.h"
 #include "pipeline/nest.h"
 #include "pipeline/provenance.h"
+#include "pipeline/room_around.h"
 #include "pipeline/stopwatch.h"
 #include "pipeline/transform_models.h"
 #include "pipeline/transform_words.h"
 #include "preview/thumbnail.h"
 #include "profile/foreign_overlay.h"
-#include "settings/head_profile.h"
 #include "settings/value.h"
 #include "tasks/parallel.h"
 
@@ -392,28 +393,16 @@ class Builder {
   std::map<const Object*, std::vector<Later>> later_;
 };
 
-/// How far beyond its outline an object needs room for what is printed around it, and for the head where objects are
-/// printed one after the other.
-Um brim_of(const Settings& settings) {
-  const auto& a = settings.adhesion;
-  const bool brim = a.adhesion_type == AdhesionType::brim || a.adhesion_type == AdhesionType::as_set;
-  return brim ? a.brim_width : 0;
-}
-Um head_of(const Settings& settings) {
-  Um out = 0;
-  if (settings.plate.print_sequence == PrintSequence::one_at_a_time)
-    for (const auto& slab : parse_head_profile(settings.plate.machine_head_profile))
-      for (const Point p : slab.outline) out = std::max({out, std::abs(p.x), std::abs(p.y)});
-  return out;
-}
-
 /// Places by true outlines. @throws Error{audit} where not all fit, and are not as many as fit
 std::vector<std::vector<Point>> nested(const Job& job, std::span<const mesh::ToPlace> models, const mesh::Plate& free) {
   const bool fill = job.placement.fill;
   std::vector<NestKind> kinds;
   for (const auto& model : models)
     kinds.push_back({silhouette_of(model.model->objects), fill && model.copies == 1 ? 0 : model.copies});
-  NestBed bed{free.surface, free.keep_out, job.placement.centre.value_or(weft::box_of(free.surface).centre()),
+  const Um skirt = skirt_of(job.settings);
+  const auto within = skirt > 0 ? geometry::offset({{free.surface, {}}}, {.by = -skirt}) : Regions{};
+  NestBed bed{within.empty() ? free.surface : within.front().outer, free.keep_out,
+              job.placement.centre.value_or(weft::box_of(free.surface).centre()),
               std::max(job.placement.spacing, head_of(job.settings)), brim_of(job.settings)};
   auto out = nest(kinds, bed);
   for (std::size_t k = 0; k < models.size(); ++k)

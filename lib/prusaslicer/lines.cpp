@@ -37,6 +37,7 @@ constexpr std::array old_spellings{
     OldSpelling{"bottom_fill_pattern", "monotonous", "monotonic"},
     OldSpelling{"ensure_vertical_shell_thickness", "1", "enabled"},
     OldSpelling{"ensure_vertical_shell_thickness", "0", "partial"},
+    OldSpelling{"retract_length_toolchange", "30;30", "30,30"},  // gCreate's bundle; PrusaSlicer reads one 30 for all
 };
 
 /// Lines whose key and value both changed.

@@ -57,6 +57,7 @@ std::vector<Settings> settings_of_tools(const Settings& settings) {
 
 std::vector<double> ramming_flows(const std::string& text) {
   std::vector<double> out;
+  if (text == "0") return out;
   std::istringstream words(text.substr(0, text.find('|')));
   for (std::string word; words >> word;) {
     double v = 0;

@@ -43,7 +43,8 @@ std::vector<Overlay> tool_overlays(const Settings& settings);
 /// The settings of each tool. As many as there are tools.
 std::vector<Settings> settings_of_tools(const Settings& settings);
 
-/// The flows of filament_ramming_parameters, mm³/s: what stands behind width and spacing, as far as a bar.
+/// The flows of filament_ramming_parameters, mm³/s: what stands behind width and spacing, as far as a bar;
+/// none for `0`, which vendors' bundles write for a tip that is not shaped.
 /// @throws std::invalid_argument for what is no number, and flows that are not above 0
 std::vector<double> ramming_flows(const std::string& text);
 

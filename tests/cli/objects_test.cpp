@@ -226,3 +226,14 @@ TEST_CASE("weft slice: --arrange puts models close together, --fill as many as t
   CHECK(run.status == 5);
   CHECK_THAT(run.err, Contains("big.stl: there is room for 9 of 10 copies of it"));
 }
+
+TEST_CASE("weft slice: --fill leaves room for the skirt, and prints more without one") {
+  const Boxes boxes;
+  const std::string object = "EXCLUDE_OBJECT_DEFINE";
+  boxes.sliced({"base.stl", "--fill", "-s", "skirt_gap=20"});
+  const auto with_skirt = count_of(boxes.gcode(), object);
+  boxes.sliced({"base.stl", "--fill", "-s", "skirt_line_count=0"});
+  const auto without = count_of(boxes.gcode(), object);
+  CHECK(with_skirt >= 36);  // six rows of six have room between the skirt
+  CHECK(without > with_skirt);
+}

@@ -34,3 +34,28 @@ TEST_CASE("printers: the example passes the audit on each printer that comes wit
   }
   CHECK(printers >= 25);
 }
+
+TEST_CASE("printers: two filaments pass the audit on each printer that comes with weft") {
+  const fs::path root = tests::source;
+  Scratch scratch;
+  const auto box = (root / "examples/box.stl").string();
+  std::size_t passed = 0;
+  for (const auto& entry : fs::directory_iterator(root / "profiles/printers")) {
+    const auto file = entry.path();
+    const auto stem = file.stem().string();
+    if (stem.ends_with("-0.25") || stem.ends_with("-0.8")) continue;  // as those without
+    INFO(file.filename().string());
+    std::vector<std::string> words{"slice", box, box + "@T1"};
+    for (const auto& profile : {file, root / "profiles/materials/pla.ini", root / "profiles/quality/draft.ini",
+                                root / "examples/two-filaments.ini"})
+      words.insert(words.end(), {"-p", profile.string()});
+    words.insert(words.end(), {"-s", "thumbnails=", "-s", "skirt_line_count=0", "-o", "two.gcode"});
+    const auto run = weft(words, scratch.path());
+    INFO(run.err);
+    // A printer whose T is a macro must be told where that leaves the nozzle.
+    const bool macro = run.status == 5 && run.err.find("opaque: T1") != std::string::npos;
+    CHECK((run.status == 0 || macro));
+    passed += run.status == 0 ? 1U : 0U;
+  }
+  CHECK(passed >= 20);
+}

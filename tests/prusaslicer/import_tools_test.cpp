@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Configurations of printers with several extruders.
 #include "prusaslicer/import.h"
+#include "settings/tools.h"
 
 #include <algorithm>
 
@@ -74,6 +75,16 @@ TEST_CASE("prusaslicer: a shared nozzle, its tower, and how a filament is drawn 
   CHECK_THAT(value_of(t, "tool.1.filament_ramming_parameters"), Contains("130 120 2.7 2.9"));
   CHECK(value_of(t, "tool_change_time") == "27");
   CHECK(t.unsupported.empty());
+}
+
+TEST_CASE("prusaslicer: a tip that is not shaped, and a length that a vendor wrote with a semicolon") {
+  const auto t =
+      translated(shared + "wipe_tower = 1\nfilament_ramming_parameters = \"0\"\nretract_length_toolchange = 30;30\n");
+  CHECK(value_of(t, "filament_ramming_parameters") == "0");
+  CHECK(ramming_flows("0").empty());
+  CHECK_THROWS_AS(ramming_flows("0 100 6.6"), std::invalid_argument);
+  CHECK(value_of(t, "switch_extruder_retraction_amount") == "30");
+  CHECK(value_of(t, "tool.1.switch_extruder_retraction_amount") == "(absent)");
 }
 
 TEST_CASE("prusaslicer: volumes of more extruders than there are say what they say of those") {
