@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include "cache/stage_cache.h"
 #include "core/build_id.h"
 #include "core/hash.h"
 #include "core/stop.h"
 #include "pipeline/codec.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/sample.h"
-#include "pipeline/stage_cache.h"
 #include "pipeline/stage_table.h"
 #include "pipeline/stopwatch.h"
 #include "settings/exact.h"
