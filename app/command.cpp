@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command.h"
 
+#include "core/write_file.h"
 #include "pipeline/model_parts.h"
 #include "pipeline/profile_file.h"
 #include "pipeline/project.h"
-#include "pipeline/write_file.h"
 #include "profile/tool_values.h"
 #include "profile_folders.h"
 #include "prusaslicer/keys.h"

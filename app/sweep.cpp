@@ -3,8 +3,8 @@
 
 #include "batch_run.h"
 #include "core/file_bytes.h"
+#include "core/write_file.h"
 #include "page_file.h"
-#include "pipeline/write_file.h"
 #include "preview/preview.h"
 #include "tasks/crew.h"
 #include "verbs.h"

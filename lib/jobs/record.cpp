@@ -5,9 +5,9 @@
 #include "core/file_bytes.h"
 #include "core/hash.h"
 #include "core/json_text.h"
+#include "core/write_file.h"
 #include "pipeline/model_parts.h"
 #include "pipeline/transform_words.h"
-#include "pipeline/write_file.h"
 #include "settings/exact.h"
 
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include "core/escape.h"
 #include "core/json_text.h"
-#include "pipeline/write_file.h"
+#include "core/write_file.h"
 
 #include <algorithm>
 

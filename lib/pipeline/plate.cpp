@@ -256,7 +256,7 @@ class Builder {
   }
 
   Plate take_plate() && {
-    pipeline::lay_by_name(job_.by_name, plate_, origins_);
+    plate::lay_by_name(job_.by_name, plate_, origins_);
     return std::move(plate_);
   }
 
@@ -315,12 +315,12 @@ class Builder {
   std::optional<mesh::PlacementOfModel> own_of(std::size_t object) const {
     std::optional<mesh::PlacementOfModel> out;
     for (const auto& place : job_.by_name.places)
-      if (pipeline::means(place.of, plate_, origins_, object)) {
+      if (plate::means(place.of, plate_, origins_, object)) {
         if (!out) out.emplace();
         out->at = place.at, out->rotate_deg = place.rotate_deg, out->copies = 1;
       }
     for (const auto& copies : job_.by_name.copies)
-      if (pipeline::means(copies.of, plate_, origins_, object)) {
+      if (plate::means(copies.of, plate_, origins_, object)) {
         if (!out) out.emplace();
         if (out->at && copies.count > 1)
           throw Error{Error::Kind::usage,
@@ -387,7 +387,7 @@ class Builder {
   std::vector<Typed> typed_;
   Notices& notices_;
   Plate plate_;
-  pipeline::Origins origins_;
+  plate::Origins origins_;
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> object_of_;  ///< of the plate, by model and item
   std::map<std::size_t, std::vector<std::size_t>> item_of_, volume_of_;   ///< of each object of a model
   std::map<const Object*, std::vector<Later>> later_;

@@ -4,6 +4,7 @@
 #include "geometry/clipper_door.h"
 #include "geometry/spatial_index.h"
 #include "geometry/traced.h"
+#include "picture.h"
 #include "shapes.h"
 
 #include <algorithm>
@@ -31,6 +32,7 @@ TEST_CASE("geometry: areas obey inclusion and exclusion, on seeded stars", "[law
     const Regions a{{shapes::star(dice, {0, 0}, 9000, dice.between(3, 50)), {}}};
     const Regions b{
         {shapes::star(dice, {dice.between(-6000, 6000), dice.between(-6000, 6000)}, 9000, dice.between(3, 50)), {}}};
+    tests::look_at(a, b);
     const double both = area_mm2(intersect(a, b)), either = area_mm2(unite(a, b));
     const double margin = 0.01;  // mm²: rounding of the crossings, and slivers
     CHECK(both + either == Approx(area_mm2(a) + area_mm2(b)).margin(margin));
@@ -42,6 +44,7 @@ TEST_CASE("geometry: areas obey inclusion and exclusion, on seeded stars", "[law
 TEST_CASE("geometry: both sides of a cut are what intersecting and subtracting give", "[law]") {
   shapes::Dice dice(9);
   const auto check = [](const Regions& what, const Regions& by) {
+    tests::look_at(what, by);
     const Cut sides = cut(what, by);
     CHECK(exclusive_or(sides.inside, intersect(what, by)).empty());
     CHECK(exclusive_or(sides.outside, subtract(what, by)).empty());
@@ -103,6 +106,7 @@ TEST_CASE("geometry: moving the input of a Boolean by whole microns moves the ou
   shapes::Dice dice(9);
   for (int i = 0; i < 30; ++i) {
     const Regions a{{shapes::star(dice, {0, 0}, 9000, 25), {}}}, b{{shapes::star(dice, {3000, 1000}, 9000, 25), {}}};
+    tests::look_at(a, b);
     CHECK(intersect(moved(a, by), moved(b, by)) == moved(intersect(a, b), by));
     CHECK(subtract(moved(a, by), moved(b, by)) == moved(subtract(a, b), by));
   }
@@ -145,6 +149,7 @@ TEST_CASE("geometry: no edges cross after a Boolean, also where hundreds of cros
     for (auto& ring : rings)
       for (int i = 0; i < 15; ++i) ring.push_back({dice.between(0, 6000), dice.between(0, 3000)});
     const Regions regions = regions_from_rings(rings, WindingRule::even_odd);
+    tests::look_at(regions);
     CHECK(SegmentIndex(regions).crossing_pairs().empty());
     for (const auto& region : regions) CHECK(double_area(region.outer) > 0);
   }

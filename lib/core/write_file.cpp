@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/write_file.h"
+#include "core/write_file.h"
 
 #include "core/error.h"
 #include "core/file_place.h"

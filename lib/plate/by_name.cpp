@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/by_name.h"
+#include "plate/by_name.h"
 
 #include "core/error.h"
 #include "core/json_text.h"
@@ -57,7 +57,7 @@ ByName by_name_of(std::string_view text) {
   }
 }
 
-namespace pipeline {
+namespace plate {
 namespace {
 
 /// Is the model called so: as typed, or by its file's name?
@@ -144,5 +144,5 @@ void lay_by_name(const ByName& said, Plate& plate, const Origins& origins) {
   for (const auto& copies : said.copies) check(copies.of, "--copies");
 }
 
-}  // namespace pipeline
+}  // namespace plate
 }  // namespace weft

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/stage_cache.h"
+#include "cache/stage_cache.h"
 
-#include "pipeline/disk_store.h"
+#include "cache/disk_store.h"
 #include "tasks/tasks.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ struct Cell {
 
 struct StageCache::State {
   CacheOptions options;
-  std::optional<pipeline::DiskStore> disk;
+  std::optional<cache::DiskStore> disk;
   mutable std::mutex mutex;
   std::map<std::string, std::shared_ptr<Cell>, std::less<>> cells;
   std::map<std::string, Counts, std::less<>> counts;

@@ -50,7 +50,7 @@ std::string text_of(const ByName& said);
 /// @throws std::invalid_argument with one clause for what is none
 ByName by_name_of(std::string_view text);
 
-namespace pipeline {
+namespace plate {
 
 /// How objects of a plate are found: what model each is from, and where in it.
 struct Origins {
@@ -65,5 +65,5 @@ bool means(const Named& named, const Plate& plate, const Origins& origins, std::
 /// @throws Error{usage} for a name that nothing has, Error{settings} as Overlay::add
 void lay_by_name(const ByName& said, Plate& plate, const Origins& origins);
 
-}  // namespace pipeline
+}  // namespace plate
 }  // namespace weft

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/disk_store.h"
+#include "cache/disk_store.h"
 
 #include "core/error.h"
 #include "core/file_bytes.h"
 #include "core/hash.h"
-#include "pipeline/write_file.h"
+#include "core/write_file.h"
 
 #include <algorithm>
 #include <chrono>
@@ -15,7 +15,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace weft::pipeline {
+namespace weft::cache {
 namespace fs = std::filesystem;
 namespace {
 
@@ -138,4 +138,4 @@ void DiskStore::trim() {
   ::close(lock);
 }
 
-}  // namespace weft::pipeline
+}  // namespace weft::cache

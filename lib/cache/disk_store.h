@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace weft::pipeline {
+namespace weft::cache {
 
 /// A folder of entries by name, bounded in size, shared by processes. An entry is a file that appears by renaming and
 /// carries the hash of its bytes.
@@ -37,4 +37,4 @@ class DiskStore {
   std::atomic<std::size_t> damaged_ = 0, unwritten_ = 0;
 };
 
-}  // namespace weft::pipeline
+}  // namespace weft::cache
