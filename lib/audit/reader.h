@@ -193,6 +193,7 @@ class Reader {
               const std::array<std::int16_t, 3>& cause);
   void move_straight_to(const std::array<double, 3>& to, const std::array<Known, 3>& known,
                         const std::array<std::int16_t, 3>& cause);
+  void step_to(const std::array<double, 3>& to);
   bool raises_before_homing(const Words& w, double by_mm);
   double filament(const Words& w);
   void arc(const Words& w, Motion& m, Vec from, Vec to);
@@ -232,6 +233,8 @@ class Reader {
   void lose_stored(const Call& call);
   void lose_axes_named(const Call& call);
   void lose_given(const Call& call);
+  void lose_in_reprapfirmware(const Call& call);
+  void keep_commands(const Call& call);
   void lose_length(const Call& call);
   void regain_length(const Call& call);
   void probe_bed(const Call& call);
@@ -263,6 +266,8 @@ class Reader {
   void klipper_object(const klipper::Arguments& arguments);
   void klipper_object_end(const klipper::Arguments& arguments);
   void klipper_extruder(const klipper::Arguments& arguments);
+  void klipper_field(const klipper::Arguments& arguments);
+  void klipper_tower(const klipper::Arguments& arguments);
   void klipper_skew(const klipper::Arguments& arguments);
   void klipper_delayed(const klipper::Arguments& arguments);
   void klipper_skew_profile(const klipper::Arguments& arguments);
