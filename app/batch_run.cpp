@@ -226,8 +226,17 @@ std::vector<jobs::Prepared> prepare_all(Console& console, jobs::JobList list, co
   throw list.errors.back();
 }
 
+void check_reports(const std::vector<jobs::Prepared>& jobs, const Command& command, const std::string& suffix) {
+  Files files = command.files;
+  for (const auto& job : jobs)
+    for (const auto& path : job.read) files.reads(path.string());
+  for (const auto& name : jobs::summary_names(suffix)) files.writes((fs::path(*command.output) / name).string(), "-o");
+  files.writes((fs::path(*command.output) / "index.html").string(), "-o");
+}
+
 Finished run_jobs(Console& console, const std::vector<jobs::Prepared>& jobs, const jobs::BatchOptions& options,
-                  const std::string& suffix) {
+                  const Command& command, const std::string& suffix) {
+  check_reports(jobs, command, suffix);
   std::signal(SIGINT, note_batch_interrupt);
   std::signal(SIGTERM, note_batch_interrupt);
   jobs::BatchWatch watch;

@@ -199,7 +199,7 @@ TEST_CASE("hostile: profiles may be bounded to a folder, links and inheritance i
         0);  // found by name: installed for all
   REQUIRE(shell("rm a.gcode", desk.scratch.path()).status == 0);
   for (const std::string outside : {"secrets/s.ini", "root/own/bad.ini", "root/own/link.ini", "root/../secrets/s.ini"})
-    desk.fails(slice + outside, 6, "lies outside the folder that profiles may come from");
+    desk.fails(slice + outside, 6, "lies outside the folder that profiles and what they name may come from");
   desk.scratch.write("list.jsonl", R"({"models": ["part.stl"], "profiles": ["secrets/s.ini"]})"
                                    "\n");
   CHECK(shell("$WEFT batch list.jsonl --profile-root root -o out", desk.scratch.path()).status != 0);
