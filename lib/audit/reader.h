@@ -171,6 +171,7 @@ class Reader {
   const char* command(const char* p, const char* end);
   const char* odd_command(const char* p, const char* end);
   const char* numbered_command(char letter, const char* p, const char* end);
+  bool klipper_knows(const char* digits, const char* behind, const char* end) const;
   const char* motion_line(const char* p, const char* end);
   const char* skip_words(const char* p, const char* end);
   const char* extended_command(const char* p, const char* end);

@@ -102,6 +102,21 @@ TEST_CASE("audit: a command that moves the nozzle besides is judged as a move", 
   CHECK(bench.moves("SAVE_GCODE_STATE NAME=s\nG1 X20\nRESTORE_GCODE_STATE NAME=s\nG1 X30\n").checked_moves == 3);
 }
 
+TEST_CASE("audit: what Klipper does not know as it is written is no command", "[audit][klipper]") {
+  Bench bench;
+  bench.machine.firmware = Firmware::klipper;
+  for (const std::string line :
+       {"G91 (X1)", "G91 5", "G090", "G092 X5", "G028", "M083 -", "T01", "G X5 Y5", "N G1 X5", "M", "G"}) {
+    CAPTURE(line);
+    CHECK_FALSE(bench.moves(line + "\nG1 X20 Y20\n").clean());
+  }
+  for (const std::string line :
+       {"G91\nG90", "G91 ; (X1)\nG90", "N5 G90*21", "M117 (5%) 100", "M104 (hot) S200", "G28 X (left)", "M83\t"}) {
+    CAPTURE(line);
+    CHECK(bench.moves(line + "\nG1 X20 Y20\n").clean());
+  }
+}
+
 TEST_CASE("audit: a step from where a macro left the nozzle is not audited", "[audit][klipper]") {
   const Bench bench;
   for (const std::string step :
