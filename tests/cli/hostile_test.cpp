@@ -125,6 +125,14 @@ TEST_CASE("hostile: no result leaves the folder through a link") {
                                    "\n");
   desk.fails("$WEFT batch list.jsonl -o out", 2, "list.jsonl:1: output sub/a.gcode leads out of the folder");
   CHECK(!desk.scratch.has("away/a.gcode"));
+  for (const std::string name : {"report.jsonl", "junit.xml", ".weft"}) {
+    CAPTURE(name);
+    REQUIRE(shell("rm -rf in; mkdir in; ln -s ../away in/" + name, desk.scratch.path()).status == 0);
+    desk.fails("$WEFT batch part.stl -o in", 2, "leads out of the folder of the results");
+  }
+  REQUIRE(shell("rm -rf in; mkdir in; touch away/r; ln -s ../away/r in/summary.csv", desk.scratch.path()).status == 0);
+  desk.fails("$WEFT batch part.stl -o in", 2, "-o: summary.csv leads out of the folder of the results");
+  CHECK(desk.scratch.read("away/r").empty());
 }
 
 TEST_CASE("hostile: a cache entry that cannot be read is made again") {
