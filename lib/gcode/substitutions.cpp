@@ -124,7 +124,7 @@ std::string Substitutions::done(std::string text) const {
     PCRE2_SIZE size = text.size() + text.size() / 8 + 256;
     int result = PCRE2_ERROR_NOMEMORY;
     for (int tries = 0; result == PCRE2_ERROR_NOMEMORY && tries < 2; ++tries) {
-      if (size > most)
+      if (tries > 0 && size > most)
         refuse(one.line, fmt::format("makes {} MB of {} bytes", size >> 20, text.size()), "replace by less");
       out.resize(size);
       size = out.size();
