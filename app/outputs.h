@@ -28,4 +28,7 @@ class Files {
   std::map<FilePlace, Output> written_;
 };
 
+/// What is known to be in the way of writing there is told before the work, not after it. @throws Error{file}
+void check_writable(const std::string& destination);
+
 }  // namespace weft::app

@@ -164,10 +164,11 @@ namespace {
 
 std::string summary(const Report& r) {
   const auto cost = r.cost ? ", " + price(r.cost->total(), r.currency) : std::string();
-  return fmt::format(
-      "{} layers, {:.2f} mm high, {} to print, {:.2f} m of filament ({:.1f} g){}; audit: {}, {} moves checked",
-      r.layers, r.height_mm, short_duration(r.print_time_s), r.filament_mm / 1000, r.filament_g, cost, r.audit.verdict,
-      r.audit.checked_moves);
+  const auto& audit = r.audit;  // of an annotated print the summary has been the warning before this line
+  const auto judged = audit.verdict == "pass" ? audit.summary : fmt::format("{} moves checked", audit.checked_moves);
+  return fmt::format("{} layers, {:.2f} mm high, {} to print, {:.2f} m of filament ({:.1f} g){}; audit: {}, {}",
+                     r.layers, r.height_mm, short_duration(r.print_time_s), r.filament_mm / 1000, r.filament_g, cost,
+                     audit.verdict, judged);
 }
 
 /// Where the preview goes; empty: none is asked for.
@@ -186,9 +187,7 @@ std::string destination_of(const Command& command, const Profile& profile, const
   const PrintPlan plan;
   const auto name = gcode::file_name({profile.settings, plan, made, model.stem().string(), {}});
   const auto path = (model.parent_path() / name).string();
-  Files files = command.files;
-  for (const auto& parent : profile.parents) files.reads(parent.string());
-  files.writes(path, "output_filename_format");
+  files_of(command, profile).writes(path, "output_filename_format");
   return path;
 }
 

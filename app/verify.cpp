@@ -5,6 +5,7 @@
 #include "core/stop.h"
 #include "core/version.h"
 #include "limited.h"
+#include "pipeline/field_files.h"
 #include "pipeline/provenance.h"
 #include "verbs.h"
 
@@ -85,10 +86,13 @@ void compare(const Command& command, Console& console) {
   watch.cancelled = *StopWhen::current();
   const auto again = run(job, watch, report);
   if (!again) throw Error{Error::Kind::audit, report.error, path};
-  if (again->gcode() != file.view())
+  if (again->gcode() != file.view()) {
+    std::string fields;  // what they held the file does not say
+    for (const auto& field : pipeline::field_files(job)) fields += (fields.empty() ? ", or " : " or ") + field;
     throw Error{Error::Kind::file,
                 "is not what weft makes of its model and settings; " + first_difference(again->gcode(), file.view()),
-                path, "it was changed after it was made"};
+                path, fmt::format("it{} was changed after it was made", fields)};
+  }
   console.info(fmt::format("{}: byte for byte what weft {} makes of {}", path, version, job.models.front()));
 }
 

@@ -159,12 +159,13 @@ class Run {
   std::optional<Fate> fate_before(std::size_t i, Outcome& outcome) {
     const auto& job = jobs_[i];
     outcome.report.warnings = job.notices;
+    if (job.refused) throw Error(*job.refused);
     refuse_what_never_fits(i);
     const auto record = read_record(options_.folder, job.line);
     if (record && !options_.check_full)
       for (const auto& file : record->files) files_.trust(file);
     outcome.inputs_sha256 = inputs_hash(job.job, files_);
-    outcome.files = files_.known(pipeline::files_of(job.job.models));
+    outcome.files = files_.known(inputs_of(job.job));
     if (!record || record->inputs_sha256 != outcome.inputs_sha256 || record->build != build_id() || !stands(*record))
       return std::nullopt;
     outcome.exit_status = record->exit_status, outcome.error = record->error;

@@ -163,8 +163,9 @@ class Build {
       if (mark.volume) {
         made.name = mark.volume->name;
         made.settings = mark.volume->settings, made.author = document_.parts.author;
-        const auto before = std::count_if(parts_.begin(), parts_.end(),
-                                          [&](const PartInWork& part) { return part.number() < mark.volume->number; });
+        const auto before = std::count_if(parts_.begin(), parts_.end(), [volume = mark.volume](const PartInWork& part) {
+          return part.number() < volume->number;
+        });
         if (apart_ && key.kind == MarkKind::negative) made.after = static_cast<std::size_t>(before);
       }
       out.front().marks.push_back(std::move(made));

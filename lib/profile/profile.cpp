@@ -203,6 +203,34 @@ std::string beside(const std::filesystem::path& profile, std::string_view key, s
   return (profile.parent_path() / value).lexically_normal().string();
 }
 
+/// @param chain files that are being read @throws Error{settings} when `parent` is one of them
+void refuse_circle(const std::vector<std::filesystem::path>& chain, const std::filesystem::path& parent,
+                   const std::string& called, const std::string& where) {
+  if (std::find(chain.begin(), chain.end(), canonical(parent, where)) != chain.end())
+    throw Error{Error::Kind::settings, fmt::format("inherits '{}', which inherits this file", called), where,
+                "break the circle"};
+  if (chain.size() > 100) throw Error{Error::Kind::settings, "more than 100 generations of ancestors", where, {}};
+}
+
+/// What a file says of single tools, over what it says of all.
+void apply_tools(Profile& profile, const std::vector<IniEntry>& entries, const std::filesystem::path& path,
+                 ImportOptions options, const std::vector<std::filesystem::path>& chain) {
+  options.within = chain;
+  for (const auto& e : entries) {
+    const auto tool = tool_of_section(e.section);
+    if (!tool) continue;
+    const auto where = fmt::format("{}:{}", path.string(), e.line);
+    if (e.key != "inherits") {
+      apply_value(profile, fmt::format("tool.{}.{}", *tool, e.key), without_comment(e), where);
+      continue;
+    }
+    const auto parent =
+        find_profile(e.value, path.parent_path(), options.folders).value_or(path.parent_path() / e.value);
+    refuse_circle(chain, parent, e.value, where);
+    apply_tool_file(profile, *tool, parent, options);
+  }
+}
+
 void apply_text(Profile& profile, std::string_view text, const std::filesystem::path& path,
                 const ImportOptions& options, std::vector<std::filesystem::path>& chain) {
   const auto name = path.string();
@@ -215,18 +243,14 @@ void apply_text(Profile& profile, std::string_view text, const std::filesystem::
     if (options.strict) refuse_losses(translated, name);
     return note_losses(profile, translated, name);
   }
+  refuse_odd_tools(entries, name);
   chain.push_back(canonical(path, name));
   for (const auto& e : entries) {
     if (e.key != "inherits" || tool_of_section(e.section)) continue;
     const auto where = fmt::format("{}:{}", name, e.line);
     const auto found = find_profile(e.value, path.parent_path(), options.folders);
     const auto parent = found.value_or(path.parent_path() / e.value);
-    const auto whole = canonical(parent, where);
-    for (const auto& above : chain)
-      if (above == whole)
-        throw Error{Error::Kind::settings, fmt::format("inherits '{}', which inherits this file", e.value), where,
-                    "break the circle"};
-    if (chain.size() > 100) throw Error{Error::Kind::settings, "more than 100 generations of ancestors", where, {}};
+    refuse_circle(chain, parent, e.value, where);
     if (std::error_code unknown; !std::filesystem::is_regular_file(parent, unknown))
       throw Error{Error::Kind::settings, fmt::format("inherits '{}', which is not there", parent.string()), where,
                   "the path is relative to this file, or a name that `weft profile list` knows"};
@@ -236,16 +260,7 @@ void apply_text(Profile& profile, std::string_view text, const std::filesystem::
   for (const auto& e : entries)
     if (e.key != "inherits" && !tool_of_section(e.section))
       apply_value(profile, e.key, beside(path, e.key, without_comment(e)), fmt::format("{}:{}", name, e.line));
-  for (const auto& e : entries)
-    if (const auto tool = tool_of_section(e.section)) {
-      if (e.key == "inherits")
-        apply_tool_file(
-            profile, *tool,
-            find_profile(e.value, path.parent_path(), options.folders).value_or(path.parent_path() / e.value), options);
-      else
-        apply_value(profile, fmt::format("tool.{}.{}", *tool, e.key), without_comment(e),
-                    fmt::format("{}:{}", name, e.line));
-    }
+  apply_tools(profile, entries, path, options, chain);
   chain.pop_back();
 }
 
@@ -256,17 +271,17 @@ bool is_in(const std::filesystem::path& file, const std::filesystem::path& folde
   return !error && std::mismatch(whole.begin(), whole.end(), file.begin(), file.end()).first == whole.end();
 }
 
+}  // namespace
+
 void refuse_outside(const std::filesystem::path& path, const ImportOptions& options) {
   if (options.root.empty()) return;
   const auto file = canonical(path, path.string());
   if (is_in(file, options.root)) return;
   for (const auto& folder : options.folders)
     if (is_in(file, folder)) return;
-  throw Error{Error::Kind::file, "lies outside the folder that profiles may come from", path.string(),
-              fmt::format("--profile-root is {}", options.root.string())};
+  throw Error{Error::Kind::file, "lies outside the folder that profiles and what they name may come from",
+              path.string(), fmt::format("--profile-root is {}", options.root.string())};
 }
-
-}  // namespace
 
 std::string read_profile(const std::filesystem::path& path, const ImportOptions& options) {
   refuse_outside(path, options);
@@ -278,7 +293,7 @@ std::string read_profile(const std::filesystem::path& path, const ImportOptions&
 
 void apply_text(Profile& profile, std::string_view text, const std::filesystem::path& path,
                 const ImportOptions& options) {
-  std::vector<std::filesystem::path> chain;
+  auto chain = options.within;
   apply_text(profile, text, path, options, chain);
 }
 

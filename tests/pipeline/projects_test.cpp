@@ -236,7 +236,8 @@ TEST_CASE("project: one of Cura has objects with settings, and meshes that chang
   };
   const std::string resources =
       "<object id=\"1\" name=\"thing\" type=\"model\"><metadatagroup>" + setting("drop_to_buildplate", "True") +
-      setting("infill_sparse_density", "15") + setting("no_such_thing", "7") + "</metadatagroup>" + mesh_of({body}) +
+      setting("infill_sparse_density", "15") + setting("no_such_thing", "7") +
+      setting("infill_density_image", "/etc/passwd") + "</metadatagroup>" + mesh_of({body}) +
       "</object><object id=\"2\" name=\"grip\" type=\"model\"><metadatagroup>" + setting("infill_mesh", "True") +
       setting("wall_line_count", "4") + "</metadatagroup>" + mesh_of({grip}) + "</object>";
   const auto file =
@@ -254,11 +255,12 @@ TEST_CASE("project: one of Cura has objects with settings, and meshes that chang
   REQUIRE(passed.has_value());
   by_hand.text = passed->gcode();
   CHECK(out.commands() == by_hand.commands());
-  bool told = false;
-  for (const auto& notice : out.report.warnings)
-    told = told || notice.message.find("object 'thing': no_such_thing = 7 is left out: weft has no such setting") !=
-                       std::string::npos;
-  CHECK(told);
+  std::string told;
+  for (const auto& notice : out.report.warnings) told += notice.message + "\n";
+  CHECK_THAT(told,
+             Contains("object 'thing': no_such_thing = 7 is left out: weft has no such setting") &&
+                 Contains("object 'thing': infill_density_image = /etc/passwd is left out: a project does not say "
+                          "which files of this machine are read"));
 }
 
 TEST_CASE("project: a negative volume cuts the parts before it and no other") {
