@@ -302,9 +302,14 @@ Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, cons
   }
   if (settings.bridges && index > 0) {
     const ShellLayer& below = object.layers[index - 1];
-    find_internal_bridges(settings,
-                          sparse_style(infill, {index - 1, below.z, below.height, object.nozzle, object.box.centre()}),
-                          kinds, sparse_below, line, object.nozzle);
+    const SparseStyle style = sparse_style(infill, {.index = index - 1,
+                                                    .turn = index - 1,
+                                                    .z = below.z,
+                                                    .height = below.height,
+                                                    .nozzle = object.nozzle,
+                                                    .origin = object.box.centre(),
+                                                    .turned_rad = object.turned_rad});
+    find_internal_bridges(settings, style, kinds, sparse_below, line, object.nozzle);
   }
   const Um height = object.layers[index].height;
   if (kinds.sparse)

@@ -47,6 +47,7 @@ template <>
 inline constexpr auto fields<pipeline::FilledLayer> = listed(&pipeline::FilledLayer::top, &pipeline::FilledLayer::skin,
                                                              &pipeline::FilledLayer::sparse,
                                                              &pipeline::FilledLayer::beads,
+                                                             &pipeline::FilledLayer::inner_beads,
                                                              &pipeline::FilledLayer::notices);
 
 template <>

@@ -290,7 +290,8 @@ std::optional<audit::Passed> print(const Job& job, Printing what, const Watch& w
                   statistics,
                   std::filesystem::path(what.name).stem().string(),
                   {},
-                  provenance_lines(report.models, report.marks, job.placement, job.by_name) + overlay_lines(what.plate),
+                  provenance_lines(report.models, report.marks, job.placement, job.by_name, report.infill_files) +
+                      overlay_lines(what.plate),
                   std::move(digests),
                   tool_count(job.settings) > 1 ? settings_of_tools(job.settings) : std::vector<Settings>{},
                   std::move(cold_at_start)};

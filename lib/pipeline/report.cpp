@@ -96,6 +96,7 @@ Json infill_of(const Report::Infill& i) {
       {"pattern", i.pattern},
       {"density_percent", rounded3(i.density_percent)},
       {"density_spread_percent", rounded3(i.density_spread_percent)},
+      {"length_spread_percent", rounded3(i.length_spread_percent)},
       {"fabric", {{"h2", rounded3(i.fabric[0])}, {"h4", rounded3(i.fabric[1])}, {"h6", rounded3(i.fabric[2])}}},
       {"over_air_percent", rounded3(i.over_air_percent)},
       {"locality", rounded3(i.locality)},
@@ -184,6 +185,8 @@ std::string to_json(const Report& r) {
   out["features"] = features_of(r);
   out["walls"] = walls_of(r.walls);
   if (r.infill.mm3 > 0) out["infill"] = infill_of(r.infill);
+  for (const auto& file : r.infill_files)
+    out["infill_files"].push_back({{"key", file.key}, {"file", file.file}, {"sha256", file.sha256}});
   if (r.support.needed_mm2 > 0 || r.support.bridged_mm2 > 0) out["support"] = support_of(r);
   if (r.arcs.count > 0)
     out["arcs"] = {{"count", r.arcs.count}, {"moves", r.arcs.pieces}, {"worst_um", rounded3(r.arcs.worst_um)}};

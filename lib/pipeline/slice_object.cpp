@@ -37,7 +37,7 @@ Cuts slice_mesh(const SliceHands& handed, const ObjectScopes& scopes, const Mesh
 }  // namespace
 
 Result<Cuts> slice_object(const Running& job, const Object& object, const ObjectScopes& scopes,
-                          const SliceHands& handed, std::vector<Areas>& areas) {
+                          const Scopes& all_scopes, const SliceHands& handed, std::vector<Areas>& areas) {
   const Um top = top_of(object);
   std::vector<Result<Cuts>> of_volume;
   for (const auto& volume : object.volumes)
@@ -51,7 +51,7 @@ Result<Cuts> slice_object(const Running& job, const Object& object, const Object
   const Stopwatch stopwatch(job.report.timings_ms[Stage::slice]);
   std::vector<const Cuts*> cuts;
   for (const auto& result : of_volume) cuts.push_back(&*result);
-  return Result<Cuts>(united(object, scopes, cuts, areas));
+  return Result<Cuts>(united(object, scopes, all_scopes, cuts, areas));
 }
 
 std::vector<std::string> slice_hashes(const Object& object, const ObjectScopes& scopes, const SliceHands& handed) {

@@ -47,6 +47,7 @@ struct Object {
   Overlay overlay{};
   std::vector<HeightRange> ranges{};
   std::vector<Point> copies{{}};    ///< where each stands, against the first, which is usually {0, 0}
+  double turned_deg = 0;            ///< about Z, counter-clockwise, against its file
   Ring hull{};                      ///< of what is printed, seen from above
   std::vector<mesh::Mark> marks{};  ///< what is not printed but says something of it, in its coordinates
   Overlay said{};                   ///< of it by name: holds over everything but what is said of its volumes

@@ -11,6 +11,7 @@
 #include "settings/gcode_variables.h"
 #include "settings/head_profile.h"
 #include "settings/ini.h"
+#include "settings/modifier_list.h"
 #include "settings/pattern_list.h"
 #include "settings/tools.h"
 #include "settings/value.h"
@@ -199,8 +200,16 @@ std::filesystem::path canonical(const std::filesystem::path& path, const std::st
 
 /// A value that names a file, from the folder of the profile that says it; others as they are.
 std::string beside(const std::filesystem::path& profile, std::string_view key, std::string value) {
+  const auto at = [&](const std::string& file) { return (profile.parent_path() / file).lexically_normal().string(); };
+  if (key == "infill_modifiers") try {
+      auto meshes = parse_modifier_list(value);
+      for (auto& mesh : meshes) mesh.file = at(mesh.file);
+      return text_of(meshes);
+    } catch (const std::invalid_argument&) {
+      return value;  // refused by check_infill
+    }
   if (value.empty() || std::find(infill_files.begin(), infill_files.end(), key) == infill_files.end()) return value;
-  return (profile.parent_path() / value).lexically_normal().string();
+  return at(value);
 }
 
 /// @param chain files that are being read @throws Error{settings} when `parent` is one of them
@@ -416,18 +425,23 @@ void check_branches(const SupportSettings& s, const Refuse& refuse) {
            "it is how far branches lean where nothing is in their way");
 }
 
-/// Files that infill is laid by must be there, and patterns by density be some.
+/// Files that infill is laid by must be there, and its lists be some.
 template <class Refuse>
 void check_infill(const Profile& profile, const Refuse& refuse) {
   const InfillSettings& s = profile.settings.infill;
-  const std::array files{&s.infill_density_image, &s.infill_density_field, &s.infill_direction_field};
-  for (std::size_t i = 0; i < files.size(); ++i) {
+  const auto look_for = [&](const std::string& file, const char* key) {
     std::error_code unknown;
-    if (files[i]->empty() || std::filesystem::exists(*files[i], unknown)) continue;
-    const std::string key(infill_files[i]);
+    if (file.empty() || std::filesystem::exists(file, unknown)) return;
     const bool by_file = origin_of(profile, key).find(':') != std::string::npos;
-    refuse(key.c_str(), fmt::format("'{}' is not there", *files[i]),
+    refuse(key, fmt::format("'{}' is not there", file),
            by_file ? "the path is relative to this file" : "the path is relative to where weft is started");
+  };
+  const std::array files{&s.infill_density_image, &s.infill_density_field, &s.infill_direction_field};
+  for (std::size_t i = 0; i < files.size(); ++i) look_for(*files[i], std::string(infill_files[i]).c_str());
+  try {
+    for (const DenseMesh& mesh : parse_modifier_list(s.infill_modifiers)) look_for(mesh.file, "infill_modifiers");
+  } catch (const std::invalid_argument& problem) {
+    refuse("infill_modifiers", problem.what(), "as in: boss.stl:80, core.stl:5:gyroid");
   }
   try {
     (void)parse_pattern_list(s.infill_pattern_by_density);

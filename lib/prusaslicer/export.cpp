@@ -236,7 +236,14 @@ class Exporter {
     say("thick_bridges", "1");
     say("elefant_foot_compensation", number(std::max(0.0, -to_mm(s_.walls.xy_offset_layer_0))), "xy_offset_layer_0");
     say("seam_gap_distance", print("seam_gap_distance"), "seam_gap_distance");
-    say("infill_anchor_max", s_.infill.infill_connect_lines ? "50" : "0", "infill_connect_lines");
+    const auto longest = print("infill_anchor_max");
+    say("infill_anchor_max",
+        !s_.infill.infill_connect_lines ? "0"
+        : longest == "auto"             ? "50"
+                                        : longest,
+        "infill_connect_lines");
+    said_.insert("infill_anchor_max");
+    say("infill_anchor", print("infill_anchor_length"), "infill_anchor_length");
     if (!s_.retraction.retraction_enable) say("retract_length", "0");
     said_.insert("retraction_enable");
     std::string sizes;

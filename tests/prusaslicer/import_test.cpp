@@ -291,3 +291,18 @@ TEST_CASE("prusaslicer: values that do not parse whole are errors with the line"
     }
   }
 }
+
+TEST_CASE("prusaslicer: anchors of infill are as long as the profile says, and weft's own where it says nothing") {
+  const auto said = translated(
+      "fill_density = 15%\ninfill_extrusion_width = 0.45\ninfill_anchor = 600%\n"
+      "infill_anchor_max = 12\n");
+  CHECK(value_of(said, "infill_anchor_length") == "2.7");
+  CHECK(value_of(said, "infill_anchor_max") == "12");
+  CHECK(value_of(said, "infill_connect_lines") == "true");
+  const auto off = translated("fill_density = 15%\ninfill_anchor = 5\ninfill_anchor_max = 0\n");
+  CHECK(value_of(off, "infill_anchor_length") == "0");
+  CHECK(value_of(off, "infill_connect_lines") == "false");
+  const auto silent = translated("fill_density = 15%\n");
+  CHECK(value_of(silent, "infill_anchor_length") == "(absent)");
+  CHECK(value_of(silent, "infill_anchor_max") == "(absent)");
+}
