@@ -230,6 +230,7 @@ int slice(const Words& words) {
   const Limits limits(limit_of(command.options, "timeout"), limit_of(command.options, "max-memory"));
 
   Report report;
+  if (command.report) report.figures.emplace();
   if (command.report && command.console.verbosity == Verbosity::detail) report.tours.emplace();  // figures to debug by
   const auto finish = [&] {
     warn(console, report.warnings, command.console.verbosity == Verbosity::detail ? report.warnings.size() : 3);

@@ -4,6 +4,7 @@
 #include "core/stop.h"
 #include "geometry/boolean.h"
 #include "geometry/offset.h"
+#include "infill/small_areas.h"
 #include "infill/solid.h"
 #include "infill/sparse.h"
 #include "model/flow.h"
@@ -168,6 +169,14 @@ void fill_winding(const Region& region, InfillPattern pattern, const SolidStyle&
   for (const Region& rest : geometry::subtract({region}, wide)) fill_solid(rest, style, beads);
 }
 
+/// Lines, which may lose what they would lay twice where they turn.
+void fill_lines(const Region& region, const ShellSettings& shells, const SolidStyle& style, Beads& beads) {
+  const std::size_t from = beads.size();
+  fill_solid(region, style, beads);
+  if (style.role != Role::bridge && shells.small_area_flow_length > 0)
+    thin_short_lines(shells.small_area_flow_length, style.angle_rad, from, beads);
+}
+
 /// What of a part's areas is ironed: what keeps off their edge by the inset.
 Regions ironed(const ShellSettings& shells, const FillInput& input, const PartAreas& areas) {
   if (shells.ironing_surfaces == IroningSurfaces::topmost && !input.topmost) return {};
@@ -293,7 +302,7 @@ FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const 
       if (winds)
         fill_winding(region, *winds, style, input, layer.beads);
       else
-        fill_solid(region, style, layer.beads);
+        fill_lines(region, shells, style, layer.beads);
       if (style.role != Role::bridge) spread_out(flow::spread(input.height, input.overlap_factor), from, layer.beads);
     }
   };

@@ -104,6 +104,8 @@ class Fitter {
     const double to_centre = (*h * *h - half * half) / (2 * *h);  // from the chord, to its left
     const double radius = std::hypot(half, to_centre);
     if (radius > largest_radius_um) return std::nullopt;
+    const double chord = chord_um(rules_.firmware, rules_.segment, radius);
+    if (chord * chord > 8 * radius * rules_.tolerance) return std::nullopt;
     Arc out{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last), {}, *h < 0};
     out.centre = {rounded((static_cast<double>(a.x) + b.x) / 2 - to_centre * y),
                   rounded((static_cast<double>(a.y) + b.y) / 2 + to_centre * x)};
@@ -174,15 +176,18 @@ double deviation_um(const Extrude& bead, const Arc& arc) {
   return most;
 }
 
-Polyline chords_of(Firmware firmware, const Extrude& bead, const Arc& arc) {
+double chord_um(Firmware firmware, std::optional<Um> segment, double radius_um) {
   constexpr double klipper_um = 1000, marlin_least_um = 100, marlin_most_um = 1000, marlin_circle = 72, reprap_um = 5;
+  if (segment) return *segment;
+  if (firmware == Firmware::klipper) return klipper_um;
+  if (firmware == Firmware::reprapfirmware) return std::sqrt(8 * radius_um * reprap_um);
+  return std::clamp(2 * std::numbers::pi * radius_um / marlin_circle, marlin_least_um, marlin_most_um);
+}
+
+Polyline chords_of(Firmware firmware, std::optional<Um> segment, const Extrude& bead, const Arc& arc) {
   const Point from = bead.path[arc.first].at, to = bead.path[arc.last].at;
   const double radius = distance(arc.centre, from), sweep = sweep_of(from, to, arc), length = radius * sweep;
-  const double chord = firmware == Firmware::klipper ? klipper_um
-                       : firmware == Firmware::reprapfirmware
-                           ? std::sqrt(8 * radius * reprap_um)
-                           : std::clamp(2 * std::numbers::pi * radius / marlin_circle, marlin_least_um, marlin_most_um);
-  const int count = std::max(1, static_cast<int>(length / chord));
+  const int count = std::max(1, static_cast<int>(length / chord_um(firmware, segment, radius)));
   const double begin = angle_about(arc.centre, from);
   Polyline out;
   for (int i = 1; i < count; ++i) {

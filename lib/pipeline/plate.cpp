@@ -290,6 +290,7 @@ class Builder {
         added.overlay = {fmt::format("object '{}'", added.name), Scope::object};
         const auto& item = model.items[object.item];
         lay(model, item.settings, added.overlay);
+        added.heights = item.heights;
         for (const auto& range : item.ranges) {
           added.ranges.push_back(
               {range.from,

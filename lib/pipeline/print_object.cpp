@@ -104,6 +104,8 @@ Regions inside_of(const WallHands& handed, const Areas& areas, const SlicedLayer
 
 Walls build_walls(const WallHands& handed, const Scopes& scopes, const Cuts& cuts, const std::vector<Areas>& areas,
                   const std::vector<Regions>& held, const Sample& sample) {
+  Box box;  // rough walls hang on its corner, so they move with the object
+  for (const auto& cut : cuts) box.add(box_of(cut.layer.regions));
   return tasks::parallel_map(cuts.size(), [&](std::size_t i) {
     if (!sample.has(i)) {
       WallLayer bare;
@@ -121,7 +123,8 @@ Walls build_walls(const WallHands& handed, const Scopes& scopes, const Cuts& cut
                                   .nozzle_diameter = nozzle,
                                   .over_air = &over_air,
                                   .above = above,
-                                  .settings_above = &walls_above});
+                                  .settings_above = &walls_above,
+                                  .origin = box.min});
     };
     auto layer = areas[i].size() == 1 ? build(areas[i].front().scope, cuts[i].layer)
                                       : walls_of_areas(told_apart(handed, areas[i]), cuts[i].layer, build);

@@ -2,6 +2,7 @@
 #pragma once
 #include "core/notice.h"
 #include "model/bead.h"
+#include "pipeline/figures.h"
 #include "pipeline/timings.h"
 #include "settings/cost.h"
 
@@ -134,6 +135,7 @@ struct Report {
   struct Tour {
     double mm = 0, least_mm = 0;
   };
+  std::optional<Figures> figures;          ///< where they are asked for: put empty ones there
   std::optional<std::vector<Tour>> tours;  ///< one a layer, where they are asked for: put an empty list there
   Support support;
   Infill infill;

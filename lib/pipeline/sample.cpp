@@ -141,7 +141,7 @@ Statistics extrapolated(const Statistics& bottom, const Statistics& above, const
   // What is not in the parts (extra prime, the flow of the material, waiting) grows as they do.
   add_filament(out, above, beads_mm3 > 0 ? more_mm3 / beads_mm3 : 0);
   out.print_time_s += (parts_s > 0 ? more_s / parts_s : 0) * above.print_time_s;
-  out.layer_s.clear();  // not known one by one
+  out.layer_s.clear(), out.silent_layer_s.clear();  // not known one by one
   return out;
 }
 

@@ -425,6 +425,26 @@ void check_branches(const SupportSettings& s, const Refuse& refuse) {
            "it is how far branches lean where nothing is in their way");
 }
 
+/// Heights of layers other than the usual ones.
+template <class Refuse>
+void check_heights(const Settings& s, const Refuse& refuse) {
+  const auto& l = s.layers;
+  const Um nozzle = s.machine.nozzle_diameter, most = l.adaptive_layer_height_max.value_or(nozzle * 3 / 4);
+  const bool asked = l.adaptive_layer_height_enabled || l.adaptive_layer_height_max;
+  if (asked && l.adaptive_layer_height_min > most)
+    refuse("adaptive_layer_height_min",
+           fmt::format("{} mm is more than adaptive_layer_height_max, {} mm", to_mm(l.adaptive_layer_height_min),
+                       to_mm(most)),
+           l.adaptive_layer_height_max ? "" : "auto is 75 % of nozzle_diameter");
+  const auto too_high = [&](const char* key, Um height) {
+    if (height > nozzle)
+      refuse(key, fmt::format("{} mm is more than nozzle_diameter {} mm", to_mm(height), to_mm(nozzle)),
+             "a bead cannot be higher than the nozzle is wide");
+  };
+  if (l.adaptive_layer_height_enabled) too_high("adaptive_layer_height_max", most);
+  for (const auto& band : l.layer_height_ranges) too_high("layer_height_ranges", band.height);
+}
+
 /// Files that infill is laid by must be there, and its lists be some.
 template <class Refuse>
 void check_infill(const Profile& profile, const Refuse& refuse) {
@@ -467,6 +487,10 @@ void check_consistency(const Profile& profile) {
         "initial_layer_height",
         fmt::format("{} mm is more than nozzle_diameter {} mm", to_mm(*s.layers.initial_layer_height), to_mm(nozzle)),
         "a bead cannot be higher than the nozzle is wide");
+  check_heights(s, refuse);
+  if (const auto count = s.machine.machine_silent_limits.size(); count != 0 && count != silent_limits)
+    refuse("machine_silent_limits", fmt::format("{} values for {} limits", count, silent_limits),
+           "speeds of X, Y, Z, E, accelerations of X, Y, Z, E, jerks of X and Y, of Z, of E");
   if (s.machine.bed_shape == BedShape::polygon && s.machine.bed_polygon.size() < 3)
     refuse(profile.origins.count("bed_polygon") != 0 ? "bed_polygon" : "bed_shape",
            "a bed of shape polygon needs at least three corners in bed_polygon",

@@ -222,6 +222,11 @@ class Exporter {
     say("support_material_interface_speed", number(v.speed_support_interface), "speed_support_interface");
     const auto slope = print("max_extrusion_rate_slope");
     say("max_volumetric_extrusion_rate_slope_positive", slope == "auto" ? "0" : slope, "max_extrusion_rate_slope");
+    const auto own = print("max_extrusion_rate_slope_down"), down = own == "auto" ? slope : own;
+    say("max_volumetric_extrusion_rate_slope_negative", down == "auto" ? "0" : down, "max_extrusion_rate_slope_down");
+    const auto most = print("adaptive_layer_height_max");
+    say("min_layer_height", print("adaptive_layer_height_min"), "adaptive_layer_height_min");
+    say("max_layer_height", most == "auto" ? "0" : most, "adaptive_layer_height_max");
     for_each_reckoned(Form::acceleration, [&](const Key& row) {
       const auto text = print(row.ours);
       say(row.name, !v.acceleration_enabled || text == "auto" ? "0" : text, row.ours);

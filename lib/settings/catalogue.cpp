@@ -96,6 +96,10 @@ std::string_view type_name(Unit unit) {
     return "colour";
   else if constexpr (std::is_same_v<T, HeightMarks>)
     return "heights";
+  else if constexpr (std::is_same_v<T, HeightBands>)
+    return "ranges";
+  else if constexpr (std::is_same_v<T, PressureRows>)
+    return "rows";
   else if constexpr (std::is_same_v<T, ToolValues>)
     return "settings of tools";
   else

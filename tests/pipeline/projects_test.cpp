@@ -217,6 +217,23 @@ TEST_CASE("project: one of PrusaSlicer is printed as a plate that says the same 
   CHECK(out.commands() == printed_as_meant().commands());
 }
 
+TEST_CASE("project: heights of layers that come with an object are its own, unless they are for another height") {
+  const Folder folder;
+  const auto heights = [&](const std::string& profile) {
+    const auto file =
+        folder.write("h.3mf", of_prusaslicer({body}, {}, {{"Metadata/Slic3r_PE_layer_heights_profile.txt", profile}}));
+    return printed(plain_job(file));
+  };
+  const auto own = heights("object_id=1|0;0.2;0.2;0.2;2;0.1;6;0.1\n");
+  const auto plain = heights("");
+  CHECK(own.report.layers > plain.report.layers + 10);
+  CHECK_THAT(own.text, Contains(";Z:5.9") || Contains(";Z:6\n"));
+  const auto other = heights("object_id=1|0;0.2;9;0.1\n");
+  CHECK(other.report.layers == plain.report.layers);
+  CHECK(std::any_of(other.report.warnings.begin(), other.report.warnings.end(),
+                    [](const Notice& notice) { return notice.code == "layer_heights_left_out"; }));
+}
+
 TEST_CASE("project: one of OrcaSlicer is printed as a plate that says the same in weft's words") {
   const Folder folder;
   auto dense = plug;
