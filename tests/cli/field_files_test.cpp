@@ -37,7 +37,7 @@ TEST_CASE("field files: no result is written over one, whichever way it is named
                                                    {"--infill-density-image", "grey.pgm"},
                                                    {"-p", "grey.ini"},
                                                    {"--for", "part", "infill_density_image=grey.pgm"},
-                                                   {"--modifier", "box:0,0,0,5,5,2", "infill-density-image=grey.pgm"}};
+                                                   {"--modifier", "box:0,0,0,5,5,2", "infill_density_image=grey.pgm"}};
   for (const auto& way : ways)
     for (const std::string option : {"-o", "--report", "--preview"}) {
       std::vector<std::string> words{"slice", "part.stl"};
