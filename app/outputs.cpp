@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -57,6 +58,13 @@ void Files::writes(const std::string& path, std::string_view option, bool profil
     throw Error{Error::Kind::usage,
                 fmt::format("{} is the file of {} {}", shown(path), at->second.option, shown(at->second.path)),
                 std::string(option), "give each a file of its own"};
+}
+
+bool may_be_input(const std::string& destination) {
+  std::error_code unknown;
+  if (destination == "-" || !std::filesystem::is_regular_file(destination, unknown)) return false;
+  const int first = std::ifstream(destination, std::ios::binary).get();
+  return first != '{' && first != std::ifstream::traits_type::eof();
 }
 
 void check_writable(const std::string& destination) {

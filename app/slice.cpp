@@ -131,7 +131,7 @@ void say_last(const Command& command, const Error& error, Report known) {
   known.error = error.what();
   known.peak_memory_mb = peak_memory_mb();
   try {
-    if (command.report) write_output(*command.report, to_json(known));
+    write_report(command, known, false);
   } catch (const Error& unwritten) {
     console.error(unwritten);
   }
@@ -158,6 +158,11 @@ void warn(Console& console, const Notices& notices, std::size_t most) {
 
 std::string price(double amount, const std::string& currency) {
   return fmt::format("{:.2f}{}{}", amount, currency.empty() ? "" : " ", currency);
+}
+
+void write_report(const Command& command, const Report& report, bool inputs_are_known) {
+  if (command.report && (inputs_are_known || !may_be_input(*command.report)))
+    write_output(*command.report, to_json(report));
 }
 
 namespace {
@@ -232,10 +237,11 @@ int slice(const Words& words) {
   Report report;
   if (command.report) report.figures.emplace();
   if (command.report && command.console.verbosity == Verbosity::detail) report.tours.emplace();  // figures to debug by
+  bool inputs_are_known = false;  // else a report might be written over one of them
   const auto finish = [&] {
     warn(console, report.warnings, command.console.verbosity == Verbosity::detail ? report.warnings.size() : 3);
     report.peak_memory_mb = peak_memory_mb();
-    if (command.report) write_output(*command.report, to_json(report));
+    write_report(command, report, inputs_are_known);
   };
   const auto failed = [&](const Error& error) {
     report.status = Report::Status::failed;
@@ -246,14 +252,12 @@ int slice(const Words& words) {
   Watchdog watchdog(limits, [&](const Error& error, Report known) { say_last(command, error, std::move(known)); });
   try {
     const auto profile = resolve(command);
+    inputs_are_known = true;
     report.warnings = profile.notices;
     check_writable(destination_of(command, profile, report));  // refused before the work, not after it
-    Watch watch;
-    watch.progress = [&](std::string_view stage, double share) {
-      console.progress(stage, share);
-      watchdog.remember(report);
-    };
-    watch.cancelled = [&] { return limits.reached(); };
+    const Watch watch{
+        [&](std::string_view stage, double share) { console.progress(stage, share), watchdog.remember(report); },
+        [&] { return limits.reached(); }};
     const auto cache_options = cache_options_of(command);
     std::optional<StageCache> cache;
     if (!cache_options.folder.empty()) cache.emplace(cache_options);

@@ -92,7 +92,11 @@ bool apply_project(Profile& profile, const std::vector<std::string>& models, boo
       said = said || (alone && configured) || !project->changes.empty();
       if (alone && configured) {
         ImportOptions inside = options;
+        const auto before = profile.origins.size();
         apply_text(profile, project->configuration, part.file, inside);
+        if (profile.origins.size() == before)
+          throw Error{Error::Kind::settings, "its settings cannot be read: they are damaged, or of another program",
+                      part.file, "name a profile"};
         profile.notices.push_back(
             {"project_settings_taken",
              fmt::format("{}: no profile was named, and the project's own settings hold", part.file)});

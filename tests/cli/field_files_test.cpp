@@ -37,7 +37,7 @@ TEST_CASE("field files: no result is written over one, whichever way it is named
                                                    {"--infill-density-image", "grey.pgm"},
                                                    {"-p", "grey.ini"},
                                                    {"--for", "part", "infill_density_image=grey.pgm"},
-                                                   {"--modifier", "box:0,0,0,5,5,2", "infill-density-image=grey.pgm"}};
+                                                   {"--modifier", "box:0,0,0,5,5,2", "infill_density_image=grey.pgm"}};
   for (const auto& way : ways)
     for (const std::string option : {"-o", "--report", "--preview"}) {
       std::vector<std::string> words{"slice", "part.stl"};
@@ -53,7 +53,7 @@ TEST_CASE("field files: no result is written over one, whichever way it is named
       if (option != "-o") words.insert(words.end(), {"-o", "part.gcode"});
       const auto run = weft(words, desk.scratch.path());
       CHECK(run.status == 2);
-      CHECK_THAT(run.err, Contains("which is read and would be lost"));
+      CHECK_THAT(run.err, Contains("would be lost; name another file"));
       CHECK(desk.scratch.read("grey.pgm") == picture(40, 40));
       CHECK(desk.scratch.read("grey.png") == picture(40, 40));
       CHECK(!desk.scratch.has("part.gcode"));
@@ -69,7 +69,7 @@ TEST_CASE("field files: a batch writes over none, and finds them beside its list
                                           "\n");
   const auto lost = weft({"batch", "orders/list.jsonl", "-o", "orders"}, desk.scratch.path());
   CHECK(lost.status == 2);
-  CHECK_THAT(lost.err, Contains("which is read and would be lost"));
+  CHECK_THAT(lost.err, Contains("would be lost; name another file"));
   CHECK(desk.scratch.read("orders/dots.pgm") == picture(200, 20));
 
   REQUIRE(weft({"slice", "part.stl", "-s", "infill_density_image=orders/dots.pgm", "-o", "one.gcode", "-q"},

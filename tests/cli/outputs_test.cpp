@@ -119,6 +119,24 @@ TEST_CASE("outputs: a batch writes no file that one of its jobs reads") {
   desk.refuses({"batch", "jobs", "-o", "results", "--report", "jobs"}, "--report: jobs is read");
 }
 
+TEST_CASE("outputs: what cannot be resolved leaves a report over no file that might have been read") {
+  const Scratch scratch;
+  scratch.write("part.stl", box_stl(10, 10, 0.4F));
+  scratch.write("child.ini", "inherits = base\n");
+  scratch.write("base", "no_such_key = 1\n");
+  for (const std::string verb : {"slice", "estimate"}) {
+    CAPTURE(verb);
+    CHECK(weft({verb, "part.stl", "-p", "child.ini", "--report", "base"}, scratch.path()).status == 3);
+    CHECK(scratch.read("base") == "no_such_key = 1\n");
+    scratch.write("old.json", "{\"status\": \"ok\"}\n");  // an earlier report
+    for (const std::string report : {"old.json", "new.json"}) {
+      CHECK(weft({verb, "part.stl", "-p", "child.ini", "--report", report}, scratch.path()).status == 3);
+      CHECK_THAT(scratch.read(report), Contains("no_such_key"));
+    }
+    std::filesystem::remove(scratch.path() / "new.json");
+  }
+}
+
 TEST_CASE("outputs: the reports of a run are written over none of its files, its list included") {
   Scratch scratch;
   scratch.write("part.stl", box_stl(10, 10, 0.4F));
