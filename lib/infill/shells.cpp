@@ -34,12 +34,12 @@ struct LayerRange {
   std::size_t from, to;
 };
 
-/// The masks that a run of layers needs, made once: insides of all layers within reach, outlines of the run, of two
+/// The masks that a run of layers needs, made once: insides of all layers within reach, outlines of the run, of three
 /// layers below and one above.
 class Window {
  public:
   Window(const ShellObject& object, LayerRange run, LayerRange within_reach)
-      : insides_from_(within_reach.from), outlines_from_(run.from - std::min<std::size_t>(run.from, 2)) {
+      : insides_from_(within_reach.from), outlines_from_(run.from - std::min<std::size_t>(run.from, 3)) {
     const Grid whole = Grid::over(object.box, finest_cell, 0, most_cells);
     Box box;
     for (std::size_t i = within_reach.from; i < within_reach.to; ++i)
