@@ -25,7 +25,7 @@ bool is_even(const VertexPath& path) {
 }
 
 // A bow may stand so far off its chord: the piece comes to lie in its middle, two thirds of that from its ends.
-constexpr double most_bow = 1.5 * tolerances::path;
+constexpr double most_bow = 1.25 * tolerances::path;
 constexpr double per_place = 1.0 / (most_bow * most_bow),
                  per_band = 1.0 / (static_cast<double>(tolerances::band) * tolerances::band);
 

@@ -111,7 +111,6 @@ Part part_of(const WallSettings& settings, const Widths& widths, const Region& r
   const Laying laying = lay(skeleton, widths, options);
   // So small a part gets an even bead: what pieces of it would gain they would swell over each other.
   const bool dab = 1e6 * area_mm2(region) < dab_share * widths.outer * widths.outer;
-  if (dab) finishing.even_taper = 1e9;
   finishing.least_flow = settings.min_flow_ratio / 100;
   finishing.most_flow = settings.max_flow_ratio / 100;
   auto pairs = trace_pairs(skeleton, laying), middles = trace_middles(skeleton, laying);
