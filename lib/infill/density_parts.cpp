@@ -77,7 +77,7 @@ Regions Density::above(const Levels& levels, double end) {
     for (const Turned t : curve.points) ring.push_back(levels.from + Point{rounded(t.x), rounded(t.y)});
   }
   // what is narrower than the places that were looked at are apart is no part of its own
-  return geometry::opening(geometry::regions_from_rings(rings), step / 2);
+  return geometry::opening(geometry::regions_from_rings(rings), step / 2, geometry::Corner::miter);
 }
 
 /// From the densest on. What of a part is too narrow for its lines goes to both its neighbours.

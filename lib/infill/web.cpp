@@ -172,6 +172,7 @@ void Web::emit(double most, Um band, double wanted, Beads& beads) {
   for (const std::vector<Place>& loop : loops_) around += infill::length_of(loop) + norm(loop.back() - loop.front());
   const double widest = wanted > 0 ? 1 / least_narrowing : 1;
   if (wanted <= 0) wanted = raw + around;
+  neighbours_ = most / 2;
   // joints that make up much of a small area's plastic are not worth it: shorter ones, or the shortest alone
   for (const double longest : {most, most / 2, 0.0}) {
     join(style_.connect ? longest : 0.0);

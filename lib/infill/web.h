@@ -110,7 +110,7 @@ class Web {
   std::uint32_t other_end_of_path(std::uint32_t end) const;
   std::uint32_t beside(std::uint32_t end, bool after) const;
   std::vector<Place> way_of(std::uint32_t end) const;
-  bool crosses_a_line(const std::vector<Place>& way, std::uint32_t a, std::uint32_t b) const;
+  bool crosses_a_line(const std::vector<Place>& way, std::uint32_t a, std::uint32_t b);
   void join_far(double longest, double most_more);
   void anchor(double length);
   bool try_join(std::uint32_t a, std::uint32_t b, double longest);
@@ -136,7 +136,10 @@ class Web {
   std::vector<std::uint32_t> at_ring_, in_order_;           // by end on the edge: its ring, its place in `order_`
   std::vector<std::uint32_t> joint_, set_;
   Um band_ = 0;
+  double neighbours_ = 0;                 // length of joints between which no line can come near the edge
   std::optional<Beside> beside_;          // the edge, where joints run; made when it is wanted
+  geometry::SegmentIndex all_lines_;      // the same
+  std::vector<std::uint32_t> line_of_;    // beside its segments
   std::vector<double> pull_;              // how far each end is drawn back along its line
   std::vector<std::vector<Place>> arc_;   // by end, of the one that the joint was made from
   std::vector<std::vector<Place>> bent_;  // by end: along the edge, of one that is joined to none

@@ -121,7 +121,13 @@ bool Web::try_join(std::uint32_t a, std::uint32_t b, double longest) {
   const double before_a = pull_[a], before_b = pull_[b];
   std::optional<std::vector<Place>> arc = arc_between(a, b, inset, longest);
   const auto room = [&](std::uint32_t e) { return pull_[e] + std::max(pull_[e ^ 1U], 0.0) < length(e / 2); };
-  if (!arc || !room(a) || !room(b)) {
+  const auto crosses = [&] {
+    std::vector<Place> way{pulled(a)};
+    way.insert(way.end(), arc->begin(), arc->end());
+    way.push_back(pulled(b));
+    return infill::length_of(way) > neighbours_ && crosses_a_line(way, a / 2, b / 2);
+  };
+  if (!arc || !room(a) || !room(b) || crosses()) {
     pull_[a] = before_a, pull_[b] = before_b;
     return false;
   }

@@ -279,16 +279,22 @@ TEST_CASE("pattern: lines side by side keep the density, and lie a band apart", 
         .pattern = pattern, .density = 0.2, .band = 420, .angle_rad = degrees(45), .overlap_um = 45, .z = 1'000};
     style.origin = {20'000, 20'000};
     const Beads once = filled(square, style);
-    style.multiplier = 2;
-    const Beads twice = filled(square, style);
-    CHECK(covered_mm2(twice) == Approx(covered_mm2(once)).epsilon(0.02));
-    if (pattern != InfillPattern::gyroid) CHECK(crossings(twice) == 0);
-    // the widest free place between them is about twice as wide
-    double once_free = 0, twice_free = 0;
-    for (Um x = 12'000; x < 28'000; x += 100) {
-      once_free += cover(once, x, 20'000) == 0 && cover(once, x + 1'000, 20'000) == 0 ? 1 : 0;
-      twice_free += cover(twice, x, 20'000) == 0 && cover(twice, x + 1'000, 20'000) == 0 ? 1 : 0;
-    }
-    CHECK(twice_free > once_free);
+    style.multiplier = 3;
+    const Beads thrice = filled(square, style);
+    CHECK(covered_mm2(thrice) == Approx(covered_mm2(once)).epsilon(0.02));
+    if (pattern != InfillPattern::gyroid) CHECK(crossings(thrice) == 0);
+    // more places are far from all of them
+    const auto far_places = [&](const Beads& beads) {
+      int count = 0;
+      for (Um y = 10'000; y < 30'000; y += 400)
+        for (Um x = 10'000; x < 30'000; x += 400)
+          count += cover(beads, x, y) + cover(beads, x + 900, y) + cover(beads, x - 900, y) + cover(beads, x, y + 900) +
+                               cover(beads, x, y - 900) ==
+                           0
+                       ? 1
+                       : 0;
+      return count;
+    };
+    CHECK(far_places(thrice) > 1.2 * far_places(once));
   }
 }
