@@ -65,6 +65,7 @@ std::size_t estimated(const Command& command, const Profile& profile, Console& c
   std::optional<StageCache> cache;
   if (!cache_options.folder.empty()) cache.emplace(cache_options);
   const EstimateOptions how{.exact = command.options["exact"].as<bool>()};
+  if (how.exact && command.report) report.figures.emplace();
   return estimate(job_of(command, profile.settings), how, watch, report, cache ? &*cache : nullptr);
 }
 

@@ -15,8 +15,9 @@ constexpr Um worth_um = 10;        // what a bead moves by at least somewhere, o
 constexpr double straight_um = 4;  // junctions that a ramp between others stands for
 
 bool may_follow(Role role) {
+  // Belts of a slope that no skin lies on are seen, too.
   return role == Role::outer_wall || role == Role::inner_wall || role == Role::top_skin || role == Role::gap_fill ||
-         role == Role::ironing;
+         role == Role::solid_infill || role == Role::ironing;
 }
 
 /// How the layer lies to the surface.

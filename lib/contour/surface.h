@@ -9,7 +9,7 @@
 
 namespace weft::contour {
 
-/// A model seen from above: how high its surface is at a place, wherever nothing stands over it.
+/// How high the surface of a model is at a place, wherever air lies over it.
 class Surface {
  public:
   /// Copies what it needs of the meshes. Cost: O(triangles), 60 bytes each.

@@ -45,7 +45,7 @@ class Line {
   }
   double number(std::string_view text) const {
     const auto v = number_in(text);
-    if (!v || !std::isfinite(*v)) refuse(fmt::format("\"{}\" is no number", escape::message(text)));
+    if (!v || !std::isfinite(*v)) refuse(fmt::format("{} is no number", escape::message(text)));
     return *v;
   }
 

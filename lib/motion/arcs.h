@@ -23,11 +23,11 @@ struct ArcRules {
 double chord_um(Firmware firmware, std::optional<Um> segment, double radius_um);
 
 /// Finds the arcs of a bead on the plane of its layer, from its first junction on each as long as it can be. An arc
-/// stands for three pieces or more, turns by less than 180°, has a radius of up to 1 m, and one speed; band × flow of
-/// its junctions differs by no more than tolerances::band_step, because firmware extrudes evenly along an arc. It bends
-/// more than its tolerance: what is nearly straight stays straight. What firmware makes of it stands off it by no
-/// more than that, too: of tight curves it would make corners.
-/// Post:   no point of the path is further from its arc than the tolerance and 1.5 µm for the centre, which lies on the
+/// stands for two pieces or more, turns by less than 180° (two of one circle are one, up to 342°), has a radius of up
+/// to 1 m, and one speed; band × flow of its junctions differs by no more than tolerances::band_step, because firmware
+/// extrudes evenly along an arc. It bends more than its tolerance: what is nearly straight stays straight. What
+/// firmware makes of it stands off it by no more than that, too: of tight curves it would make corners. Post:   no
+/// point of the path is further from its arc than the tolerance and 1.5 µm for the centre, which lies on the
 ///         lattice, and the other way round. The path stays as it was.
 /// Source: an arc through two points has one unknown, its sagitta; each point between bounds it from both sides, and
 ///         what all of them allow is an interval.

@@ -61,84 +61,128 @@ struct Chain {
   }
 };
 
-/// Flow at the beginning of each piece, and at the end of the last.
-std::vector<double> flows_between(const Chain& chain) {
-  const auto& pieces = chain.pieces;
-  std::vector<double> out(pieces.size() + 1);
-  out.front() = pieces.front().flow(), out.back() = pieces.back().flow();
-  for (std::size_t i = 1; i < pieces.size(); ++i) out[i] = std::min(pieces[i - 1].flow(), pieces[i].flow());
+/// Pieces that follow each other with about the same flow.
+struct Run {
+  std::size_t end = 0;  ///< behind its last piece
+  double volume = 0, seconds = 0;
+  double flow() const { return seconds > 0 ? volume / seconds : 0; }
+};
+
+std::vector<Run> runs_of(const std::vector<Piece>& pieces) {
+  std::vector<Run> out;
+  double least = 0, most = 0;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const double flow = pieces[i].flow();
+    if (out.empty() || std::max(most, flow) > (1 + flow_step) * std::min(least, flow)) {
+      out.emplace_back();
+      least = most = flow;
+    }
+    least = std::min(least, flow), most = std::max(most, flow);
+    out.back().end = i + 1;
+    out.back().volume += pieces[i].volume();
+    out.back().seconds += pieces[i].speed_mm_s > 0 ? pieces[i].length_mm / pieces[i].speed_mm_s : 0;
+  }
+  return out;
+}
+
+/// Flow at the beginning of each run, and at the end of the last.
+std::vector<double> flows_between(const std::vector<Run>& runs, const Slopes& slopes) {
+  std::vector<double> out(runs.size() + 1);
+  out.front() = runs.front().flow(), out.back() = runs.back().flow();
+  for (std::size_t i = 1; i < runs.size(); ++i) out[i] = std::min(runs[i - 1].flow(), runs[i].flow());
   const auto reach = [](double flow, double slope, double volume) {
     return std::sqrt(flow * flow + 2 * slope * volume);
   };
-  for (std::size_t i = 0; i < pieces.size(); ++i)
-    out[i + 1] = std::min(out[i + 1], reach(out[i], chain.slopes.up, pieces[i].volume()));
-  for (std::size_t i = pieces.size(); i-- > 0;)
-    out[i] = std::min(out[i], reach(out[i + 1], chain.slopes.down, pieces[i].volume()));
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    out[i + 1] = std::min(out[i + 1], reach(out[i], slopes.up, runs[i].volume));
+  for (std::size_t i = runs.size(); i-- > 0;) out[i] = std::min(out[i], reach(out[i + 1], slopes.down, runs[i].volume));
   return out;
 }
+
+/// How a run is laid whose flow is given at both ends: it grows, stays at what was asked for, and falls.
+class Profile {
+ public:
+  Profile(const Run& run, const Slopes& slopes, double begin, double end)
+      : slopes_(slopes), volume_(run.volume), asked_(run.flow()), most_(asked_), begin_(begin), end_(end) {
+    up_ = volume_to(begin, most_, slopes.up), down_ = volume_to(end, most_, slopes.down);
+    if (up_ + down_ <= volume_) return;
+    // It does not come to what was asked for.
+    up_ = volume_of_peak(), down_ = volume_ - up_;
+    most_ = std::min(most_, std::sqrt(std::isinf(slopes.up) ? end * end + 2 * slopes.down * down_
+                                                            : begin * begin + 2 * slopes.up * up_));
+  }
+
+  /// Is all of it as asked for, but for less than a step?
+  bool stays() const { return (1 + flow_step) * std::min(begin_, end_) >= asked_; }
+  /// Where it stops to grow, and where it begins to fall.
+  double grown() const { return up_; }
+  double falls() const { return volume_ - down_; }
+  double flow_at(double volume) const {
+    if (volume < up_) return std::min(most_, std::sqrt(begin_ * begin_ + 2 * slopes_.up * volume));
+    if (volume <= volume_ - down_) return most_;
+    return std::min(most_, std::sqrt(end_ * end_ + 2 * slopes_.down * std::max(volume_ - volume, 0.0)));
+  }
+
+ private:
+  static double volume_to(double from, double to, double slope) {
+    return std::isinf(slope) ? 0 : std::max((to * to - from * from) / (2 * slope), 0.0);
+  }
+  double volume_of_peak() const {
+    if (std::isinf(slopes_.up)) return 0;
+    if (std::isinf(slopes_.down)) return volume_;
+    const double at = (end_ * end_ - begin_ * begin_ + 2 * slopes_.down * volume_) / (2 * (slopes_.up + slopes_.down));
+    return std::clamp(at, 0.0, volume_);
+  }
+
+  const Slopes& slopes_;
+  double volume_, asked_, most_, begin_, end_, up_ = 0, down_ = 0;
+};
 
 /// A part of a piece: up to which share of its length, and how fast.
 struct Cut {
   double to, speed_mm_s;
 };
 
-/// How a piece is laid whose flow is given at both ends: it grows, stays at what was asked for, and falls.
-class Profile {
+/// Cuts the pieces of a run where its flow grows or falls, and tells each part its speed.
+class Cutter {
  public:
-  Profile(const Piece& piece, const Slopes& slopes, double begin, double end) : piece_(piece), slopes_(slopes) {
-    const double volume = piece.volume();
-    double most = piece.flow();
-    const double up = volume_to(begin, most, slopes.up), down = volume_to(end, most, slopes.down);
-    if (up + down > volume) {  // it does not come to what was asked for
-      const double at = volume_of_peak(begin, end);
-      const double grown2 = begin * begin + 2 * slopes.up * at, falls2 = end * end + 2 * slopes.down * (volume - at);
-      most = std::min(most, std::sqrt(std::isinf(slopes.up) ? falls2 : grown2));
-      ramp(begin, most, 0, at);
-      ramp(most, end, at, volume);
-      return;
-    }
-    ramp(begin, most, 0, up);
-    if (up + down < volume) add(volume - down, most);
-    ramp(most, end, volume - down, volume);
-  }
+  Cutter(const Profile& profile, const Slopes& slopes) : profile_(profile), slopes_(slopes) {}
 
-  const std::vector<Cut>& cuts() const { return cuts_; }
+  std::vector<Cut> next(const Piece& piece) {
+    const double begin = at_, end = at_ + piece.volume();
+    at_ = end;
+    if (profile_.stays() || (begin >= profile_.grown() && end <= profile_.falls())) return {{1, piece.speed_mm_s}};
+    std::vector<double> ends{end};
+    for (const double turn : {profile_.grown(), profile_.falls()})
+      if (turn > begin && turn < end) ends.push_back(turn);
+    std::sort(ends.begin(), ends.end());
+    std::vector<Cut> out;
+    double from = begin;
+    for (const double to : ends) {
+      const double a = profile_.flow_at(from), b = profile_.flow_at(to),
+                   length_um = 1000 * (to - from) / piece.area_mm2;
+      const double wanted = std::abs(b - a) / (flow_step * std::max({a, b, 1e-9}));
+      const int steps =
+          std::max(1, static_cast<int>(std::min(std::ceil(wanted), length_um / tolerances::shortest_piece)));
+      for (int k = 1; k <= steps; ++k) {  // parts of equal volume: where flow is low they are not shorter
+        const double v0 = from + (to - from) * (k - 1) / steps, v1 = from + (to - from) * k / steps;
+        out.push_back({(v1 - begin) / piece.volume(), speed(piece, (profile_.flow_at(v0) + profile_.flow_at(v1)) / 2)});
+      }
+      from = to;
+    }
+    out.back().to = 1;
+    return out;
+  }
 
  private:
-  /// Where flow is highest that grows from the beginning on and falls until the end.
-  double volume_of_peak(double begin, double end) const {
-    const double volume = piece_.volume();
-    if (std::isinf(slopes_.up)) return 0;
-    if (std::isinf(slopes_.down)) return volume;
-    const double at = (end * end - begin * begin + 2 * slopes_.down * volume) / (2 * (slopes_.up + slopes_.down));
-    return std::clamp(at, 0.0, volume);
-  }
-  static double volume_to(double from, double to, double slope) {
-    return std::isinf(slope) ? 0 : std::max((to * to - from * from) / (2 * slope), 0.0);
+  double speed(const Piece& piece, double flow) const {
+    const double least = std::min(slopes_.least_mm_s, piece.speed_mm_s);
+    return std::clamp(flow / piece.area_mm2, least, piece.speed_mm_s);
   }
 
-  /// From one flow to another, between two volumes of the piece.
-  void ramp(double from, double to, double begin, double end) {
-    if (end <= begin) return;
-    const double length_um = 1000 * (end - begin) / piece_.area_mm2, higher = std::max(from, to);
-    const double wanted = higher > 0 ? std::abs(to - from) / (flow_step * higher) : 0;
-    const int steps =
-        std::max(1, static_cast<int>(std::min(std::ceil(wanted), length_um / tolerances::shortest_piece)));
-    for (int k = 1; k <= steps; ++k) {
-      // Parts of equal volume: where flow is low they are not shorter.
-      const double a = static_cast<double>(k - 1) / steps, b = static_cast<double>(k) / steps;
-      const auto flow_at = [&](double t) { return std::sqrt(from * from + t * (to * to - from * from)); };
-      add(begin + b * (end - begin), (flow_at(a) + flow_at(b)) / 2);
-    }
-  }
-  void add(double to_volume, double flow) {
-    const double least = std::min(slopes_.least_mm_s, piece_.speed_mm_s);
-    cuts_.push_back({to_volume / piece_.volume(), std::clamp(flow / piece_.area_mm2, least, piece_.speed_mm_s)});
-  }
-
-  const Piece& piece_;
+  const Profile& profile_;
   const Slopes& slopes_;
-  std::vector<Cut> cuts_;
+  double at_ = 0;
 };
 
 /// The bead with its pieces cut.
@@ -186,25 +230,32 @@ class Rebuilt {
 
 void limit(Chain& chain) {
   if (chain.pieces.empty()) return;
-  const auto flows = flows_between(chain);
+  const auto runs = runs_of(chain.pieces);
+  const auto flows = flows_between(runs, chain.slopes);
+  std::vector<std::vector<Cut>> cuts(chain.pieces.size());
+  for (std::size_t r = 0, i = 0; r < runs.size(); ++r) {
+    const Profile profile(runs[r], chain.slopes, flows[r], flows[r + 1]);
+    Cutter cutter(profile, chain.slopes);
+    for (; i < runs[r].end; ++i) {
+      const Piece& piece = chain.pieces[i];
+      if (piece.volume() > 0 && piece.speed_mm_s > 0)
+        cuts[i] = cutter.next(piece);
+      else
+        cuts[i] = {{1, piece.speed_mm_s}};
+    }
+  }
   std::size_t next = 0;  // piece
   for (Extrude* bead : chain.beads) {
     const std::size_t first = next, count = bead->path.size() - 1;
     next += count;
-    bool stays = true;
-    for (std::size_t i = 0; i < count && stays; ++i) {
-      const double flow = chain.pieces[first + i].flow();
-      stays = flows[first + i] == flow && flows[first + i + 1] == flow;
-    }
+    const bool stays = std::all_of(cuts.begin() + static_cast<std::ptrdiff_t>(first),
+                                   cuts.begin() + static_cast<std::ptrdiff_t>(next), [&](const auto& own) {
+                                     const auto& piece = chain.pieces[static_cast<std::size_t>(&own - cuts.data())];
+                                     return own.size() == 1 && own[0].speed_mm_s == piece.speed_mm_s;
+                                   });
     if (stays) continue;
     Rebuilt rebuilt(*bead);
-    for (std::size_t i = 0; i < count; ++i) {
-      const Piece& piece = chain.pieces[first + i];
-      if (piece.volume() <= 0 || piece.speed_mm_s <= 0)
-        rebuilt.add(i, {{1, piece.speed_mm_s}});
-      else
-        rebuilt.add(i, Profile(piece, chain.slopes, flows[first + i], flows[first + i + 1]).cuts());
-    }
+    for (std::size_t i = 0; i < count; ++i) rebuilt.add(i, cuts[first + i]);
     rebuilt.put();
   }
 }

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
+#include <optional>
 
 namespace weft::motion {
 namespace {
@@ -94,22 +94,22 @@ void tell_pressure_advance(const AllRules& all, const LayerPlan& layer, const st
   const auto flows = flow_of_steps(layer, rules, moves, seconds);
   const bool anywhere = rules.machine.firmware == Firmware::klipper;
   ToolId tool = all.loaded;
-  constexpr double never = std::numeric_limits<double>::infinity();
-  double told = never;
+  constexpr double nothing = -1;
+  double told = nothing;  // an advance is 0 or more
   constexpr std::size_t none = ~std::size_t{0};
   std::size_t way = none;  // where in `out` the way to the next bead begins
   TimedSteps out;
   for (std::size_t i = 0; i < steps.steps.size(); ++i) {
     auto& step = steps.steps[i];
     const auto* bead = std::get_if<Extrude>(&step);
-    if (const auto* change = std::get_if<ToolChange>(&step)) tool = change->tool, told = never, way = none;
+    if (const auto* change = std::get_if<ToolChange>(&step)) tool = change->tool, told = nothing, way = none;
     const bool leads = std::holds_alternative<Travel>(step) || std::holds_alternative<Prime>(step);
     if (leads && (way == none || std::holds_alternative<Prime>(step))) way = out.steps.size();
     const auto& material = of_tool(all, tool, rules).material;
     if (bead != nullptr && flows[i] > 0 && !material.pressure_advance_model.empty() && (anywhere || way != none)) {
       const double mm_s2 = bead->acceleration_mm_s2 > 0 ? bead->acceleration_mm_s2 : rules.speeds.acceleration_print;
       const double wanted = pressure_advance_s(material.pressure_advance_model, flows[i], mm_s2, bead->height);
-      if (std::abs(wanted - told) >= material.pressure_advance_step) {
+      if (told == nothing || std::abs(wanted - told) >= material.pressure_advance_step) {
         const std::size_t place = anywhere ? out.steps.size() : way;
         told = wanted;
         out.steps.insert(out.steps.begin() + static_cast<std::ptrdiff_t>(place), SetPressureAdvance{wanted});

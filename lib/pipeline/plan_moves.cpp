@@ -112,11 +112,11 @@ class Mover {
     auto planned = motion::plan_layer(all, std::move(begun.plan), begun.start);
     const auto& plan = planned.plan;
     PackedLayer out{{plan.z, plan.height, plan.time}, {}, {}, planned.statistics};
-    if (what_.use == PlanFor::figures) return out;
     if (what_.with_figures) {
       out.figures = figured_[layer];
       out.figures->motion = motion::figures_of(all, plan, begun.start);
     }
+    if (what_.use == PlanFor::figures) return out;
     if (!of_tools_.empty()) out.times = times_of(plan, std::move(planned.step_s));
     out.packed = encode(plan);
     out.digest = gcode::digest_of(settings_, plan);

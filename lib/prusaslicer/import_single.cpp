@@ -194,7 +194,7 @@ void layer_heights(Lines& lines, const Outlet& out) {
 
 /// Limits of silent mode: the second values of each limit, where all of them have one.
 void silent_limits(Lines& lines, const Outlet& out) {
-  const auto* wanted = lines.find("silent_mode");
+  const auto* wanted = lines.look("silent_mode");  // custom G-code may ask for it, too
   const auto* flavor = lines.look("gcode_flavor");
   if (!wanted || !lines.flag(*wanted) || !flavor || flavor->value != "marlin") return;
   std::string all;

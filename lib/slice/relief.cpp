@@ -64,7 +64,7 @@ class Areas {
     const auto last = std::min(static_cast<std::size_t>(std::max(facet.high - 1, Um{0}) / Relief::step), steps_ - 1);
     const auto kind = std::min(static_cast<std::size_t>(facet.rise * classes), classes - 1);
     const double each = facet.mm2 / static_cast<double>(last - first + 1);
-    rows_[first * classes + kind] += each, rows_[(last + 1) * classes + kind] -= each;
+    rows_[first * classes + kind] += static_cast<float>(each), rows_[(last + 1) * classes + kind] -= static_cast<float>(each);
   }
   /// Of each step the greatest rise of which there is more than a speck within so many steps around it.
   std::vector<double> rises(std::size_t around) {
@@ -72,7 +72,7 @@ class Areas {
     std::vector<double> out(steps_);
     std::array<double, classes> window{};
     const auto count = [&](std::size_t step, double sign) {
-      for (std::size_t k = 0; k < classes; ++k) window[k] += sign * rows_[step * classes + k];
+      for (std::size_t k = 0; k < classes; ++k) window[k] += sign * static_cast<double>(rows_[step * classes + k]);
     };
     for (std::size_t i = 0; i < std::min(around, steps_); ++i) count(i, 1);
     for (std::size_t i = 0; i < steps_; ++i) {
@@ -88,7 +88,7 @@ class Areas {
 
  private:
   std::size_t steps_;
-  std::vector<double> rows_;
+  std::vector<float> rows_;
 };
 
 }  // namespace

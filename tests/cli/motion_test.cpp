@@ -103,7 +103,7 @@ TEST_CASE("motion: what is wrong with a setting is said with its line") {
 TEST_CASE("motion: doubts about slopes and arcs say what they do") {
   const Print print;
   const auto doubt = [&](std::vector<std::string> more) {
-    std::vector<std::string> words{"slice", "box.stl", "-o", "out.gcode", "-v"};
+    std::vector<std::string> words{"profile", "check", "p.ini"};
     words.insert(words.end(), more.begin(), more.end());
     return weft(words, print.scratch.path()).err;
   };

@@ -40,7 +40,7 @@ const Extrude& bead_of(const LayerPlan& layer) {
 
 }  // namespace
 
-TEST_CASE("contour: the surface is found from above, on edges too, and not where something stands over it") {
+TEST_CASE("contour: the surface is found from above, on edges too, and not where the model goes on above") {
   const Mesh mesh = wedge(0.1);
   const std::array meshes{&mesh};
   const Surface surface(meshes);
@@ -53,10 +53,13 @@ TEST_CASE("contour: the surface is found from above, on edges too, and not where
     CHECK_FALSE(surface.between(at, 0, found->z_um - 1));
   }
   CHECK_FALSE(surface.between({-1, 5'000}, 0, 10'000));
-  Mesh roof = wedge(0);
-  for (auto& v : roof.vertices) v.z += 8'000;
-  const std::array<const Mesh*, 2> both{&mesh, &roof};
-  CHECK_FALSE(Surface(both).between({10'000, 5'000}, 0, 5'000));
+  Mesh block = wedge(0);  // it covers the slope
+  for (auto& v : block.vertices) v.z = v.z == 0 ? 900 : 5'000;
+  const std::array<const Mesh*, 2> both{&mesh, &block};
+  CHECK_FALSE(Surface(both).between({10'000, 5'000}, 0, 4'500));
+  CHECK(Surface(both).between({10'000, 5'000}, 0, 6'000)->z_um == Approx(5'000));
+  for (auto& v : block.vertices) v.z += 3'000;  // air lies between
+  CHECK(Surface(both).between({10'000, 5'000}, 0, 3'000)->z_um == Approx(2'000));
 }
 
 TEST_CASE("contour: a bead on a gentle slope lies on it, and holds what its height asks for") {

@@ -35,9 +35,9 @@ TEST_CASE("layer profiles: a line an object, pairs of z and height") {
 TEST_CASE("layer profiles: what makes none is said with its object") {
   CHECK(problem("object_id=2|0;0.2;3.4;0.2;3.2;0.2") ==
         "a.3mf: layer heights of object 2: z 3.2 mm after 3.4 mm; they must ascend");
-  CHECK(problem("object_id=1|0;0.2;x;0.2") == "a.3mf: layer heights of object 1: \"x\" is no number");
+  CHECK(problem("object_id=1|0;0.2;x;0.2") == "a.3mf: layer heights of object 1: 'x' is no number");
   CHECK(problem("object_id=1|0;0.2;3") == "a.3mf: layer heights of object 1: they are pairs of z and height");
   CHECK(problem("object_id=1|0;9") == "a.3mf: layer heights of object 1: 9 mm at z 0 mm is outside 0.02 … 2 mm");
-  CHECK(problem("object_id=1|0;nan") == "a.3mf: layer heights of object 1: \"nan\" is no number");
+  CHECK(problem("object_id=1|0;nan") == "a.3mf: layer heights of object 1: 'nan' is no number");
   CHECK(problem("object_id=1|1e30;0.2") == "a.3mf: layer heights of object 1: z 1e+30 mm is beyond 16 m");
 }

@@ -622,7 +622,7 @@ TEST_CASE("motion: the moves that are timed are those that are written") {
       layer_of({line({{0, 450}, {10'000, 450}, {10'010, 350}, {20'000, 350}, {20'012, 420}, {30'000, 420}})});
   std::get<Extrude>(layer.steps[0]).speed_mm_s = 50;
   const std::vector<Rules> rules{plain_rules()};
-  const auto moves = moves_of({rules}, layer, Point3{0, 0, 400}, rules.front().machine);
+  const auto moves = moves_of(rules, layer, Point3{0, 0, 400}, rules[0].machine);
   CHECK(moves.size() == 3);
   double length = 0;
   for (const auto& move : moves) length += move.length_mm;

@@ -79,7 +79,7 @@ TEST_CASE("spiral: passing over, a turn lies between two loops; else it keeps to
 }
 
 TEST_CASE("spiral: the first turn grows from nothing, the one after the last falls to it, and the rest is whole") {
-  Spiral spiral({.smooth = true});
+  Spiral spiral({});
   const auto first = spiral.turn(ring(10'000, 4), 200, {true, false}, Point{10'000, 0}).front();
   const auto next = spiral.turn(ring(10'000, 4), 200, {}, std::nullopt).front();
   const auto last = spiral.turn(ring(10'000, 4), 200, {false, true}, std::nullopt);
