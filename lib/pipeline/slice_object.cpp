@@ -31,7 +31,8 @@ Cuts slice_mesh(const SliceHands& handed, const ObjectScopes& scopes, const Mesh
   }
   const slice::Cutter cutter(mesh, slice::planes(heights, top));
   const auto& [layers] = handed[scopes.front().of_mix.front()];
-  return tasks::parallel_map(cutter.size(), [&](std::size_t i) { return cutter.cut(i, layers); });
+  return tasks::parallel_map(cutter.size(),
+                             [&cutter, &layers = layers](std::size_t i) { return cutter.cut(i, layers); });
 }
 
 }  // namespace
