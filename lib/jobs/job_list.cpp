@@ -29,6 +29,10 @@ bool named_like_a_model(const fs::path& path) {
 
 std::string bytes_of(const std::string& path) {
   if (path == "-") return {std::istreambuf_iterator<char>(std::cin), {}};
+  constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 30;
+  std::error_code unknown;
+  if (const auto bytes = fs::file_size(path, unknown); !unknown && bytes > most_bytes)
+    throw Error{Error::Kind::file, fmt::format("of {} MB is no list of jobs", bytes >> 20), path, "check the path"};
   return std::string(FileBytes(path).view());
 }
 

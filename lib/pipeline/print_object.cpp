@@ -96,7 +96,9 @@ Regions inside_of(const WallHands& handed, const Areas& areas, const SlicedLayer
   const auto& [walls, nozzle] = handed[areas.front().scope];
   const int lines = walls.wall_line_count + (walls.alternate_extra_wall && index % 2 == 1 ? 1 : 0);
   if (lines == 0) return layer.regions;
-  const auto band = [&](Um width) { return flow::spacing(width, layer.height, walls.overlap_factor); };
+  const auto band = [&layer, overlap = walls.overlap_factor](Um width) {
+    return flow::spacing(width, layer.height, overlap);
+  };
   const Um outer = band(length_or(walls.wall_line_width_0, nozzle, flow::automatic_outer_width(nozzle)));
   const Um inner = band(length_or(walls.wall_line_width_x, nozzle, flow::automatic_width(nozzle, layer.height)));
   return geometry::offset(layer.regions, {.by = -outer - (lines - 1) * inner});

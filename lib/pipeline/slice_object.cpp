@@ -34,7 +34,8 @@ Cuts slice_mesh(const SliceHands& handed, const ObjectScopes& scopes, const Mesh
                 const std::vector<slice::Plane>& planes) {
   const slice::Cutter cutter(mesh, planes);
   const auto& [layers, nozzle] = handed[scopes.front().of_mix.front()];
-  return tasks::parallel_map(cutter.size(), [&](std::size_t i) { return cutter.cut(i, layers); });
+  return tasks::parallel_map(cutter.size(),
+                             [&cutter, &layers = layers](std::size_t i) { return cutter.cut(i, layers); });
 }
 
 }  // namespace

@@ -297,6 +297,9 @@ std::string read_profile(const std::filesystem::path& path, const ImportOptions&
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
     throw Error{Error::Kind::file, "is a folder, not a profile", path.string(), "name an ini file in it"};
+  constexpr std::uintmax_t most_bytes = std::uintmax_t{2} << 30;  // G-code that holds one may be large
+  if (const auto bytes = std::filesystem::file_size(path, error); !error && bytes > most_bytes)
+    throw Error{Error::Kind::file, fmt::format("of {} MB is no profile", bytes >> 20), path.string(), "check the path"};
   return std::string(FileBytes(path.string()).view());
 }
 

@@ -51,6 +51,13 @@ TEST_CASE("hostile: pipes, devices and folders are refused as inputs by their na
   CHECK(!desk.scratch.has("a.gcode"));
 }
 
+TEST_CASE("hostile: what is larger than any profile or list is refused before it is read") {
+  const Desk desk;
+  REQUIRE(shell("truncate -s 3G p.ini l.jsonl", desk.scratch.path()).status == 0);  // of which nothing is there
+  desk.fails("$WEFT slice part.stl -p p.ini -o a.gcode", 6, "p.ini: of 3072 MB is no profile");
+  desk.fails("$WEFT batch l.jsonl -o out", 6, "l.jsonl: of 3072 MB is no list of jobs");
+}
+
 TEST_CASE("hostile: profiles that lead in circles or nowhere are told by file and line") {
   const Desk desk;
   REQUIRE(shell("ln -s loop.ini loop.ini", desk.scratch.path()).status == 0);
