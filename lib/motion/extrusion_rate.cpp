@@ -166,7 +166,7 @@ class Cutter {
           std::max(1, static_cast<int>(std::min(std::ceil(wanted), length_um / tolerances::shortest_piece)));
       for (int k = 1; k <= steps; ++k) {  // parts of equal volume: where flow is low they are not shorter
         const double v0 = from + (to - from) * (k - 1) / steps, v1 = from + (to - from) * k / steps;
-        out.push_back({(v1 - begin) / piece.volume(), speed(piece, (profile_.flow_at(v0) + profile_.flow_at(v1)) / 2)});
+        out.push_back({(v1 - begin) / piece.volume(), speed(piece, profile_.flow_at((v0 + v1) / 2))});
       }
       from = to;
     }

@@ -112,5 +112,68 @@ TEST_CASE("motion: doubts about slopes and arcs say what they do") {
              Contains("max_extrusion_rate_slope: 200 mm³/s² is more than 1500 mm/s² asks for (135): no effect"));
   CHECK_THAT(doubt("max_extrusion_rate_slope = 100\nwall_line_width_0 = 0.45\n"), !Contains("no effect"));
   CHECK_THAT(doubt("arc_fitting = true\nfirmware = klipper\n"),
-             Contains("klipper needs [gcode_arcs]; its pieces of 1 mm leave arcs below 10 mm radius as lines"));
+             Contains("klipper needs [gcode_arcs]; its pieces of 1 mm leave arcs below 9.62 mm radius as lines"));
+}
+
+TEST_CASE("motion: what is off changes no byte, and what is on is in the file") {
+  const Print print;
+  const auto plain = commands_of(print.slice({"box.stl"}));
+  for (const char* off :
+       {"brim_ears_max_angle=90", "fuzzy_skin_scale=2", "spiral_smoothing=50", "pressure_advance_step=0.01",
+        "adaptive_layer_height_error=0.2", "z_contour_min_height=0.1", "cool_fan_lead=0", "speed_curvature_even=0",
+        "small_area_flow_length=0", "arc_segment_length=2", "acceleration_overhang=300", "ironing_prime=2"}) {
+    INFO(off);
+    CHECK(commands_of(print.slice({"box.stl", "--set", off})) == plain);
+  }
+  const std::string rows = "pressure_advance_model=0.05,1,1500; 0.03,8,1500";
+  CHECK_THAT(print.slice({"box.stl", "--set", rows, "--set", "firmware=marlin2"}), Contains("\nM900 K0.0"));
+  CHECK_THAT(print.slice({"box.stl", "--set", rows, "--set", "firmware=klipper"}),
+             Contains("\nSET_PRESSURE_ADVANCE ADVANCE=0.0"));
+  CHECK_THAT(print.slice({"box.stl", "--set", rows, "--set", "firmware=reprapfirmware"}), Contains("\nM572 D0 S0.0"));
+  CHECK(commands_of(print.slice({"box.stl", "--set", "brim_width=3"})) !=
+        commands_of(print.slice({"box.stl", "--set", "brim_width=3", "--set", "brim_ears=true"})));
+}
+
+TEST_CASE("motion: a report tells what a print asks of nozzle, fan and eye") {
+  const Print print;
+  print.slice({"box.stl", "--set", "ironing_enabled=true"});
+  const auto r = print.report();
+  CHECK(r["per_layer"].size() == r["layers"]);
+  CHECK(r["per_layer"][5]["ratio"].get<double>() > 0.2);
+  CHECK(r["per_layer"][5]["least_rest_s"].get<double>() > 0);
+  double seconds = 0;
+  for (const auto& s : r["flow"]["s_by_mm3_s"]) seconds += s.get<double>();
+  CHECK(seconds > 0.5 * r["print_time_s"].get<double>());
+  CHECK(seconds < r["print_time_s"].get<double>());
+  CHECK(r["walls"]["outer_at_one_speed_percent"].get<double>() > 0);
+  CHECK(r["time"]["accelerating_percent"].get<double>() > 0);
+  CHECK(r["time"]["accelerating_percent"].get<double>() < 100);
+  CHECK(r["ironing"]["longest_s"].get<double>() > 0);
+  CHECK(r["ironing"]["least_mm3_s"].get<double>() < 0.2);
+}
+
+TEST_CASE("motion: where the machine has a silent mode, M73 tells its times, too") {
+  const Print print;
+  const std::string limits = "machine_silent_limits=50,50,5,20,300,300,100,1000,4,0.2,2";
+  const auto gcode = print.slice({"box.stl", "--set", limits});
+  CHECK_THAT(gcode, Contains("\nM73 P0 R") && Contains("\nM73 Q0 S") && Contains("\nM73 Q100 S0\n") &&
+                        Contains("; estimated printing time (silent mode) = "));
+  CHECK_THAT(print.slice({"box.stl"}), !Contains("M73 Q"));
+  CHECK_THAT(print.refused("machine_silent_limits = 1,2,3,4,5"),
+             Contains("p.ini:3: machine_silent_limits: 5 values for 11 limits"));
+}
+
+TEST_CASE("audit: --time tells what a file's moves take, about as its slicer did") {
+  const Print print;
+  for (const char* firmware : {"klipper", "marlin2", "reprapfirmware"}) {
+    INFO(firmware);
+    const std::string set = std::string("firmware=") + firmware;
+    print.slice({"box.stl", "--set", set, "--set", "acceleration_enabled=true", "--set", "cool_min_layer_time=0"});
+    const auto run =
+        weft({"audit", "out.gcode", "--set", set, "--time", "--report", "audit.json"}, print.scratch.path());
+    INFO(run.err);
+    REQUIRE(run.status == 0);
+    const double found = json::parse(print.scratch.read("audit.json"))["audits"][0]["print_time_s"];
+    CHECK(found == Approx(print.report()["print_time_s"].get<double>()).epsilon(0.01));
+  }
 }
