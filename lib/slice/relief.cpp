@@ -64,7 +64,8 @@ class Areas {
     const auto last = std::min(static_cast<std::size_t>(std::max(facet.high - 1, Um{0}) / Relief::step), steps_ - 1);
     const auto kind = std::min(static_cast<std::size_t>(facet.rise * classes), classes - 1);
     const double each = facet.mm2 / static_cast<double>(last - first + 1);
-    rows_[first * classes + kind] += static_cast<float>(each), rows_[(last + 1) * classes + kind] -= static_cast<float>(each);
+    rows_[first * classes + kind] += static_cast<float>(each),
+        rows_[(last + 1) * classes + kind] -= static_cast<float>(each);
   }
   /// Of each step the greatest rise of which there is more than a speck within so many steps around it.
   std::vector<double> rises(std::size_t around) {
