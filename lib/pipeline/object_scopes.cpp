@@ -86,12 +86,16 @@ struct Piece {
   Regions regions;
 };
 
+bool modifies(VolumeKind kind) {
+  return kind == VolumeKind::modifier || kind == VolumeKind::tint;
+}
+
 /// How the volumes of an object make its layers.
 class Union {
  public:
   Union(const Object& object, const ObjectScopes& scopes) : object_(object), scopes_(scopes), mixes_(mixes_of(object)) {
     modified_ = std::any_of(object.volumes.begin(), object.volumes.end(),
-                            [](const Volume& volume) { return volume.kind == VolumeKind::modifier; });
+                            [](const Volume& volume) { return modifies(volume.kind); });
   }
 
   /// @param cuts of one layer, beside the volumes; null above a volume
@@ -108,7 +112,7 @@ class Union {
         for (auto& piece : out) piece.regions = geometry::subtract(piece.regions, cuts[v]->layer.regions);
     }
     for (std::size_t v = 0; v < cuts.size(); ++v)
-      if (object_.volumes[v].kind == VolumeKind::modifier && cuts[v]) modify(v, cuts[v]->layer.regions, scopes, out);
+      if (modifies(object_.volumes[v].kind) && cuts[v]) modify(v, cuts[v]->layer.regions, scopes, out);
     if (modified_) join(out);
     const auto nothing = [](const Piece& piece) { return piece.regions.empty(); };
     if (std::all_of(out.begin(), out.end(), nothing)) out.resize(std::min<std::size_t>(out.size(), 1));

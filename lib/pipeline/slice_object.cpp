@@ -2,6 +2,7 @@
 #include "pipeline/slice_object.h"
 
 #include "pipeline/key_bytes.h"
+#include "pipeline/paint_object.h"
 #include "slice/slice.h"
 #include "tasks/parallel.h"
 
@@ -23,6 +24,10 @@ StageKey slice_key(const Mesh& mesh, Um top, const ObjectScopes& scopes, const S
   return key_of<Stage::slice>(scopes, handed).with(sha256(bytes_of(mesh))).with(top);
 }
 
+slice::PaintReach reach_of(const Scopes& all_scopes, const ObjectScopes& scopes) {
+  return paint_reach(all_scopes[scopes.back().of_mix.front()]);
+}
+
 Cuts slice_mesh(const SliceHands& handed, const ObjectScopes& scopes, const Mesh& mesh, Um top) {
   std::vector<slice::HeightFrom> heights;
   for (const auto& from : scopes) {
@@ -36,14 +41,16 @@ Cuts slice_mesh(const SliceHands& handed, const ObjectScopes& scopes, const Mesh
 
 }  // namespace
 
-Result<Cuts> slice_object(const Running& job, const Object& object, const ObjectScopes& scopes,
-                          const SliceHands& handed, std::vector<Areas>& areas) {
+Result<Cuts> slice_object(const Running& job, const Object& object, const Scopes& all_scopes,
+                          const ObjectScopes& scopes, const SliceHands& handed, std::vector<Areas>& areas) {
   const Um top = top_of(object);
   std::vector<Result<Cuts>> of_volume;
   for (const auto& volume : object.volumes)
-    of_volume.push_back(run_stage<Stage::slice>(
-        job, [&] { return slice_key(volume.mesh, top, scopes, handed); },
-        [&] { return slice_mesh(handed, scopes, volume.mesh, top); }));
+    of_volume.push_back(volume.kind == VolumeKind::tint
+                            ? Result<Cuts>(Cuts{})
+                            : run_stage<Stage::slice>(
+                                  job, [&] { return slice_key(volume.mesh, top, scopes, handed); },
+                                  [&] { return slice_mesh(handed, scopes, volume.mesh, top); }));
   if (of_volume.size() == 1) {
     areas = areas_of_one(scopes, *of_volume.front());
     return std::move(of_volume.front());
@@ -51,15 +58,26 @@ Result<Cuts> slice_object(const Running& job, const Object& object, const Object
   const Stopwatch stopwatch(job.report.timings_ms[Stage::slice]);
   std::vector<const Cuts*> cuts;
   for (const auto& result : of_volume) cuts.push_back(&*result);
+  std::vector<Cuts> painted;
+  if (is_painted(object)) {
+    painted = paint_cuts(object, reach_of(all_scopes, scopes), cuts);
+    for (std::size_t v = 0; v < cuts.size(); ++v)
+      if (object.volumes[v].kind == VolumeKind::tint) cuts[v] = &painted[v];
+  }
   return Result<Cuts>(united(object, scopes, cuts, areas));
 }
 
-std::vector<std::string> slice_hashes(const Object& object, const ObjectScopes& scopes, const SliceHands& handed) {
+std::vector<std::string> slice_hashes(const Object& object, const Scopes& all_scopes, const ObjectScopes& scopes,
+                                      const SliceHands& handed) {
   const Um top = top_of(object);
   std::vector<std::string> out;
   for (const auto& volume : object.volumes) {
     auto key = slice_key(volume.mesh, top, scopes, handed);
     if (volume.kind != VolumeKind::model) key.with(std::uint64_t{static_cast<std::uint8_t>(volume.kind)});
+    if (volume.kind == VolumeKind::tint) {
+      const auto reach = reach_of(all_scopes, scopes);
+      key.with(reach.depth).with(reach.roof).with(reach.floor).with(reach.least);
+    }
     out.push_back(key.hash());
   }
   return out;
