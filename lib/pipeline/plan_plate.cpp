@@ -7,13 +7,16 @@
 #include "overhangs/overhangs.h"
 #include "pipeline/add_raft.h"
 #include "pipeline/at_heights.h"
+#include "pipeline/change_tool.h"
 #include "pipeline/check.h"
 #include "pipeline/codec.h"
 #include "pipeline/conflicts.h"
 #include "pipeline/labels.h"
+#include "pipeline/lagging_tower.h"
 #include "pipeline/ooze_shield.h"
 #include "pipeline/passes.h"
 #include "pipeline/place_heat.h"
+#include "pipeline/prime_lines.h"
 #include "pipeline/sample.h"
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
@@ -187,18 +190,24 @@ travel::Room room_at(const MachineSettings& machine, Um z) {
 /// Skirt and brim around everything that rises together, put before the other beads of their layers.
 void add_adhesion(const Settings& settings, std::span<travel::LayerInput> rise, const Regions& tower,
                   Notices& notices) {
+  constexpr Um thickest = 2000;  // of any layer
   const auto wanted = adhesion_of(settings.adhesion);
   const std::size_t needed = adhesion::layers_needed(wanted);
   if (needed == 0) return;
   std::vector<adhesion::PlateLayer> plate;
   std::vector<travel::LayerInput*> bottoms;  // of each height the first that is printed
   for (auto& layer : rise) {
-    if (layer.time.number >= needed) break;
-    if (layer.time.number == plate.size()) plate.push_back({{}, layer.height}), bottoms.push_back(&layer);
-    auto& outlines = plate.back().outlines;
-    if (outlines.empty()) outlines = tower;
-    for (const auto& object : layer.objects)
-      outlines.insert(outlines.end(), object.outline.begin(), object.outline.end());
+    const bool around = layer.time.number < needed;
+    if (!around && layer.z > thickest) break;
+    if (around && layer.time.number == plate.size()) plate.push_back({{}, layer.height}), bottoms.push_back(&layer);
+    if (around && plate.back().outlines.empty()) plate.back().outlines = tower;
+    for (const auto& object : layer.objects) {
+      const auto add = [&](Regions& to) { to.insert(to.end(), object.outline.begin(), object.outline.end()); };
+      if (around) add(plate.back().outlines);
+      // Of an object whose first layer is thicker than others' the top is higher up.
+      const bool lies = layer.z <= (object.height != 0 ? object.height : layer.height);
+      if (lies && layer.time.number > 0) add(plate.front().outlines);
+    }
   }
   const Ring surface = print_surface(settings.machine);
   auto built =
@@ -270,7 +279,8 @@ LayerPlan joined(const MovesOf& of, std::size_t layer, std::vector<LayerPlan> pa
   LayerPlan out = std::move(passes.front());
   for (std::size_t k = 0; k < passes.size(); ++k) {
     LayerPlan& own = k == 0 ? out : passes[k];
-    if (auto steps = change_before(of.passes, of.passes.begin[layer] + k, of.tools, out); !steps.empty())
+    const auto from = k > 0 ? place_behind(out) : std::nullopt;
+    if (auto steps = change_before(of.passes, of.passes.begin[layer] + k, of.tools, out, from); !steps.empty())
       put_before(own, std::move(steps));
     if (k > 0)
       out.steps.insert(out.steps.end(), std::make_move_iterator(own.steps.begin()),
@@ -327,6 +337,7 @@ std::vector<PackedLayer> plan_moves(const MovesOf& of, std::vector<travel::Prepa
           travel::prepare_ways(settings.travel, layer);
           const auto& retraction = scopes[of.tools.several() ? layer.input.scope : 0].retraction;
           auto routed = travel::route(settings.travel, retraction, layer, ordered[p], from[p]);
+          lower_tower(of.passes.lag_of(i), routed.plan);
           if (of.vase.has(i)) turns[i] = wall_of(layer.input);
           overhangs::mark(strands, over_air_of(layer.input), routed.plan);
           departures[p].departures = routed.departures;
@@ -411,15 +422,6 @@ std::pair<std::vector<travel::Prepared>, std::vector<travel::Linked>> prepared_a
   return {std::move(prepared), std::move(linked)};
 }
 
-/// The tower and the shield, which skirt and brim go round.
-Regions beside_objects(const Settings& settings, const Passes& passes) {
-  // A brim goes within the shield.
-  Regions out = settings.adhesion.adhesion_type == AdhesionType::brim ? Regions{} : passes.shield;
-  if (passes.has_tower())
-    out.insert(out.begin(), {tools::tower_outline(settings.tools, passes.size, passes.corner), {}});
-  return out;
-}
-
 /// Tells each layer its height over the bed, the room there, and what plastic comes of.
 void give_room(const Settings& settings, std::vector<travel::LayerInput>& inputs) {
   const double filament_mm = to_mm(settings.material.filament_diameter);
@@ -436,9 +438,8 @@ void give_room(const Settings& settings, std::vector<travel::LayerInput>& inputs
 PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, const Sequence& sequence,
                         std::vector<PrintedLayers> layers, std::vector<SupportOf> supports, Report& report,
                         PlanOptions options) {
-  const PlanFor use = options.use;
   const Stopwatch stopwatch(report.timings_ms[Stage::travel]);
-  const Settings& settings = scopes[0];
+  const auto& settings = scopes[0];
   const ScopeId on_first_layer = scopes.on_first_layer(0);
   auto copies = copies_of(plate);
   auto with_all = with_supports(sequence, std::move(supports), copies, layers);
@@ -462,6 +463,7 @@ PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, c
   add_adhesion_to_rises(settings, inputs, beside_objects(settings, passes), plan.notices);
   give_adhesion(settings, tools, scopes, inputs);
   add_ooze_shield(settings, passes.shield, passes, inputs);
+  add_prime_lines(settings, tools, scopes, passes, inputs, plan.notices);
   give_room(settings, inputs);
   for (auto& notice : check(settings)) plan.notices.push_back(std::move(notice));
   const Vase vase = settings.layers.magic_spiralize ? vase_of(settings, inputs, plan.notices) : Vase{};
@@ -475,20 +477,21 @@ PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, c
   if (report.tours) *report.tours = tours_of(prepared, ordered);
   const auto pauses = pauses_of(settings.tools, timeline, plan.notices);
   auto planned = plan_moves({scopes, tools, passes, pauses, heights_before(timeline, settings.machine.z_offset), vase},
-                            std::move(prepared), std::move(ordered), plan.notices, use);
-  out.purge_wanted_mm3 = passes.purged.wanted_mm3;
+                            std::move(prepared), std::move(ordered), plan.notices, options.use);
+  out.purged = passes.purged;
   tell_slow_ironing(planned, plan.notices);
   std::vector<LayerTimes> times;
   for (std::size_t i = 0; i < planned.size(); ++i) {
     auto& layer = planned[i];
     if (tools.several()) times.push_back(std::move(layer.times));
     out.statistics.append(layer.statistics);
-    if (use == PlanFor::figures) out.layers.push_back({layer.statistics, has_bottom(timeline[i], copies_on(plate))});
+    if (options.use == PlanFor::figures)
+      out.layers.push_back({layer.statistics, has_bottom(timeline[i], copies_on(plate))});
     plan.layers.push_back(std::move(layer.bare));
     out.digests.push_back(std::move(layer.digest));
     out.packed.push_back(std::move(layer.packed));
   }
-  if (tools.several() && use == PlanFor::writing) place_heat(tools.tools(), times, out);
+  if (tools.several() && options.use == PlanFor::writing) place_heat(tools.tools(), times, out);
   return out;
 }
 

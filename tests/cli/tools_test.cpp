@@ -284,6 +284,8 @@ TEST_CASE("cli: what is purged goes into infill first, and less of it into the t
   boxes.slice(into);
   const auto report = json::parse(boxes.scratch.read("out.json"));
   CHECK(report["purge"]["tower_mm3"].get<double>() < plain["purge"]["tower_mm3"].get<double>());
+  CHECK(report["purge"]["infill_mm3"].get<double>() > 0);
+  CHECK(report["purge"]["objects_mm3"].get<double>() == 0);
   CHECK(report["features"]["infill"]["mm3"].get<double>() ==
         Approx(plain["features"]["infill"]["mm3"].get<double>()).epsilon(0.001));
   CHECK(report["tools"][1]["filament"]["mm3"].get<double>() - report["tools"][1]["tower_mm3"].get<double>() >
