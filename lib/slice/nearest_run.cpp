@@ -80,7 +80,7 @@ class Cells {
       const auto& site = axis_.sites[axis_.half_edges[h].site];
       for (const Place p : {from, to}) feet.push_back(rounded_at(foot(site, p))), axis.push_back(rounded_at(p));
     }
-    if (kind_here == no_kind || feet.empty()) return;
+    if (feet.empty()) return;
     feet.insert(feet.end(), axis.rbegin(), axis.rend());
     rings_[static_cast<std::size_t>(kind_here)].push_back(std::move(feet));
   }
@@ -108,7 +108,7 @@ std::vector<Regions> nearest_to(const Region& region, int count, std::span<const
     one = one && kinds.back() == kinds.front();
   }
   if (one) {
-    if (kinds.front() != no_kind) out[static_cast<std::size_t>(kinds.front())] = {region};
+    out[static_cast<std::size_t>(kinds.front())] = {region};
     return out;
   }
   auto rings = Cells(axis, std::move(kinds), out.size()).rings();

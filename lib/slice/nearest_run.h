@@ -9,10 +9,7 @@
 /// Private to slice: which part of a region is nearest to which runs of its outline.
 namespace weft::slice {
 
-/// A place of the outline has none of the kinds.
-inline constexpr int no_kind = -1;
-
-/// @param kind_at of a place on the outline, 0 … count − 1, or no_kind
+/// @param kind_at of a place on the outline, 0 … count − 1
 /// @param borders places on the outline where the kind changes: edges are divided there
 /// @return of each kind the regions of what is nearest to outline of that kind; up to rounding they do not overlap.
 ///         Nothing where the outline's medial axis cannot be found.

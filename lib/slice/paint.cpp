@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <utility>
 
 namespace weft::slice {
 namespace {
@@ -20,6 +22,19 @@ constexpr double on_outline_um = 40;
 
 /// Regions that are no farther apart touch.
 constexpr Um beside = 5;
+
+bool apart(const Region& a, const Regions& b) {
+  return geometry::intersect(geometry::offset({a}, {.by = beside}), b).empty();
+}
+
+/// To the first that touches it.
+void give(const Region& region, std::vector<Regions>& paints) {
+  for (auto& paint : paints) {
+    if (paint.empty() || apart(region, paint)) continue;
+    paint = geometry::unite(paint, {region});
+    return;
+  }
+}
 
 /// Where an edge of the mesh crosses a height, whichever way it is run through.
 Point crossing(Point3 a, Point3 b, double z) {
@@ -116,6 +131,7 @@ std::vector<Regions> Paint::areas(std::size_t i, const Regions& outline) const {
   std::vector<int> paint_of;
   std::map<Point, int> ends;  // where a chain of cuts begins or ends, an odd number of them do
   std::vector<Point> borders;
+  bool flat = false;
   for (std::size_t k = 0; k < count; ++k) {
     ends.clear();
     for (const auto& [a, b] : cuts_[k][i]) {
@@ -124,51 +140,59 @@ std::vector<Regions> Paint::areas(std::size_t i, const Regions& outline) const {
     }
     for (const auto& [at, times] : ends)
       if (times % 2 != 0) borders.push_back(at);
+    flat = flat || !flats_[k][i].empty();
   }
   if (!segments.empty()) {
     const geometry::SegmentIndex index(std::move(segments));
     const auto kind_at = [&](Point p) {
       const auto nearest = index.nearest(p, on_outline_um);
-      return nearest ? paint_of[nearest->segment] : no_kind;
+      return nearest ? paint_of[nearest->segment] : static_cast<int>(count);
     };
-    for (const Region& region : outline) {
-      const auto cells = nearest_to(region, static_cast<int>(count), borders, kind_at);
-      const auto core = geometry::offset({region}, {.by = -reach_.depth, .corner = geometry::Corner::round});
-      for (std::size_t k = 0; k < cells.size(); ++k) {
-        if (cells[k].empty()) continue;
-        const auto near = core.empty() ? cells[k] : geometry::subtract(cells[k], core);
-        own[k].insert(own[k].end(), near.begin(), near.end());
-      }
-    }
+    for (const Region& region : outline) add_near(region, borders, kind_at, own);
   }
+  if (flat) add_flat(i, outline, own);
+  return own;
+}
+
+/// What is nearest to painted outline of a region, no deeper than paint goes.
+void Paint::add_near(const Region& region, std::span<const Point> borders, const std::function<int(Point)>& kind_at,
+                     std::vector<Regions>& own) const {
+  const std::size_t bare = own.size();  // the kind of outline without paint
+  auto cells = nearest_to(region, static_cast<int>(bare) + 1, borders, kind_at);
+  if (cells.empty()) return;
+  const auto painted = [&](std::size_t k) { return k != bare && !cells[k].empty(); };
+  bool any = false;
+  for (std::size_t k = 0; k < bare; ++k) any = any || painted(k);
+  if (!any) return;
+  const auto core = geometry::offset({region}, {.by = -reach_.depth, .corner = geometry::Corner::round});
+  for (std::size_t k = 0; k < bare; ++k) {
+    if (!painted(k)) continue;
+    auto near = core.empty() ? std::move(cells[k]) : geometry::subtract(cells[k], core);
+    std::erase_if(near, [&](const Region& piece) { return is_narrow(piece); });
+    std::move(near.begin(), near.end(), std::back_inserter(own[k]));
+  }
+  // Nothing could be printed of what is narrow between paints: it goes with one of them.
+  for (const Region& rest : cells[bare])
+    if (is_narrow(rest) && (core.empty() || apart(rest, core))) give(rest, own);
+}
+
+/// What lies below painted roofs and above painted floors, as far as it is not another paint's.
+void Paint::add_flat(std::size_t i, const Regions& outline, std::vector<Regions>& own) const {
   Regions taken;
-  for (std::size_t k = 0; k < count; ++k) {
+  for (std::size_t k = 0; k < own.size(); ++k) {
     own[k].insert(own[k].end(), flats_[k][i].begin(), flats_[k][i].end());
     if (own[k].empty()) continue;
     own[k] = geometry::intersect(geometry::subtract(own[k], taken), outline);
     std::erase_if(own[k], [&](const Region& region) { return is_narrow(region); });
     taken.insert(taken.end(), own[k].begin(), own[k].end());
   }
-  give_narrow(outline, taken, own);
-  return own;
+  if (taken.empty()) return;
+  for (const Region& rest : geometry::subtract(outline, taken))
+    if (is_narrow(rest)) give(rest, own);
 }
 
 bool Paint::is_narrow(const Region& region) const {
   return reach_.least > 0 && geometry::offset({region}, {.by = -reach_.least / 2}).empty();
-}
-
-/// What is left between paints and the outline goes with a paint beside it where nothing else could be printed there.
-void Paint::give_narrow(const Regions& outline, const Regions& taken, std::vector<Regions>& own) const {
-  if (reach_.least <= 0 || taken.empty()) return;
-  for (const Region& rest : geometry::subtract(outline, taken)) {
-    if (!is_narrow(rest)) continue;
-    const auto around = geometry::offset({rest}, {.by = beside});
-    for (auto& paint : own) {
-      if (paint.empty() || geometry::intersect(paint, around).empty()) continue;
-      paint = geometry::unite(paint, {rest});
-      break;
-    }
-  }
 }
 
 }  // namespace weft::slice

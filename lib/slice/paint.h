@@ -4,6 +4,7 @@
 #include "mesh/mesh.h"
 #include "slice/slice.h"
 
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -40,8 +41,10 @@ class Paint {
   std::vector<std::vector<Segment>> crossings(const Mesh& facets) const;
   std::vector<Regions> reached(const Mesh& facets, Um reach, bool up) const;
 
+  void add_near(const Region& region, std::span<const Point> borders, const std::function<int(Point)>& kind_at,
+                std::vector<Regions>& own) const;
+  void add_flat(std::size_t i, const Regions& outline, std::vector<Regions>& own) const;
   bool is_narrow(const Region& region) const;
-  void give_narrow(const Regions& outline, const Regions& taken, std::vector<Regions>& own) const;
 
   std::span<const Plane> planes_;
   PaintReach reach_;

@@ -54,7 +54,8 @@ TEST_CASE("gcode: custom G-code may say where it has left the nozzle, and change
     s.gcode.tool_change_gcode = code;
     return weft::test::settings_error([&] { check_custom_code(s); });
   };
-  CHECK(message("{position[2] = position[2] + 2; zhop = 0.4; e_retracted[0] = 1}G1 Z{position[2] + zhop}").empty());
+  CHECK(message("{position[2] = position[2] + 2; zhop = 0.4; e_retracted[0] = 1}G1 Z{position[2] + zhop}") ==
+        "nothing was thrown");
   CHECK(message("{layer_z = 3}").find("'layer_z' cannot be changed") != std::string::npos);
 }
 
