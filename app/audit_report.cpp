@@ -94,6 +94,7 @@ Json entry_of(const AuditEntry& entry) {
   for (const auto& u : r.unaudited)
     out["not_audited_because"].push_back(
         {{"command", u.cause.command}, {"line", u.cause.line}, {"why", u.cause.why}, {"moves", u.count}});
+  if (entry.outcome.seconds) out["print_time_s"] = std::round(*entry.outcome.seconds * 1000) / 1000;
   out["summary"] = audit::summary(r);
   out["reach_beyond_surface_mm"] = reach_beyond(r);
   out["warnings"] = Json::array();

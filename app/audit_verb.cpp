@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "audit_report.h"
 #include "command.h"
+#include "core/figures.h"
 #include "limited.h"
 #include "pipeline/profile_file.h"
 #include "verbs.h"
@@ -65,6 +66,8 @@ void tell(Console& console, const AuditEntry& entry, bool name_printer) {
                                : t.kind == audit::Finding::Kind::no_go ? fmt::format(" inside no-go area {}", t.area)
                                                                        : " beyond ",
                                t.kind == audit::Finding::Kind::no_go ? "" : audit::name_of(t.side), to_mm(t.worst)));
+  if (entry.outcome.seconds)
+    console.info(fmt::format("{}: {} without heating and waiting", where, short_duration(*entry.outcome.seconds)));
   if (r.clean())
     console.info(fmt::format("{}: pass, {}", where, audit::summary(r)));
   else
@@ -85,6 +88,7 @@ po::options_description audit_options() {
   out.add_options()("against", po::value<std::vector<std::string>>()->multitoken()->value_name("FILE..."),
                     "printer profiles: says of each whether the files may run there")(
       "format", po::value<std::string>()->value_name("json|junit")->default_value("json"), "form of the report")(
+      "time", po::bool_switch(), "says what the moves take, as the firmware of the profile plans them")(
       "commands", po::bool_switch(),
       "says of each G- and M-code that moves the nozzle or changes what coordinates mean what the audit does with it");
   add_limit_options(out);
@@ -114,7 +118,7 @@ int audit_verb(const Words& words) {
   std::vector<AuditEntry> entries;
   for (const auto& printer : printers)
     for (const auto& file : command.inputs) {
-      jobs.push_back({file, &printer.settings});
+      jobs.push_back({file, &printer.settings, command.options["time"].as<bool>()});
       entries.push_back({file, printer.name, {}});
     }
   std::vector<AuditOutcome> outcomes;

@@ -123,11 +123,14 @@ int batch(const Words& words) {
   const auto name = list_name(command);
   auto jobs = prepare_all(console, jobs::read_jobs(command.inputs, name), command);
   const auto named = name.empty() ? name : "-" + name;
-  if (command.options["collect"].as<bool>()) return collect_only(console, jobs, batch_options, named);
+  if (command.options["collect"].as<bool>()) {
+    check_reports(jobs, command, named);
+    return collect_only(console, jobs, batch_options, named);
+  }
   const auto shard = shard_of(command, console);
   jobs = share_of(std::move(jobs), shard);
   const auto suffix = named + (shard.count > 1 ? fmt::format("-{}-of-{}", shard.index + 1, shard.count) : "");
-  return conclude(console, run_jobs(console, jobs, batch_options, suffix), cache, command);
+  return conclude(console, run_jobs(console, jobs, batch_options, command, suffix), cache, command);
 }
 
 }  // namespace weft::app

@@ -59,6 +59,17 @@ void tell(Console& console, const jobs::JobLine& line, jobs::Fate fate, const jo
   }
 }
 
+/// What a run writes stays in the folder of its results, wherever links in it lead. @throws Error{usage}
+void refuse_leading_out(const fs::path& folder, const fs::path& inside, const std::string& where) {
+  std::error_code unknown;
+  auto whole = fs::weakly_canonical(folder, unknown);
+  if (!whole.has_filename()) whole = whole.parent_path();  // "out/"
+  const auto path = fs::weakly_canonical(folder / inside, unknown);
+  if (unknown || std::mismatch(whole.begin(), whole.end(), path.begin(), path.end()).first != whole.end())
+    throw Error{Error::Kind::usage, fmt::format("{} leads out of the folder of the results", inside.string()), where,
+                "a symbolic link is in its way"};
+}
+
 /// No result may be a file that some job reads. What jobs leave beside their G-code is checked by its names.
 void check_files(const std::vector<jobs::Prepared>& jobs, const Command& command, std::vector<Error>& errors) {
   Files files = command.files;
@@ -73,16 +84,7 @@ void check_files(const std::vector<jobs::Prepared>& jobs, const Command& command
     noted(job, [&] {
       for (const auto& path : job.read) files.reads(path.string());
     });
-  std::error_code unknown;
-  auto whole = fs::weakly_canonical(*command.output, unknown);
-  if (!whole.has_filename()) whole = whole.parent_path();  // "out/"
-  for (const auto& job : jobs)
-    noted(job, [&] {
-      const auto path = fs::weakly_canonical(fs::path(*command.output) / job.line.output, unknown);
-      if (unknown || std::mismatch(whole.begin(), whole.end(), path.begin(), path.end()).first != whole.end())
-        throw Error{Error::Kind::usage, fmt::format("{} leads out of the folder of the results", job.line.output),
-                    "output", "a symbolic link is in its way"};
-    });
+  for (const auto& job : jobs) noted(job, [&] { refuse_leading_out(*command.output, job.line.output, "output"); });
   for (const auto& job : jobs)
     noted(job, [&] { files.writes((fs::path(*command.output) / job.line.output).string(), "output"); });
 }
@@ -226,8 +228,21 @@ std::vector<jobs::Prepared> prepare_all(Console& console, jobs::JobList list, co
   throw list.errors.back();
 }
 
+void check_reports(const std::vector<jobs::Prepared>& jobs, const Command& command, const std::string& suffix) {
+  Files files = command.files;
+  for (const auto& job : jobs)
+    for (const auto& path : job.read) files.reads(path.string());
+  std::vector<std::string> names{"index.html", ".weft/jobs"};
+  for (auto& name : jobs::summary_names(suffix)) names.push_back(std::move(name));
+  for (const auto& name : names) {
+    refuse_leading_out(*command.output, name, "-o");
+    files.writes((fs::path(*command.output) / name).string(), "-o");
+  }
+}
+
 Finished run_jobs(Console& console, const std::vector<jobs::Prepared>& jobs, const jobs::BatchOptions& options,
-                  const std::string& suffix) {
+                  const Command& command, const std::string& suffix) {
+  check_reports(jobs, command, suffix);
   std::signal(SIGINT, note_batch_interrupt);
   std::signal(SIGTERM, note_batch_interrupt);
   jobs::BatchWatch watch;

@@ -23,6 +23,9 @@ std::string told(const StageCache& cache);
 /// Resolves all jobs. Every error is told, then one stands for all of them. @throws Error
 std::vector<jobs::Prepared> prepare_all(Console& console, jobs::JobList list, const Command& command);
 
+/// No report of a run may be a file that it reads, its list included. @param suffix as below  @throws Error{usage}
+void check_reports(const std::vector<jobs::Prepared>& jobs, const Command& command, const std::string& suffix);
+
 /// Runs them with bar, messages and reports.
 /// @param suffix of the reports' names: "" or "-3-of-20"
 /// @return what is known of each job at the end
@@ -31,7 +34,7 @@ struct Finished {
   jobs::Collected collected;
 };
 Finished run_jobs(Console& console, const std::vector<jobs::Prepared>& jobs, const jobs::BatchOptions& options,
-                  const std::string& suffix);
+                  const Command& command, const std::string& suffix);
 
 /// The last line on standard error, --report, and the exit status.
 int conclude(Console& console, const Finished& finished, const StageCache& cache, const Command& command);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command.h"
 
+#include "core/write_file.h"
+#include "pipeline/field_files.h"
 #include "pipeline/model_parts.h"
 #include "pipeline/profile_file.h"
 #include "pipeline/project.h"
-#include "pipeline/write_file.h"
 #include "profile/tool_values.h"
 #include "profile_folders.h"
 #include "prusaslicer/keys.h"
@@ -14,7 +15,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -448,13 +448,21 @@ Profile resolve(const Command& command) {
   Profile profile;
   for (const auto& file : command.profiles) apply_profile(profile, file, command.import);
   const int plate = command.options.count("plate") ? command.options["plate"].as<int>() : 0;
-  apply_project(profile, command.inputs, command.profiles.empty(), plate, command.import);
+  (void)apply_project(profile, command.inputs, command.profiles.empty(), plate, command.import);
   apply_options(profile, command.import);
   for (const auto& [key, text] : command.settings) apply_setting(profile, key, text, command.import);
+  for (const auto& field : pipeline::field_files(profile.settings, command.by_name, command.marks))
+    refuse_outside(field, command.import);
   check_consistency(profile);
+  (void)files_of(command, profile);
+  return profile;
+}
+
+Files files_of(const Command& command, const Profile& profile) {
   Files files = command.files;
   for (const auto& parent : profile.parents) files.reads(parent.string());
-  return profile;
+  for (const auto& field : pipeline::field_files(profile.settings, command.by_name, command.marks)) files.reads(field);
+  return files;
 }
 
 Point parse_point(const std::string& text, const std::string& option) {
@@ -469,20 +477,6 @@ Point parse_point(const std::string& text, const std::string& option) {
   if (point.size() != 1)
     throw Error{Error::Kind::usage, fmt::format("'{}' is not X,Y in mm", text), option, "as in " + option + " 110,110"};
   return point.front();
-}
-
-void check_writable(const std::string& destination) {
-  if (destination == "-") return;
-  namespace fs = std::filesystem;
-  std::error_code unknown;
-  const auto target = followed(destination);
-  const auto folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-  if (fs::is_directory(target, unknown))
-    throw Error{Error::Kind::file, "is a folder", destination, "name a file in it"};
-  const bool replaced = fs::is_regular_file(target, unknown) || !fs::exists(target, unknown);  // by its neighbour
-  if (::access(replaced ? folder.c_str() : target.c_str(), W_OK) != 0)
-    throw Error{Error::Kind::file, fmt::format("cannot be written ({})", std::strerror(errno)), destination,
-                errno == ENOENT ? "does the folder exist?" : "check the path and its permissions"};
 }
 
 void write_output(const std::string& destination, std::string_view text) {

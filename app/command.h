@@ -48,17 +48,18 @@ boost::program_options::options_description common_options();
 std::string common_help();
 
 /// Profiles and settings of the command, laid over the defaults in the order of the contract: files, then options.
-/// @throws Error; {usage} when a profile that another inherits is an output
+/// @throws Error; {usage} when a file that a profile names is an output
 Profile resolve(const Command& command);
+
+/// The files of the command, with those that its profiles and settings name besides: what infill is laid by.
+/// @throws Error{usage} when one of them is an output
+Files files_of(const Command& command, const Profile& profile);
 
 /// Two numbers separated by a comma, mm. @throws Error{usage}
 Point parse_point(const std::string& text, const std::string& option);
 
 /// A number of copies. @throws Error{usage}
 int copies_in(const std::string& text);
-
-/// What is known to be in the way of writing there is told before the work, not after it. @throws Error{file}
-void check_writable(const std::string& destination);
 
 /// Writes a report or a picture where the user wants it: a path (through a neighbour that is renamed when complete), or
 /// "-". G-code goes through pipeline/write_gcode.h.

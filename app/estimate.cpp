@@ -65,6 +65,7 @@ std::size_t estimated(const Command& command, const Profile& profile, Console& c
   std::optional<StageCache> cache;
   if (!cache_options.folder.empty()) cache.emplace(cache_options);
   const EstimateOptions how{.exact = command.options["exact"].as<bool>()};
+  if (how.exact && command.report) report.figures.emplace();
   return estimate(job_of(command, profile.settings), how, watch, report, cache ? &*cache : nullptr);
 }
 
@@ -83,9 +84,11 @@ int estimate_verb(const Words& words) {
   Console console(command.console);
   Report report;
   std::string text;
+  bool inputs_are_known = false;  // else a report might be written over one of them
   try {
     within_limits(command, [&] {
       const auto profile = resolve(command);
+      inputs_are_known = true;
       report.warnings = profile.notices;
       const auto planned = estimated(command, profile, console, report);
       text = figures(report, profile.settings, planned);
@@ -93,12 +96,12 @@ int estimate_verb(const Words& words) {
   } catch (const Error& error) {
     report.status = Report::Status::failed;
     report.error = error.what();
-    if (command.report) write_output(*command.report, to_json(report));
+    write_report(command, report, inputs_are_known);
     throw;
   }
   warn(console, report.warnings, command.console.verbosity == Verbosity::detail ? report.warnings.size() : 3);
   report.peak_memory_mb = peak_memory_mb();
-  if (command.report) write_output(*command.report, to_json(report));
+  write_report(command, report, true);
   if (command.output)
     write_output(*command.output, text);
   else if (command.report != "-")

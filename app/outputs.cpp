@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -55,6 +58,27 @@ void Files::writes(const std::string& path, std::string_view option, bool profil
     throw Error{Error::Kind::usage,
                 fmt::format("{} is the file of {} {}", shown(path), at->second.option, shown(at->second.path)),
                 std::string(option), "give each a file of its own"};
+}
+
+bool may_be_input(const std::string& destination) {
+  std::error_code unknown;
+  if (destination == "-" || !std::filesystem::is_regular_file(destination, unknown)) return false;
+  const int first = std::ifstream(destination, std::ios::binary).get();
+  return first != '{' && first != std::ifstream::traits_type::eof();
+}
+
+void check_writable(const std::string& destination) {
+  if (destination == "-") return;
+  namespace fs = std::filesystem;
+  std::error_code unknown;
+  const auto target = followed(destination);
+  const auto folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  if (fs::is_directory(target, unknown))
+    throw Error{Error::Kind::file, "is a folder", destination, "name a file in it"};
+  const bool replaced = fs::is_regular_file(target, unknown) || !fs::exists(target, unknown);  // by its neighbour
+  if (::access(replaced ? folder.c_str() : target.c_str(), W_OK) != 0)
+    throw Error{Error::Kind::file, fmt::format("cannot be written ({})", std::strerror(errno)), destination,
+                errno == ENOENT ? "does the folder exist?" : "check the path and its permissions"};
 }
 
 }  // namespace weft::app

@@ -28,4 +28,11 @@ class Files {
   std::map<FilePlace, Output> written_;
 };
 
+/// While it is not known yet all that a run reads: could what is there be read? What begins as JSON does is a report of
+/// before; what is not there, or empty, is nothing.
+bool may_be_input(const std::string& destination);
+
+/// What is known to be in the way of writing there is told before the work, not after it. @throws Error{file}
+void check_writable(const std::string& destination);
+
 }  // namespace weft::app

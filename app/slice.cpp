@@ -3,11 +3,11 @@
 #include "command.h"
 #include "core/figures.h"
 #include "core/hash.h"
+#include "core/write_file.h"
 #include "gcode/file_name.h"
 #include "limits.h"
 #include "pipeline/model_parts.h"
 #include "pipeline/pipeline.h"
-#include "pipeline/write_file.h"
 #include "preview_file.h"
 #include "slice_job.h"
 #include "transform_options.h"
@@ -131,7 +131,7 @@ void say_last(const Command& command, const Error& error, Report known) {
   known.error = error.what();
   known.peak_memory_mb = peak_memory_mb();
   try {
-    if (command.report) write_output(*command.report, to_json(known));
+    write_report(command, known, false);
   } catch (const Error& unwritten) {
     console.error(unwritten);
   }
@@ -160,14 +160,20 @@ std::string price(double amount, const std::string& currency) {
   return fmt::format("{:.2f}{}{}", amount, currency.empty() ? "" : " ", currency);
 }
 
+void write_report(const Command& command, const Report& report, bool inputs_are_known) {
+  if (command.report && (inputs_are_known || !may_be_input(*command.report)))
+    write_output(*command.report, to_json(report));
+}
+
 namespace {
 
 std::string summary(const Report& r) {
   const auto cost = r.cost ? ", " + price(r.cost->total(), r.currency) : std::string();
-  return fmt::format(
-      "{} layers, {:.2f} mm high, {} to print, {:.2f} m of filament ({:.1f} g){}; audit: {}, {} moves checked",
-      r.layers, r.height_mm, short_duration(r.print_time_s), r.filament_mm / 1000, r.filament_g, cost, r.audit.verdict,
-      r.audit.checked_moves);
+  const auto& audit = r.audit;  // of an annotated print the summary has been the warning before this line
+  const auto judged = audit.verdict == "pass" ? audit.summary : fmt::format("{} moves checked", audit.checked_moves);
+  return fmt::format("{} layers, {:.2f} mm high, {} to print, {:.2f} m of filament ({:.1f} g){}; audit: {}, {}",
+                     r.layers, r.height_mm, short_duration(r.print_time_s), r.filament_mm / 1000, r.filament_g, cost,
+                     audit.verdict, judged);
 }
 
 /// Where the preview goes; empty: none is asked for.
@@ -186,9 +192,7 @@ std::string destination_of(const Command& command, const Profile& profile, const
   const PrintPlan plan;
   const auto name = gcode::file_name({profile.settings, plan, made, model.stem().string(), {}});
   const auto path = (model.parent_path() / name).string();
-  Files files = command.files;
-  for (const auto& parent : profile.parents) files.reads(parent.string());
-  files.writes(path, "output_filename_format");
+  files_of(command, profile).writes(path, "output_filename_format");
   return path;
 }
 
@@ -231,11 +235,13 @@ int slice(const Words& words) {
   const Limits limits(limit_of(command.options, "timeout"), limit_of(command.options, "max-memory"));
 
   Report report;
+  if (command.report) report.figures.emplace();
   if (command.report && command.console.verbosity == Verbosity::detail) report.tours.emplace();  // figures to debug by
+  bool inputs_are_known = false;  // else a report might be written over one of them
   const auto finish = [&] {
     warn(console, report.warnings, command.console.verbosity == Verbosity::detail ? report.warnings.size() : 3);
     report.peak_memory_mb = peak_memory_mb();
-    if (command.report) write_output(*command.report, to_json(report));
+    write_report(command, report, inputs_are_known);
   };
   const auto failed = [&](const Error& error) {
     report.status = Report::Status::failed;
@@ -246,14 +252,12 @@ int slice(const Words& words) {
   Watchdog watchdog(limits, [&](const Error& error, Report known) { say_last(command, error, std::move(known)); });
   try {
     const auto profile = resolve(command);
+    inputs_are_known = true;
     report.warnings = profile.notices;
     check_writable(destination_of(command, profile, report));  // refused before the work, not after it
-    Watch watch;
-    watch.progress = [&](std::string_view stage, double share) {
-      console.progress(stage, share);
-      watchdog.remember(report);
-    };
-    watch.cancelled = [&] { return limits.reached(); };
+    const Watch watch{
+        [&](std::string_view stage, double share) { console.progress(stage, share), watchdog.remember(report); },
+        [&] { return limits.reached(); }};
     const auto cache_options = cache_options_of(command);
     std::optional<StageCache> cache;
     if (!cache_options.folder.empty()) cache.emplace(cache_options);

@@ -18,6 +18,10 @@ double limit_of(const boost::program_options::variables_map& options, const std:
 /// report has them all.
 void warn(Console& console, const Notices& notices, std::size_t most);
 
+/// --report, where it is asked for. While it is not known all that is read, it is written over no file that might be.
+/// @throws Error{file}
+void write_report(const Command& command, const Report& report, bool inputs_are_known);
+
 /// "1.47 EUR"
 std::string price(double amount, const std::string& currency);
 

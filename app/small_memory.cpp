@@ -346,10 +346,12 @@ void* operator new(std::size_t bytes) {
 }
 
 void operator delete(void* memory) noexcept {
+  weft::StopInside::gave_back();
   weft::small_memory::give(memory);
 }
 
 void operator delete(void* memory, std::size_t) noexcept {
+  weft::StopInside::gave_back();
   weft::small_memory::give(memory);
 }
 #endif

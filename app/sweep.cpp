@@ -3,8 +3,8 @@
 
 #include "batch_run.h"
 #include "core/file_bytes.h"
+#include "core/write_file.h"
 #include "page_file.h"
-#include "pipeline/write_file.h"
 #include "preview/preview.h"
 #include "tasks/crew.h"
 #include "verbs.h"
@@ -153,7 +153,7 @@ int sweep(const Words& words) {
   run_options.cache = &cache;
   Console console(command.console);
   const auto jobs = prepare_all(console, jobs::sweep_jobs(command.inputs, axes, combine_of(command)), command);
-  const auto finished = run_jobs(console, jobs, run_options, {});
+  const auto finished = run_jobs(console, jobs, run_options, command, {});
   write_page(jobs, finished, axes, run_options, std::filesystem::path(command.inputs.front()).filename().string(),
              picture / 100);
   console.info(fmt::format("compare them in {}", (run_options.folder / "index.html").string()));

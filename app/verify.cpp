@@ -5,6 +5,8 @@
 #include "core/stop.h"
 #include "core/version.h"
 #include "limited.h"
+#include "pipeline/field_files.h"
+#include "pipeline/infill_files.h"
 #include "pipeline/provenance.h"
 #include "verbs.h"
 
@@ -38,6 +40,16 @@ std::string find_model(const Provenance::File& wanted, const std::vector<std::st
               "name it behind the G-code: weft verify FILE.gcode MODEL..."};
 }
 
+/// The files that settings name must be there and hold what they held.
+void check_infill_files(const Provenance& made_of, const std::string& gcode) {
+  const auto now = pipeline::infill_files(made_of.settings.infill);
+  for (std::size_t i = 0; i < std::min(now.size(), made_of.infill_files.size()); ++i)
+    if (now[i].sha256 != made_of.infill_files[i].sha256)
+      throw Error{Error::Kind::settings,
+                  fmt::format("is not the {} that {} was made of: its sha256 is another", now[i].key, gcode),
+                  now[i].file, "it was changed since"};
+}
+
 /// The first line in which they differ, counted from 1, and what stands there.
 std::string first_difference(std::string_view made, std::string_view found) {
   const auto [a, b] = std::mismatch(made.begin(), made.end(), found.begin(), found.end());
@@ -60,6 +72,8 @@ void compare(const Command& command, Console& console) {
   if (made_of.version != version)
     throw Error{Error::Kind::file, fmt::format("was made by weft {}, and this is {}", made_of.version, version), path,
                 "another version may lay other paths: verify it with its own"};
+
+  check_infill_files(made_of, path);
 
   Job job;
   const std::vector<std::string> named(command.inputs.begin() + 1, command.inputs.end());
@@ -85,10 +99,13 @@ void compare(const Command& command, Console& console) {
   watch.cancelled = *StopWhen::current();
   const auto again = run(job, watch, report);
   if (!again) throw Error{Error::Kind::audit, report.error, path};
-  if (again->gcode() != file.view())
+  if (again->gcode() != file.view()) {
+    std::string fields;  // what they held the file does not say
+    for (const auto& field : pipeline::field_files(job)) fields += (fields.empty() ? ", or " : " or ") + field;
     throw Error{Error::Kind::file,
                 "is not what weft makes of its model and settings; " + first_difference(again->gcode(), file.view()),
-                path, "it was changed after it was made"};
+                path, fmt::format("it{} was changed after it was made", fields)};
+  }
   console.info(fmt::format("{}: byte for byte what weft {} makes of {}", path, version, job.models.front()));
 }
 

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# weft_module(NAME [ONCE | GLUE] [USES module...] [PUBLIC lib...] [PRIVATE lib...])
+# weft_module(NAME [ONCE | GLUE] [USES module...] [PUBLIC lib...] [PRIVATE lib...] [HEADS head...])
 #
 # A module is a folder of lib/ and the library made of the .cpp files in it and in folders of it. USES names the modules whose headers it may
 # include; the row also goes to modules.txt, from which a test checks every #include (tests/architecture.cmake). What
 # runs once a job is compiled to be small: a page of a program that is never run still takes memory beside one that is.
 # GLUE calls what takes time and has no such loop itself: with sanitizers it is compiled as what runs once.
+# HEADS are included by so many of its files that they are precompiled with the common ones (precompiled.cmake).
 set_property(GLOBAL PROPERTY WEFT_MODULES "")
 file(WRITE ${CMAKE_BINARY_DIR}/modules.txt "")
 
@@ -15,7 +16,7 @@ function(weft_row name uses public private)
 endfunction()
 
 function(weft_module name)
-  cmake_parse_arguments(arg "ONCE;GLUE" "" "USES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "ONCE;GLUE" "" "USES;PUBLIC;PRIVATE;HEADS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
   list(TRANSFORM arg_USES PREPEND weft_ OUTPUT_VARIABLE used)
   if(sources)
@@ -26,7 +27,10 @@ function(weft_module name)
       set(kind small)
       target_compile_options(weft_${name} PRIVATE ${weft_small})
     endif()
-    weft_precompiled(weft_${name} ${kind} ${arg_PRIVATE})
+    if(CGAL::CGAL IN_LIST arg_PRIVATE)
+      set(rounding EXACT)
+    endif()
+    weft_precompiled(weft_${name} ${kind} ${rounding} HEADS ${arg_HEADS})
     target_link_libraries(weft_${name} PRIVATE $<BUILD_INTERFACE:weft_options> ${arg_PRIVATE})
   else()
     add_library(weft_${name} INTERFACE)

@@ -3,7 +3,7 @@
 # What the house asks of its sources, beyond what compilers see:  bash tests/house.sh
 # No file above 500 lines, no function above 60 but those that tests/house.txt names with a reason, no marker of things
 # left undone, a line of licence at the top of each file, a word on every header, the layout of .clang-format,
-# and no row of settings that nothing reads.
+# no row of settings that nothing reads, and no room of lib/ that its tour (lib/README.md) passes by.
 # Needs universal-ctags and clang-format (bash cmake/packages.sh universal-ctags clang-format). Exit status: the number of
 # kinds of faults; 127: it could not look.
 set -uo pipefail
@@ -59,6 +59,10 @@ LC_ALL=C comm -23 <(echo "$idle") <(echo "$waiting") |
   tell 'settings that nothing reads and tests/settings_without_effect.txt does not name'
 LC_ALL=C comm -13 <(echo "$idle") <(echo "$waiting") | grep . |
   tell 'tests/settings_without_effect.txt names what is read by now'
+
+for room in $(grep -oE '^lib/[a-z_]+/' <<< "$all" | sort -u); do
+  grep -qF "\`${room#lib/}" lib/README.md || echo "$room"
+done | tell 'folders that the tour of lib/README.md passes by'
 
 marker='TO''DO|FIX''ME|X''XX|HA''CK'  # in pieces, so that this line is none
 grep -nHIE "\b($marker)\b" "${read[@]}" | tell 'markers'

@@ -20,16 +20,18 @@ struct Frame {
   }
 };
 
-/// Beads: each segment at its mean width, so that steps of width are seen; and their centreline.
+/// A bead as it is laid: each segment at its mean width, its ends round. Where two beads lie over each other is darker.
 void draw_bead(std::ostream& out, const Stroke& s) {
+  out << "<g class='bead'>\n";
   const std::size_t segments = s.closed ? s.path.size() : s.path.size() - 1;
   for (std::size_t i = 0; i < segments; ++i) {
     const std::size_t k = (i + 1) % s.path.size();
     const auto [x0, y0] = s.path[i];
     const auto [x1, y1] = s.path[k];
-    out << "<line class='bead' x1='" << x0 << "' y1='" << 0 - y0 << "' x2='" << x1 << "' y2='" << 0 - y1
-        << "' stroke-width='" << (s.widths[i] + s.widths[k]) / 2 << "'/>\n";
+    out << "<line x1='" << x0 << "' y1='" << 0 - y0 << "' x2='" << x1 << "' y2='" << 0 - y1 << "' stroke-width='"
+        << (s.widths[i] + s.widths[k]) / 2 << "'/>\n";
   }
+  out << "</g>\n";
 }
 
 void draw_line(std::ostream& out, const Stroke& s, const char* kind) {
@@ -58,8 +60,8 @@ std::string picture_svg() {
   std::ostringstream out;
   out << std::setprecision(9) << "<svg xmlns='http://www.w3.org/2000/svg' viewBox='" << frame.min_x - margin << ' '
       << -frame.max_y - margin << ' ' << width + 2 * margin << ' ' << depth + 2 * margin << "'>\n"
-      << "<style>.bead{stroke:#4a90d9;stroke-opacity:.4}.centre,.outline{fill:none;stroke-width:" << margin / 40
-      << "}.centre{stroke:#123}.outline{stroke:#d33}</style>\n";
+      << "<style>.bead{stroke:#4a90d9;stroke-linecap:round;opacity:.4}.centre,.outline{fill:none;stroke-width:"
+      << margin / 40 << "}.centre{stroke:#123}.outline{stroke:#d33}</style>\n";
   for (const Stroke& s : shown)
     if (!s.widths.empty()) draw_bead(out, s);
   for (const Stroke& s : shown) draw_line(out, s, s.widths.empty() ? "outline" : "centre");

@@ -44,6 +44,11 @@ inline void look_at(const weft::Regions& regions) {
   new_picture();
   for (const weft::Region& region : regions) show(region);
 }
+/// … and others in the same.
+inline void look_at(const weft::Regions& regions, const weft::Regions& others) {
+  look_at(regions);
+  for (const weft::Region& region : others) show(region);
+}
 
 /// Shows beads in the picture that is there. (A template: not every test knows of beads.)
 template <class Beads>

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "adhesion/adhesion.h"
 
+#include "adhesion/ears.h"
 #include "adhesion/loops.h"
 #include "core/convex_hull.h"
 #include "core/stop.h"
+#include "geometry/boolean.h"
 #include "geometry/offset.h"
 #include "model/flow.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -76,13 +79,39 @@ class Layer {
   double lost_um_ = 0;
 };
 
+/// A disc.
+Region disc(Point centre, Um radius) {
+  constexpr int corners = 48;
+  Region out;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * std::numbers::pi * i / corners;
+    out.outer.push_back({centre.x + rounded(radius * std::cos(angle)), centre.y + rounded(radius * std::sin(angle))});
+  }
+  return out;
+}
+
+/// What of a brim's loops lies around tips of the parts.
+std::vector<BrimLoop> at_tips(const AdhesionSettings& settings, const Regions& outlines,
+                              const std::vector<BrimLoop>& loops) {
+  Regions ears;
+  for (const Point tip : tips_of(geometry::unite(outlines), settings.brim_ears_max_angle))
+    ears.push_back(disc(tip, settings.brim_gap + settings.brim_width));
+  std::vector<BrimLoop> out;
+  if (ears.empty()) return out;
+  ears = geometry::unite(ears);
+  for (const BrimLoop& loop : loops)
+    for (BrimLoop& piece : cut_loop(loop, ears, true)) out.push_back(std::move(piece));
+  std::erase_if(out, [](const BrimLoop& loop) { return !loop.closed && length_of(loop.line) < shortest_piece; });
+  return out;
+}
+
 /// The brim, group of parts by group of parts.
 void add_brim(const AdhesionSettings& settings, const PlateLayer& first, Um nominal, std::uint32_t first_sequence,
               Layer& layer, Beads& beads) {
   const int count = std::max(1, static_cast<int>(std::lround(static_cast<double>(settings.brim_width) / nominal)));
   const double band = static_cast<double>(settings.brim_width) / count;
-  const std::vector<BrimLoop> loops =
-      brim_loops(first.outlines, settings.brim_location, settings.brim_gap, band, count);
+  std::vector<BrimLoop> loops = brim_loops(first.outlines, settings.brim_location, settings.brim_gap, band, count);
+  if (settings.brim_ears) loops = at_tips(settings, first.outlines, loops);
   // parts whose brims meet are one group
   const Regions groups = geometry::offset(first.outlines, {.by = settings.brim_gap + settings.brim_width + 1,
                                                            .corner = geometry::Corner::round,
@@ -122,6 +151,11 @@ Adhesion build(const AdhesionSettings& settings, const AdhesionInput& input) {
   if (settings.brim_width > 0) {
     add_brim(settings, first, band_of(settings, input.nozzle, first.height), 2, layer, brim);
     layer.report("brim", result.notices);
+    if (settings.brim_ears && brim.empty() && !first.outlines.empty())
+      result.notices.push_back(
+          {"brim_no_tips",
+           fmt::format("brim_ears: the parts have no tip sharper than {:g}° (brim_ears_max_angle): there is no brim",
+                       settings.brim_ears_max_angle)});
   }
   if (settings.skirt_line_count > 0) {
     std::vector<Point> points;

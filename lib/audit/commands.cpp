@@ -20,15 +20,15 @@ constexpr std::array harmless{
     Stretch{3, 5},     Stretch{7, 11},    Stretch{17, 18},   Stretch{20, 22},   Stretch{27, 27},   Stretch{31, 31},
     Stretch{34, 34},   Stretch{42, 44},   Stretch{47, 47},   Stretch{70, 78},   Stretch{80, 81},   Stretch{84, 87},
     Stretch{100, 110}, Stretch{112, 114}, Stretch{116, 116}, Stretch{119, 119}, Stretch{122, 124}, Stretch{126, 127},
-    Stretch{130, 136}, Stretch{140, 155}, Stretch{160, 166}, Stretch{190, 194}, Stretch{201, 205}, Stretch{208, 217},
+    Stretch{130, 136}, Stretch{140, 155}, Stretch{160, 166}, Stretch{190, 194}, Stretch{201, 205}, Stretch{209, 217},
     Stretch{219, 225}, Stretch{231, 233}, Stretch{240, 243}, Stretch{250, 262}, Stretch{280, 283}, Stretch{300, 305},
     Stretch{309, 309}, Stretch{351, 355}, Stretch{374, 381}, Stretch{400, 400}, Stretch{403, 415}, Stretch{420, 423},
     Stretch{425, 425}, Stretch{430, 431}, Stretch{438, 438}, Stretch{450, 453}, Stretch{493, 493}, Stretch{500, 500},
     Stretch{503, 505}, Stretch{510, 512}, Stretch{540, 549}, Stretch{551, 551}, Stretch{553, 555}, Stretch{557, 558},
-    Stretch{561, 562}, Stretch{564, 578}, Stretch{580, 580}, Stretch{582, 583}, Stretch{585, 586}, Stretch{588, 599},
-    Stretch{603, 604}, Stretch{606, 607}, Stretch{610, 610}, Stretch{624, 625}, Stretch{672, 672}, Stretch{703, 703},
-    Stretch{710, 710}, Stretch{752, 756}, Stretch{855, 861}, Stretch{863, 879}, Stretch{900, 927}, Stretch{930, 930},
-    Stretch{951, 951}, Stretch{960, 969}, Stretch{972, 973}, Stretch{975, 984}, Stretch{990, 999},
+    Stretch{561, 562}, Stretch{564, 568}, Stretch{570, 578}, Stretch{580, 580}, Stretch{582, 583}, Stretch{586, 586},
+    Stretch{588, 599}, Stretch{603, 604}, Stretch{606, 607}, Stretch{610, 610}, Stretch{624, 625}, Stretch{672, 672},
+    Stretch{703, 703}, Stretch{710, 710}, Stretch{752, 756}, Stretch{855, 861}, Stretch{863, 879}, Stretch{900, 927},
+    Stretch{930, 930}, Stretch{951, 951}, Stretch{960, 969}, Stretch{972, 973}, Stretch{975, 984}, Stretch{990, 999},
 };
 static_assert(std::is_sorted(harmless.begin(), harmless.end(),
                              [](const Stretch& a, const Stretch& b) { return a.to < b.from; }));
@@ -161,6 +161,8 @@ struct Reader::Table {
       {'M', 206, any_sub, lenient, &R::lose_given, "it moves the origin that the firmware keeps",
        "the axes that it names are not audited"},
       {'M', 207, any_sub, lenient, &R::retract_lift, {}, "Z: the lift of G10", false},
+      {'M', 208, any_sub, lenient, &R::lose_in_reprapfirmware, "it says where homing leaves the axes",
+       "RepRapFirmware: the axes that it names are not audited"},
       {'M',
        218,
        any_sub,
@@ -173,22 +175,25 @@ struct Reader::Table {
       {'M', 350, any_sub, lenient, &R::lose_axes_named, "it changes the steps of a millimetre", "as M92"},
       {'M', 428, any_sub, lenient, &R::lose_stored, "it moves the origin that the firmware keeps", lost_text},
       {'M', 486, any_sub, text, &R::label_object, {}, "the object that follows", false},
+      {'M', 502, any_sub, lenient, &R::lose_stored, "it takes back what the printer was told for good", lost_text},
       {'M', 550, any_sub, text, nullptr, {}, {}},
       {'M', 552, any_sub, text, nullptr, {}, {}},
       {'M', 556, any_sub, lenient, &R::lose_axes_named, "it skews the axes", "the axes that it names are not audited"},
       {'M', 559, any_sub, text, &R::lose_stored, "what follows is written to a file", lost_text},
       {'M', 560, any_sub, text, &R::lose_stored, "what follows is written to a file", lost_text},
       {'M', 563, any_sub, lenient, &R::lose_axes_named, "it gives a tool other axes", "as M92"},
+      {'M', 569, any_sub, lenient, &R::lose_in_reprapfirmware, "it turns motors round",
+       "RepRapFirmware: moves from here on are not audited"},
       {'M', 579, any_sub, lenient, &R::lose_axes_named, "it scales the axes", "as M92"},
       {'M', 581, any_sub, text, nullptr, {}, {}},
       {'M', 584, any_sub, lenient, &R::lose_axes_named, "it gives the axes other motors", "as M92"},
+      {'M', 585, any_sub, lenient, &R::lose_stored, "it probes where a tool's nozzle stands", lost_text},
       {'M', 587, any_sub, text, nullptr, {}, {}},
       {'M', 605, any_sub, lenient, &R::two_carriages, {}, "opaque; S2, S3: moves are not audited"},
       {'M', 665, any_sub, lenient, &R::lose_stored, "it changes the machine's geometry", lost_text},
       {'M', 666, any_sub, lenient, &R::lose_stored, "it changes the machine's geometry", lost_text},
       {'M', 669, any_sub, lenient, &R::lose_stored, "it changes the machine's geometry", lost_text},
       {'M', 808, any_sub, lenient, &R::lose_stored, "the lines from here are run again", lost_text},
-      {'M', 815, any_sub, text, &R::opaque_code, {}, opaque_text},
       {'M', 852, any_sub, lenient, &R::lose_given, "it skews the axes", lost_text},
       {'M', 862, any_sub, text, nullptr, {}, {}},
       {'M', 928, any_sub, text, nullptr, {}, {}},
@@ -209,6 +214,7 @@ const Reader::Command* Reader::find_command(char letter, int number, int sub) {
   static constexpr Command tool{'T', 0, any_sub, Reading::lenient, &Reader::tool_change, {}, {}};
   static constexpr Command nothing_moves{'M', 0, any_sub, Reading::lenient, nullptr, {}, {}};
   static constexpr Command unknown_file{'M', 0, any_sub, Reading::text, &Reader::opaque_code, {}, {}};
+  static constexpr Command slot{'M', 0, any_sub, Reading::text, &Reader::keep_commands, {}, {}};
   if (letter == 'T') return &tool;
   const auto rows = commands();
   const auto key = std::tuple(letter, static_cast<std::int16_t>(number));
@@ -217,6 +223,7 @@ const Reader::Command* Reader::find_command(char letter, int number, int sub) {
        at != rows.end() && at->letter == letter && at->number == number; ++at)
     if (at->sub == any_sub || at->sub == sub) return &*at;
   if (letter != 'M') return nullptr;
+  if (number >= 810 && number <= 819) return &slot;
   if (number == 23 || number == 32 || number == 98) return &unknown_file;  // the name of a file, which is run
   const auto stretch =
       std::lower_bound(harmless.begin(), harmless.end(), number, [](const Stretch& s, int n) { return s.to < n; });
@@ -239,6 +246,7 @@ std::vector<Reader::Meaning> Reader::meanings() {
   static constexpr std::pair<std::string_view, std::string_view> others[] = {
       {"M23, M24, M32, M98", opaque_text},
       {"M25, M125, M226, M600, M601, M602, M701, M702", opaque_text},
+      {"M810 … M819", "with commands behind it: moves are not audited; alone: opaque"},
       {"T", "another tool than the one in use: opaque; its nozzle stands as nozzle_offsets say"},
       {"P", "a tool changer parks a tool: opaque"},
       {"other G", opaque_text},
@@ -248,6 +256,8 @@ std::vector<Reader::Meaning> Reader::meanings() {
        "followed; MOVE=1 is judged as a move; a state that was not "
        "saved in the file: moves are not audited"},
       {"SET_KINEMATIC_POSITION, FORCE_MOVE", "not audited until it is homed"},
+      {"SET_TMC_FIELD", "mres, shaft: moves are not audited; other fields: nothing"},
+      {"TUNING_TOWER", "of a command that leaves the nozzle alone: nothing; else moves are not audited"},
       {"SET_SKEW", "CLEAR=1: nothing; else moves are not audited"},
       {"ACTIVATE_EXTRUDER", "the tool in use"},
       {"UPDATE_DELAYED_GCODE", "DURATION=0: nothing; else opaque"},

@@ -89,7 +89,7 @@ void Reader::waits(const Call& c) {
 void Reader::retract(const Call& c) {
   const Words& w = c.words;
   if (w.has('L')) return coordinate_data(c);
-  if (w.has('P')) return tool_offset(c);
+  if (w.has('P') || w.names('X') || w.names('Y') || w.names('Z')) return tool_offset(c);
   if (retracted_ || w.has('S') || w.has('R') || retract_lift_mm_ == 0) return void(retracted_ = true);
   retracted_ = true;
   move_straight_to(state_.position, state_.known, state_.cause);
@@ -168,14 +168,18 @@ void Reader::centre_mode(const Call& c) {
 void Reader::set_position(const Call& c) {
   const Words& w = c.words;
   const double unit_mm = state_.inches ? mm_per_inch : 1.0;
+  const bool any = w.has('X') || w.has('Y') || w.has('Z') || w.has('E');
+  const bool all_to_zero = is_klipper() && !any;  // whatever other words there are
   if (w.has('E')) state_.e = w['E'] * unit_mm;
-  const auto cause = cause_of("G92", "it was given at a place that is not known", true);
+  if (all_to_zero) state_.e = 0;
+  const auto cause = w.seen == 0 && !all_to_zero
+                         ? cause_of("G92", "without an axis some firmwares set all to zero and others none", true)
+                         : cause_of("G92", "it was given at a place that is not known", true);
   for (std::size_t i = 0; i < 3; ++i) {
-    // Without words some firmwares set every axis to zero and others none.
-    if (w.seen != 0 && !w.has(axis_letters[i])) continue;
-    const bool known = w.seen != 0 && state_.known[i] == Known::yes;
+    if (w.seen != 0 && !w.has(axis_letters[i]) && !all_to_zero) continue;
+    const bool known = (w.seen != 0 || all_to_zero) && state_.known[i] == Known::yes;
     state_.shift_lost[i] = known ? std::int16_t{-1} : cause;
-    if (known) state_.offset[i] = state_.position[i] - w[axis_letters[i]] * unit_mm;
+    if (known) state_.offset[i] = state_.position[i] - (all_to_zero ? 0 : w[axis_letters[i]] * unit_mm);
     frame_known_[i] = frame_lost(i) < 0;
   }
 }
@@ -273,7 +277,7 @@ void Reader::babystep(const Call& c) {
     to[i] += w[letter] * unit_mm;
     moved = true;
   }
-  if (moved) move_straight_to(to, state_.known, state_.cause);
+  if (moved) step_to(to);
 }
 
 /// M218, G10 P: where the nozzle of a tool stands from the others, which the firmware then allows for.
@@ -346,6 +350,17 @@ void Reader::lose_axes_named(const Call& c) {
 void Reader::lose_given(const Call& c) {
   if (c.words.seen != 0)
     lose(stored, &c.words, cause_of(fmt::format("M{}", c.number), find_command(c.letter, c.number, c.sub)->why, true));
+}
+
+/// What RepRapFirmware alone takes for a matter of the axes.
+void Reader::lose_in_reprapfirmware(const Call& c) {
+  if (machine_.firmware == Firmware::reprapfirmware) lose_given(c);
+}
+
+/// M810 … M819: Marlin keeps the commands behind it for when it comes alone.
+void Reader::keep_commands(const Call& c) {
+  if (c.text.find_first_not_of(" \t\r") == std::string_view::npos) return opaque_code(c);
+  lose(stored, nullptr, cause_of(fmt::format("M{}", c.number), "it keeps commands that are run elsewhere", true));
 }
 
 /// G43: Z is the tip of a tool whose length only the printer knows.

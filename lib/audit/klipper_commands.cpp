@@ -46,7 +46,6 @@ constexpr std::array harmless_commands{
     "SET_STEPPER_ENABLE"sv,
     "SET_TEMPERATURE_FAN_TARGET"sv,
     "SET_TMC_CURRENT"sv,
-    "SET_TMC_FIELD"sv,
     "SET_VELOCITY_LIMIT"sv,
     "STATUS"sv,
     "TEMPERATURE_WAIT"sv,
@@ -114,7 +113,7 @@ void Reader::klipper_offset(const Arguments& arguments) {
     else if (const auto* const step = find(arguments, steps[i]))
       klipper_offset_of(i, *step, true, to);
   }
-  if (klipper_moves(arguments)) move_straight_to(to, state_.known, state_.cause);
+  if (klipper_moves(arguments)) step_to(to);
 }
 
 void Reader::klipper_save(const Arguments& arguments) {
@@ -156,6 +155,25 @@ void Reader::klipper_extruder(const Arguments& arguments) {
   if (!number || *number < 0) return opaque_command("ACTIVATE_EXTRUDER");
   tool_ = *number;
   take_tool_offsets();
+}
+
+/// SET_TMC_FIELD: most fields are about currents and noise; steps of a millimetre and the way round are not.
+void Reader::klipper_field(const Arguments& arguments) {
+  const auto* const name = find(arguments, "FIELD");
+  if (!name) return;
+  std::string upper = *name;
+  std::transform(upper.begin(), upper.end(), upper.begin(), scan::upper);
+  if (upper == "MRES" || upper == "SHAFT")
+    lose(stored, nullptr, cause_of("SET_TMC_FIELD", "it changes how far motors turn, or which way", true));
+}
+
+/// TUNING_TOWER: gives a command again and again as Z grows.
+void Reader::klipper_tower(const Arguments& arguments) {
+  const auto* const command = find(arguments, "COMMAND");
+  std::string name = command ? command->substr(0, command->find_first_of(" \t")) : std::string();
+  std::transform(name.begin(), name.end(), name.begin(), scan::upper);
+  if (!std::binary_search(harmless_commands.begin(), harmless_commands.end(), std::string_view(name)))
+    lose(stored, nullptr, cause_of("TUNING_TOWER", "it gives a command at every height", true));
 }
 
 void Reader::klipper_skew(const Arguments& arguments) {
@@ -213,7 +231,9 @@ const char* Reader::extended_command(const char* p, const char* end) {
       {"SET_GCODE_OFFSET", &Reader::klipper_offset},
       {"SET_KINEMATIC_POSITION", &Reader::klipper_forced},
       {"SET_SKEW", &Reader::klipper_skew},
+      {"SET_TMC_FIELD", &Reader::klipper_field},
       {"SKEW_PROFILE", &Reader::klipper_skew_profile},
+      {"TUNING_TOWER", &Reader::klipper_tower},
       {"UPDATE_DELAYED_GCODE", &Reader::klipper_delayed},
   };
   const char* name_end = p;

@@ -32,6 +32,8 @@ bool Reader::target(const Words& w, std::array<double, 3>& to, std::array<Known,
                     std::array<std::int16_t, 3>& cause) {
   const double unit_mm = state_.inches ? mm_per_inch : 1.0;
   bool named = false;
+  const bool elsewhere = machine_.firmware == Firmware::reprapfirmware && motion_mode_ <= 1 &&
+                         (w.names('R') || (w.has('H') && w['H'] != 0));
   to = state_.position;
   known = state_.known;
   cause = state_.cause;
@@ -45,6 +47,8 @@ bool Reader::target(const Words& w, std::array<double, 3>& to, std::array<Known,
     };
     if (mode_cause_ >= 0) {
       unknown(mode_cause_);
+    } else if (elsewhere) {
+      unknown(cause_of("G1 H or R", "RepRapFirmware ends it at a switch, or counts it from a place put aside", true));
     } else if (machine_coordinates_) {
       to[i] = v;
       known[i] = Known::yes;
@@ -161,6 +165,18 @@ void Reader::move_straight_to(const std::array<double, 3>& to, const std::array<
            : across                          ? Motion::Kind::lift_slope
                                              : Motion::Kind::lift;
   arrive(to, known, cause);
+}
+
+/// The same by so much from where the nozzle is: where only the reach is known, it may have stood at its edge. Nor is
+/// the height of the first layer known better than people trim it.
+void Reader::step_to(const std::array<double, 3>& to) {
+  constexpr double most_trim_mm = 1;
+  auto known = state_.known;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double by_mm = std::abs(to[i] - state_.position[i]);
+    if (by_mm > (i == z ? most_trim_mm : 0) && known[i] == Known::in_reach) known[i] = Known::no;
+  }
+  move_straight_to(to, known, state_.cause);
 }
 
 /// The motion's extent is not known, whatever is known of its ends.

@@ -170,11 +170,17 @@ const char* Reader::command(const char* p, const char* end) {
       problem("words without a command");
     return skip_words(p, end);
   }
-  if (is_blank(p[1]) && (starts_command || letter == 'N')) {
+  if (starts_command || letter == 'N') {
     const char* q = p + 1;
     while (is_blank(*q)) ++q;
-    // Marlin obeys "G 1", Klipper does not know it.
-    if (is_digit(*q)) problem("a blank within a command"), damaged_position();
+    // Marlin obeys "G 1", Klipper does not know it; "N G1" Klipper obeys.
+    if (is_blank(p[1]) && is_digit(*q))
+      problem("a blank within a command"), damaged_position();
+    else if (letter != 'T' && !is_letter(p[1]) && p[1] != '_') {
+      problem("a letter without its number");
+      damaged_position();
+      return skip_words(p, end);
+    }
   }
   begin_command(false);
   return extended_command(p, end);
@@ -210,6 +216,13 @@ const char* Reader::odd_command(const char* p, const char* end) {
   return behind;
 }
 
+/// Klipper takes for the command's name all that stands before the next word, and knows none with a leading zero.
+bool Reader::klipper_knows(const char* digits, const char* behind, const char* end) const {
+  if (*digits == '0' && is_digit(digits[1])) return false;
+  while (behind < end && is_blank(*behind)) ++behind;
+  return behind == end || is_letter(*behind) || *behind == '_' || *behind == '*' || *behind == ';' || *behind == '\r';
+}
+
 /// A letter and a number: looked up in the table of commands.
 const char* Reader::numbered_command(char letter, const char* p, const char* end) {
   double whole = 0;
@@ -230,6 +243,12 @@ const char* Reader::numbered_command(char letter, const char* p, const char* end
     return motion_line(behind, end);
   }
   const Command* const known = find_command(letter, number, sub);
+  if (is_klipper() && known && known->handler && known->reading != Reading::text &&
+      !klipper_knows(p + 1, behind, end)) {
+    problem("a command that this firmware does not know as it is written");
+    damaged_position();
+    return skip_words(behind, end);
+  }
   if (letter != 'G' || number != 53 || is_klipper())  // G53 is a word before a move
     begin_command(known && known->handler && known->frame);
   Words w;

@@ -171,6 +171,7 @@ class Reader {
   const char* command(const char* p, const char* end);
   const char* odd_command(const char* p, const char* end);
   const char* numbered_command(char letter, const char* p, const char* end);
+  bool klipper_knows(const char* digits, const char* behind, const char* end) const;
   const char* motion_line(const char* p, const char* end);
   const char* skip_words(const char* p, const char* end);
   const char* extended_command(const char* p, const char* end);
@@ -193,6 +194,7 @@ class Reader {
               const std::array<std::int16_t, 3>& cause);
   void move_straight_to(const std::array<double, 3>& to, const std::array<Known, 3>& known,
                         const std::array<std::int16_t, 3>& cause);
+  void step_to(const std::array<double, 3>& to);
   bool raises_before_homing(const Words& w, double by_mm);
   double filament(const Words& w);
   void arc(const Words& w, Motion& m, Vec from, Vec to);
@@ -232,6 +234,8 @@ class Reader {
   void lose_stored(const Call& call);
   void lose_axes_named(const Call& call);
   void lose_given(const Call& call);
+  void lose_in_reprapfirmware(const Call& call);
+  void keep_commands(const Call& call);
   void lose_length(const Call& call);
   void regain_length(const Call& call);
   void probe_bed(const Call& call);
@@ -263,6 +267,8 @@ class Reader {
   void klipper_object(const klipper::Arguments& arguments);
   void klipper_object_end(const klipper::Arguments& arguments);
   void klipper_extruder(const klipper::Arguments& arguments);
+  void klipper_field(const klipper::Arguments& arguments);
+  void klipper_tower(const klipper::Arguments& arguments);
   void klipper_skew(const klipper::Arguments& arguments);
   void klipper_delayed(const klipper::Arguments& arguments);
   void klipper_skew_profile(const klipper::Arguments& arguments);

@@ -21,7 +21,9 @@ namespace {
 Error unreadable(const std::string& path, int error) {
   if (error == EISDIR) return {Error::Kind::file, "is a directory, not a model", path, "name the files in it"};
   return {Error::Kind::file, fmt::format("cannot be read: {}", std::strerror(error)), path,
-          error == ENOENT ? "check the path" : ""};
+          error == ENOENT   ? "check the path"
+          : error == EACCES ? "check the path and its permissions"
+                            : ""};
 }
 
 /// Of what would be waited for, or has no end.

@@ -3,13 +3,23 @@
 
 namespace weft {
 
+void StopInside::begin() {
+  steps_left_ = StopWhen::current() ? often : 0;
+  state_ = State::goes_on;
+}
+
 void StopInside::ask() {
-  steps_left_ = 0;  // who is asked may take memory as well
-  if ((*StopWhen::current())()) {
-    steps_left_ = 1;  // what is tried instead ends, too
-    throw NoneForWhoIsToStop{};
+  if (state_ == State::goes_on) {
+    steps_left_ = 0;  // who is asked may take memory as well
+    const bool stop = (*StopWhen::current())();
+    steps_left_ = stop ? 1 : often;
+    if (!stop) return;
+    state_ = State::is_to_stop, row_ = 0;
   }
-  steps_left_ = often;
+  steps_left_ = 1;  // what is tried instead ends, too
+  if (state_ == State::is_to_stop && ++row_ < only_takes) return;
+  state_ = State::stopped;
+  throw NoneForWhoIsToStop{};
 }
 
 }  // namespace weft

@@ -7,21 +7,25 @@
 namespace weft::field {
 
 double Grid::at(double x, double y, double z) const {
-  const auto split = [](double v, std::size_t count) {
+  struct Between {
+    std::size_t node;
+    double share;  // of the way to the next
+  };
+  const auto between = [](double v, std::size_t count) {
     const double t = std::clamp(v, 0.0, static_cast<double>(count) - 1);
     const std::size_t i = std::min(static_cast<std::size_t>(t), count > 1 ? count - 2 : 0);
-    return std::pair{i, t - static_cast<double>(i)};
+    return Between{i, t - static_cast<double>(i)};
   };
-  const auto [i, u] = split((x - x0) / dx, columns);
-  const auto [j, v] = split((y - y0) / dy, rows);
-  const auto [k, w] = split((z - z0) / dz, slices);
+  const auto u = between((x - x0) / dx, columns), v = between((y - y0) / dy, rows), w = between((z - z0) / dz, slices);
   const auto value = [&](std::size_t a, std::size_t b, std::size_t c) {
     return static_cast<double>(
         values[(std::min(c, slices - 1) * rows + std::min(b, rows - 1)) * columns + std::min(a, columns - 1)]);
   };
-  const auto row = [&](std::size_t b, std::size_t c) { return std::lerp(value(i, b, c), value(i + 1, b, c), u); };
-  const auto sheet = [&](std::size_t c) { return std::lerp(row(j, c), row(j + 1, c), v); };
-  return std::lerp(sheet(k), sheet(k + 1), w);
+  const auto row = [&](std::size_t b, std::size_t c) {
+    return std::lerp(value(u.node, b, c), value(u.node + 1, b, c), u.share);
+  };
+  const auto sheet = [&](std::size_t c) { return std::lerp(row(v.node, c), row(v.node + 1, c), v.share); };
+  return std::lerp(sheet(w.node), sheet(w.node + 1), w.share);
 }
 
 std::optional<double> TensorGrid::direction_at(double x, double y, double z) const {

@@ -55,6 +55,25 @@ void Dialect::fan(Text& out, double share) const {
     out << "M106 S" << pwm << '\n';
 }
 
+void Dialect::pressure_advance(Text& out, double seconds, ToolId tool) const {
+  const auto value = fmt::format("{:.4f}", seconds);
+  switch (firmware) {
+    case Firmware::klipper:
+      out << "SET_PRESSURE_ADVANCE ADVANCE=" << value << '\n';
+      break;
+    case Firmware::marlin:
+    case Firmware::marlin2:
+      out << "M900 K" << value << '\n';
+      break;
+    case Firmware::reprapfirmware:
+      out << "M572 D" << std::int64_t{tool} << " S" << value << '\n';
+      break;
+    case Firmware::repetier:
+    case Firmware::smoothie:
+      break;
+  }
+}
+
 void Dialect::print_acceleration(Text& out, std::int64_t mm_s2) const {
   switch (firmware) {
     case Firmware::klipper:
@@ -225,6 +244,11 @@ std::string Dialect::machine_limits(const MachineSettings& m) const {
 std::string Dialect::progress(Progress p) const {
   if (firmware == Firmware::repetier || firmware == Firmware::smoothie) return {};
   return fmt::format("M73 P{} R{}\n", p.percent, p.minutes);
+}
+
+std::string Dialect::silent_progress(Progress p) const {
+  if (firmware != Firmware::marlin && firmware != Firmware::marlin2) return {};
+  return fmt::format("M73 Q{} S{}\n", p.percent, p.minutes);
 }
 
 bool Dialect::in_commands() const {

@@ -27,6 +27,9 @@ struct Dialect {
   /// @param share 0 … 1
   void fan(Text& out, double share) const;
 
+  /// Of the tool that is loaded; nothing where the firmware knows none.
+  void pressure_advance(Text& out, double seconds, ToolId tool) const;
+
   /// Is the acceleration of travels a value of its own, which stays while printing?
   bool separate_travel_acceleration() const {
     return firmware == Firmware::marlin2 || firmware == Firmware::reprapfirmware || firmware == Firmware::repetier;
@@ -58,6 +61,8 @@ struct Dialect {
 
   /// Nothing where the firmware knows no M73.
   std::string progress(Progress p) const;
+  /// The same of a silent mode: nothing but for Marlin, of which some builds have one.
+  std::string silent_progress(Progress p) const;
 
   /// Names of the objects, before the first of them is printed.
   void define_objects(Text& out, const std::vector<ObjectLabel>& objects, const std::vector<std::string>& names) const;

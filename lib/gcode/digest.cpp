@@ -66,7 +66,9 @@ LayerDigest digest_of(const Settings& settings, const LayerPlan& layer) {
                         },
                         [&](const Prime&) { set_retracted(false, false); },
                         [&](const SetFan& fan) { out.fan = fan.share; },
+                        [&](const SetPressureAdvance& advance) { out.pressure_advance_s = advance.seconds; },
                         [&](const ToolChange& change) {
+                          out.pressure_advance_s.reset();
                           out.changes.push_back({change.tool, {}});
                           lose_place();
                         },
@@ -97,6 +99,7 @@ void advance(MachineState& state, const LayerDigest& layer) {
   }
   if (layer.retracted || !layer.changes.empty()) state.drawn_mm.reset();
   if (layer.fan) state.fan = *layer.fan;
+  if (layer.pressure_advance_s || !layer.changes.empty()) state.pressure_advance_s = layer.pressure_advance_s;
   if (layer.print_acceleration > 0) state.print_acceleration = layer.print_acceleration;
   if (layer.travel_acceleration > 0) state.travel_acceleration = layer.travel_acceleration;
 }

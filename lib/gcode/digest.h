@@ -16,6 +16,7 @@ struct MachineState {
   std::optional<Point3> at;
   double fan = -1;                                         ///< −1: not said yet
   double print_acceleration = 0, travel_acceleration = 0;  ///< mm/s²; 0: not said yet
+  std::optional<double> pressure_advance_s{};              ///< of the tool that is loaded; nothing: not said yet
   ToolId tool = 0;                                         ///< that is loaded
   std::bitset<any_tool + 1U> drawn_back{};                 ///< by tool: is its filament?
   std::bitset<any_tool + 1U> drawn_to_change{};            ///< … so far as for a change
@@ -57,6 +58,7 @@ struct LayerDigest {
   std::vector<Change> changes;
   std::vector<Pause> pauses;  ///< in the order of the steps
   std::optional<double> fan;
+  std::optional<double> pressure_advance_s;                ///< of the tool that it ends with
   double print_acceleration = 0, travel_acceleration = 0;  ///< mm/s²; 0: not said
 };
 

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -220,6 +221,9 @@ std::string bottom_comments(const Job& job) {
                        cost->filament, cost->machine, cost->total());
   out += fmt::format("; total layers count = {}\n", job.plan.layers.size());
   out += fmt::format("; estimated printing time (normal mode) = {}\n", duration(t.print_time_s));
+  if (!t.silent_layer_s.empty())
+    out += fmt::format("; estimated printing time (silent mode) = {}\n",
+                       duration(std::accumulate(t.silent_layer_s.begin(), t.silent_layer_s.end(), 0.0)));
   if (!t.layer_s.empty())
     out += fmt::format("; estimated first layer printing time (normal mode) = {}\n", duration(t.layer_s[0]));
   out += orca ? "\n; CONFIG_BLOCK_START\n" : "\n";

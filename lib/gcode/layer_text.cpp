@@ -41,9 +41,15 @@ std::size_t expected_bytes(const LayerPlan& plan) {
 struct Size {
   Um width, height;
 };
-Size size_of(const Extrude& bead, const Junction& a, const Junction& b) {
+Size size_of(const Extrude& bead, std::size_t from, std::size_t to) {
+  const Junction &a = bead.path[from], &b = bead.path[to];
   const double flow = (static_cast<double>(a.flow) + static_cast<double>(b.flow)) / 2;
   const double band = (a.width + b.width) / 2.0;
+  if (bead.follows_surface) {
+    const Um exact = bead.height - (bead.below[from] + bead.below[to]) / 2;
+    const Um height = std::max((exact + width_step / 2) / width_step, 1) * width_step;
+    return {flow::line_width(rounded(band * flow * bead.height / exact), height), height};
+  }
   if (bead.role == Role::bridge) {
     const Um diameter = rounded(std::sqrt(4 / std::numbers::pi * band * flow * bead.height));
     return {diameter, diameter};
@@ -198,7 +204,7 @@ class LayerText {
     };
     const auto line = [&](const BeadMove& move) {
       const auto &a = bead.path[move.piece - 1], &b = bead.path[move.piece];
-      if (job_.comments.says_sizes()) sizes(size_of(bead, a, b));
+      if (job_.comments.says_sizes()) sizes(size_of(bead, move.piece - 1, move.piece));
       out_ << "G1";
       const Point3 to = place_of(bead, move.to, job_.plan.z);
       axes(to);
@@ -218,7 +224,7 @@ class LayerText {
   /// Both axes are said, and the centre from where it begins: what every firmware reads.
   void curve(const Extrude& bead, const Arc& arc, double volume_mm3, double speed_mm_s) {
     const auto &a = bead.path[arc.first], &b = bead.path[arc.last];
-    if (job_.comments.says_sizes()) sizes(size_of(bead, a, b));
+    if (job_.comments.says_sizes()) sizes(size_of(bead, arc.first, arc.last));
     const Point from_centre = arc.centre - a.at;
     ((out_ << (arc.ccw ? "G3 X" : "G2 X")).length(b.at.x - offset_.x) << " Y").length(b.at.y - offset_.y);
     ((out_ << " I").length(from_centre.x) << " J").length(from_centre.y);
@@ -321,8 +327,13 @@ class LayerText {
     out_ << ";WIPE_END\n";
   }
 
-  void print(const Prime&) {
-    if (!state_.retracted()) return;
+  void print(const Prime& prime) {
+    const double extra = prime.extra_mm3 * e_per_mm3_;
+    if (!state_.retracted()) {
+      const auto& r = of_tool_->retraction;
+      if (extra > 0) extruder_only(extra, r.retraction_prime_speed.value_or(r.retraction_retract_speed));
+      return;
+    }
     const bool changed = state_.drawn_to_change[state_.tool];
     state_.set_retracted(false);
     const auto& r = of_tool_->retraction;
@@ -334,9 +345,14 @@ class LayerText {
     const double mm =
         drawn_mm + to_mm(changed ? t.switch_extruder_extra_prime_amount : r.retraction_extra_prime_amount);
     state_.drawn_mm.reset();
-    extruder_only(mm * e_per_mm_, speed);
+    extruder_only(mm * e_per_mm_ + extra, speed);
   }
 
+  void print(const SetPressureAdvance& advance) {
+    if (advance.seconds == state_.pressure_advance_s) return;
+    state_.pressure_advance_s = advance.seconds;
+    job_.dialect.pressure_advance(out_, advance.seconds, state_.tool);
+  }
   void print(const SetFan& fan) {
     if (fan.share == state_.fan) return;
     state_.fan = fan.share;
@@ -366,6 +382,7 @@ class LayerText {
     }
     custom(loaded);
     state_.tool = change.tool;
+    state_.pressure_advance_s.reset();
     use(change.tool);
     lose_place();
     if (job_.settings.gcode.relative_extrusion) return;

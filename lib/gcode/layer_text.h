@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "gcode/comments.h"
+#include "gcode/progress.h"
 #include "gcode/writer.h"
 
 #include <string>
@@ -8,12 +9,6 @@
 #include <vector>
 
 namespace weft::gcode {
-
-/// What is said when so much of a layer's time is over.
-struct TimedLine {
-  double share = 0;
-  std::string text;
-};
 
 /// What the text of one layer is made of.
 struct LayerJob {

@@ -2,6 +2,7 @@
 #include "gcode/substitutions.h"
 
 #include "core/error.h"
+#include "core/stop.h"
 #include "settings/value.h"
 
 #include <cstdint>
@@ -112,14 +113,19 @@ Substitutions::Substitutions(std::string_view setting) {
 std::string Substitutions::done(std::string text) const {
   if (all_.empty()) return text;
   const std::unique_ptr<pcre2_match_context, Free> context(pcre2_match_context_create(nullptr));
+  constexpr std::size_t most_growth = 16;  // of a layer's text: lines that double each other fill any memory
   constexpr std::uint32_t most_steps = 10'000'000, most_kb = 64'000;  // of one match: an expression that runs wild ends
   pcre2_set_match_limit(context.get(), most_steps);
   pcre2_set_heap_limit(context.get(), most_kb);
+  const std::size_t most = most_growth * text.size() + (std::size_t{1} << 20);
   std::string out;
   for (const auto& one : all_) {
+    stop_if_asked();
     PCRE2_SIZE size = text.size() + text.size() / 8 + 256;
     int result = PCRE2_ERROR_NOMEMORY;
     for (int tries = 0; result == PCRE2_ERROR_NOMEMORY && tries < 2; ++tries) {
+      if (tries > 0 && size > most)
+        refuse(one.line, fmt::format("makes {} MB of {} bytes", size >> 20, text.size()), "replace by less");
       out.resize(size);
       size = out.size();
       result = pcre2_substitute(

@@ -24,7 +24,8 @@ class Substitutions {
   bool empty() const { return all_.empty(); }
 
   /// The text with all of them done. May be called from many threads. Cost: without any, nothing.
-  /// @throws Error{settings} naming the line of one that takes too long to look for
+  /// @throws Error{settings} naming the line of one that takes too long to look for, or makes more of the text than
+  ///         memory is for
   std::string done(std::string text) const;
 
  private:

@@ -23,11 +23,6 @@ std::string with_newline(std::string code) {
   return code;
 }
 
-Progress progress(double elapsed_s, double total_s) {
-  const double share = total_s > 0 ? std::clamp(elapsed_s / total_s, 0.0, 1.0) : 0;
-  return {static_cast<std::int64_t>(100 * share), std::llround((total_s - elapsed_s) / 60)};
-}
-
 /// A number out of a text: the seed of random().
 std::uint64_t seed_of(std::string_view text) {
   std::uint64_t hash = 0xcbf29ce484222325U;  // FNV-1a
@@ -43,18 +38,15 @@ Writer::Writer(const Job& job, bool lenient)
       first_(on_first_layer(job.settings).material),
       dialect_(dialect_of(job.settings)),
       substitutions_(job.settings.gcode.gcode_substitutions),
+      progress_(dialect_, job.statistics, job.plan.layers.size()),
       names_(label_names(job.plan.objects)) {
   const auto& layers = job.plan.layers;
   MachineState state;
-  double elapsed_s = 0;
   for (std::size_t i = 0; i < layers.size(); ++i) {
     entries_.push_back(state);
-    elapsed_s_.push_back(elapsed_s);
     advance(state, digest_of(job, i));
-    elapsed_s += i < job.statistics.layer_s.size() ? job.statistics.layer_s[i] : 0;
   }
   entries_.push_back(state);
-  elapsed_s_.push_back(elapsed_s);
   if (!job.tools.empty())
     for (std::size_t i = 0; i < layers.size(); ++i)
       for (const auto& change : digest_of(job, i).changes)
@@ -152,7 +144,7 @@ std::string Writer::head() const {
       start_sets_chamber_ ? 0 : m.build_volume_wait_temperature.value_or(m.build_volume_temperature);
   Text out;
   dialect_.define_objects(out, job_.plan.objects, names_);
-  if (job_.settings.gcode.gcode_progress) out << dialect_.progress(progress(0, elapsed_s_.back()));
+  if (job_.settings.gcode.gcode_progress) out << progress_.at(0);
   Comments{job_.settings.gcode.gcode_comment_dialect}.custom(out);
   if (job_.settings.gcode.gcode_machine_limits) out << dialect_.machine_limits(job_.settings.machine);
   if (chamber > 0) out << "M141 S" << chamber << '\n';
@@ -224,21 +216,6 @@ std::string Writer::mixing(std::size_t index) const {
   return index > 0 && told(index - 1) == now ? std::string() : now;
 }
 
-/// Displays shall not stand still during a layer that takes minutes.
-std::vector<TimedLine> Writer::progress_within(std::size_t index) const {
-  constexpr double long_s = 60, every_s = 30;
-  std::vector<TimedLine> out;
-  const double begin = elapsed_s_[index], end = elapsed_s_[index + 1];
-  if (!job_.settings.gcode.gcode_progress || end - begin < long_s) return out;
-  auto said = progress(begin, elapsed_s_.back());
-  for (double t = begin + every_s; t + every_s / 2 < end; t += every_s) {
-    const auto now = progress(t, elapsed_s_.back());
-    if (now != said) out.push_back({(t - begin) / (end - begin), dialect_.progress(now)});
-    said = now;
-  }
-  return out;
-}
-
 std::string Writer::layer(std::size_t index) const {
   const auto& m = used_.empty() ? job_.settings.material : job_.tools[used_.front()].material;
   std::string preamble;
@@ -252,10 +229,8 @@ std::string Writer::layer(std::size_t index) const {
     if (m.material_bed_temperature != first_.material_bed_temperature)
       preamble += fmt::format("M140 S{}\n", now.material_bed_temperature);
   }
-  if (job_.settings.gcode.gcode_progress && index > 0) {
-    const auto now = progress(elapsed_s_[index], elapsed_s_.back());
-    if (now != progress(elapsed_s_[index - 1], elapsed_s_.back())) preamble += dialect_.progress(now);
-  }
+  const bool tells = job_.settings.gcode.gcode_progress;
+  if (tells) preamble += progress_.before(index);
   preamble += mixing(index);
   auto text = layer_text({.settings = job_.settings,
                           .tools = job_.tools,
@@ -272,8 +247,8 @@ std::string Writer::layer(std::size_t index) const {
                           .loaded = loaded_[index],
                           .pauses = pauses_[index],
                           .first_is_chosen = (start_selects_ || head_selects_) && index == 0,
-                          .end_s = elapsed_s_[index + 1],
-                          .timed = progress_within(index)});
+                          .end_s = progress_.begin_s(index + 1),
+                          .timed = tells ? progress_.within(index) : std::vector<TimedLine>{}});
   return substitutions_.done(std::move(text));
 }
 
@@ -282,7 +257,7 @@ std::string Writer::tail() const {
   Comments{job_.settings.gcode.gcode_comment_dialect}.custom(out);
   if (entries_.back().fan > 0) dialect_.fan(out, 0);
   out << end_;
-  if (job_.settings.gcode.gcode_progress) out << dialect_.progress({100, 0});
+  if (job_.settings.gcode.gcode_progress) out << progress_.done();
   out << '\n';
   return substitutions_.done(std::move(out).take()) + bottom_comments(job_);
 }

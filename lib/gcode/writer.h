@@ -2,6 +2,7 @@
 #pragma once
 #include "gcode/dialect.h"
 #include "gcode/digest.h"
+#include "gcode/progress.h"
 #include "gcode/substitutions.h"
 #include "macro/macro.h"
 #include "model/plan.h"
@@ -33,8 +34,6 @@ struct Job {
   std::vector<ToolId> cold_at_start{};  ///< their nozzles are heated later
 };
 
-struct TimedLine;
-
 /// The file in pieces, which put together in order are the whole: head, each layer, tail. Layers do not depend on each
 /// other and may be written in any order and on any thread. With absolute E each begins with G92 E0.
 /// E is rounded to 10⁻⁵ mm and the rounding error is carried along: the sum over a layer is right to half of that.
@@ -59,7 +58,6 @@ class Writer {
   void heat_at_start(Text& out, bool wait) const;
   std::string mixing(std::size_t index) const;
   std::string heat_after_first_layer(std::size_t index, bool first) const;
-  std::vector<TimedLine> progress_within(std::size_t index) const;
 
   const Job& job_;
   bool lenient_;            // a trial: the figures of the print are not the real ones
@@ -67,7 +65,7 @@ class Writer {
   Dialect dialect_;
   Substitutions substitutions_;
   std::vector<MachineState> entries_;                    // when each layer begins
-  std::vector<double> elapsed_s_;                        // then; one more for the end
+  ProgressText progress_;                                // of its layers
   std::vector<std::string> before_layer_, after_layer_;  // custom G-code, expanded; empty where there is none
   std::vector<std::vector<std::string>> tool_changes_;   // of each layer; likewise, and empty where there is no code
   std::vector<std::vector<std::string>> loaded_;         // likewise, after the tool was chosen

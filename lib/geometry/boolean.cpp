@@ -5,6 +5,7 @@
 #include "geometry/clipper_door.h"
 #include "geometry/nesting.h"
 #include "geometry/simplify.h"
+#include "geometry/traced.h"
 
 #include <algorithm>
 #include <iterator>
@@ -39,11 +40,20 @@ Box box_of(const Regions& a, const Regions& b) {
   return box;
 }
 
-Regions run(Operation operation, const Regions& a, const Regions& b) {
+/// What each operation leaves: outlines that cross cleanly are followed, others swept.
+std::vector<Regions> run(std::span<const Operation> operations, const Regions& a, const Regions& b) {
   const Box box = box_of(a, b);
-  if (box.empty()) return {};
+  if (box.empty()) return std::vector<Regions>(operations.size());
   const Point origin = box.centre();
-  return clipper::run(operation, WindingRule::nonzero, fine(a, origin), fine(b, origin), origin);
+  auto rings = traced(operations, a, b);
+  if (!rings) return clipper::run(operations, WindingRule::nonzero, fine(a, origin), fine(b, origin), origin);
+  std::vector<Regions> out;
+  for (auto& of_one : *rings) out.push_back(clipper::tidied(std::move(of_one), origin));
+  return out;
+}
+
+Regions run(Operation operation, const Regions& a, const Regions& b) {
+  return std::move(run(std::span(&operation, 1), a, b).front());
 }
 
 void add(Regions& to, Regions more) {
@@ -122,15 +132,17 @@ Cut cut(const Regions& what, const Regions& by) {
   Cut out;
   by_batches(what, by, [&](const Regions& some, const Regions& near) {
     if (near.empty()) return add(out.outside, run(Operation::subtract, some, {}));
-    const Point origin = box_of(some, near).centre();
-    auto sides = clipper::run(both, WindingRule::nonzero, fine(some, origin), fine(near, origin), origin);
+    auto sides = run(both, some, near);
     add(out.inside, std::move(sides[0]));
     add(out.outside, std::move(sides[1]));
   });
   return out;
 }
 Regions exclusive_or(const Regions& a, const Regions& b) {
-  return run(Operation::exclusive_or, a, b);
+  const Box box = box_of(a, b);
+  if (box.empty()) return {};
+  const Point origin = box.centre();
+  return clipper::run(Operation::exclusive_or, WindingRule::nonzero, fine(a, origin), fine(b, origin), origin);
 }
 
 std::vector<Ring> rings_of(const Regions& regions) {

@@ -64,6 +64,10 @@ bool add(ClipperLib::Clipper& sweep, const FineRings& rings, ClipperLib::PolyTyp
   return added;
 }
 
+Point coarse(std::int64_t x, std::int64_t y, Point origin) {
+  return origin + Point{static_cast<Um>(nearest_quotient(x, steps)), static_cast<Um>(nearest_quotient(y, steps))};
+}
+
 /// The contours on the lattice, without those that the rounding left no area.
 std::vector<Ring> settled(const ClipperLib::Paths& contours, std::int64_t coarser, Point origin) {
   std::vector<Ring> out;
@@ -71,9 +75,7 @@ std::vector<Ring> settled(const ClipperLib::Paths& contours, std::int64_t coarse
   for (const auto& contour : contours) {
     Ring ring;
     ring.reserve(contour.size());
-    for (const auto& p : contour)
-      ring.push_back(origin + Point{static_cast<Um>(nearest_quotient(p.X * coarser, steps)),
-                                    static_cast<Um>(nearest_quotient(p.Y * coarser, steps))});
+    for (const auto& p : contour) ring.push_back(coarse(p.X * coarser, p.Y * coarser, origin));
     drop_collinear(ring);
     if (!ring.empty()) out.push_back(std::move(ring));
   }
@@ -226,7 +228,16 @@ FineRings split(const SegmentIndex& index, const std::vector<std::pair<std::uint
   return out;
 }
 
-/// The regions of an operation's result.
+}  // namespace
+
+Ring coarse(const FineRing& ring, Point origin) {
+  Ring out;
+  out.reserve(ring.size());
+  for (const auto p : ring) out.push_back(coarse(p.x, p.y, origin));
+  drop_collinear(out);
+  return out;
+}
+
 Regions tidied(std::vector<Ring> rings, Point origin) {
   // Rounding to whole microns can push a corner through an edge close by. Then both get a corner where they cross, and
   // what that turned over is united away. Nearly always once is enough.
@@ -239,8 +250,6 @@ Regions tidied(std::vector<Ring> rings, Point origin) {
     rings = std::move(swept(unite, WindingRule::positive, split(index, pairs, origin), {}, origin).front());
   }
 }
-}  // namespace
-
 std::vector<Regions> run(std::span<const Operation> operations, WindingRule rule, const FineRings& subject,
                          const FineRings& clip, Point origin) {
   std::vector<Regions> out;

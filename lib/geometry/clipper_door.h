@@ -30,4 +30,11 @@ Regions run(Operation operation, WindingRule rule, const FineRings& subject, con
 std::vector<Regions> run(std::span<const Operation> operations, WindingRule rule, const FineRings& subject,
                          const FineRings& clip, Point origin);
 
+/// On the lattice of whole microns, without collinear points; empty where that leaves no area.
+Ring coarse(const FineRing& ring, Point origin);
+
+/// The regions of an operation's result. Pre: rings (outers counter-clockwise, holes clockwise) cross at the most where
+/// corners were rounded to whole microns. Post: as that of `run`, which this is a part of.
+Regions tidied(std::vector<Ring> rings, Point origin);
+
 }  // namespace weft::geometry::clipper

@@ -3,11 +3,14 @@
 
 #include "core/stop.h"
 #include "geometry/clipper_door.h"
+#include "geometry/nesting.h"
 #include "geometry/simplify.h"
 
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 namespace weft::geometry {
 namespace {
@@ -123,6 +126,15 @@ class Pen {
   std::vector<Edge> edges_;
   clipper::FineRing curve_;
 };
+/// Curves that neither cross nor touch anything are outlines as they are: no sweep is needed.
+std::optional<Regions> settled(const clipper::FineRings& curves, Point origin) {
+  std::vector<Ring> rings;
+  for (const auto& curve : curves) {
+    rings.push_back(clipper::coarse(curve, origin));
+    if (rings.back().empty()) rings.pop_back();
+  }
+  return nested(rings, WindingRule::positive);
+}
 }  // namespace
 
 Regions offset(const Regions& regions, const OffsetOptions& options) {
@@ -140,6 +152,7 @@ Regions offset(const Regions& regions, const OffsetOptions& options) {
     draw(region.outer);
     for (const auto& hole : region.holes) draw(hole);
   }
+  if (auto done = settled(curves, box.centre())) return *std::move(done);
   return clipper::run(clipper::Operation::unite, WindingRule::positive, curves, {}, box.centre());
 }
 

@@ -324,6 +324,36 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> SegmentIndex::crossing_pair
   return out;
 }
 
+bool SegmentIndex::join(std::uint32_t i, std::uint32_t j) const {
+  if (!neighbours(i, j)) return false;
+  const Segment &s = segments_[next_[i] == j ? i : j], &t = segments_[next_[i] == j ? j : i];
+  return orient(s.a, s.b, t.b) != 0 || dot(s.b - s.a, t.b - s.b) >= 0;
+}
+
+std::optional<std::vector<std::pair<std::uint32_t, std::uint32_t>>> SegmentIndex::clean_crossings() const {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
+  StopNowAndThen stop(256);
+  for (std::size_t k = 0; k + 1 < starts_.size(); ++k) {
+    const auto here = cell(k);
+    for (std::size_t x = 0; x < here.size(); ++x) {
+      stop.step();
+      const Segment s = segments_[here[x]];
+      if (s.a == s.b) return std::nullopt;
+      for (std::size_t y = x + 1; y < here.size(); ++y) {
+        const Segment t = segments_[here[y]];
+        if (!segments_touch(s.a, s.b, t.a, t.b)) continue;
+        if (segments_cross(s.a, s.b, t.a, t.b))
+          out.emplace_back(here[x], here[y]);
+        else if (!join(here[x], here[y]))
+          return std::nullopt;
+      }
+    }
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());  // they met in several cells
+  return out;
+}
+
 bool SegmentIndex::simple() const {
   StopNowAndThen stop(256);
   for (std::size_t k = 0; k + 1 < starts_.size(); ++k) {
@@ -333,13 +363,8 @@ bool SegmentIndex::simple() const {
       const Segment s = segments_[here[x]];
       if (s.a == s.b) return false;
       for (std::size_t y = x + 1; y < here.size(); ++y) {
-        const Segment t = segments_[here[y]];
-        if (!segments_touch(s.a, s.b, t.a, t.b)) continue;
-        if (!neighbours(here[x], here[y])) return false;
-        // Neighbours may only share the end: a fold back would lie on the other.
-        const bool s_first = next_[here[x]] == here[y];
-        const Point before = s_first ? s.a : t.a, common = s_first ? s.b : t.b, after = s_first ? t.b : s.b;
-        if (orient(before, common, after) == 0 && dot(common - before, after - common) < 0) return false;
+        const Segment& t = segments_[here[y]];
+        if (segments_touch(s.a, s.b, t.a, t.b) && !join(here[x], here[y])) return false;
       }
     }
   }

@@ -91,6 +91,10 @@ class SegmentIndex {
   /// The pairs of segments that cross properly, ascending. Exact.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> crossing_pairs() const;
 
+  /// The same where no two segments have another point in common, but for neighbours in a ring their common end; else
+  /// nothing. Exact. Pre: made from rings or regions.
+  std::optional<std::vector<std::pair<std::uint32_t, std::uint32_t>>> clean_crossings() const;
+
   /// Whether no two segments have a point in common, but for neighbours in a ring their common end. Exact.
   /// Pre: made from rings or regions.
   bool simple() const;
@@ -101,6 +105,8 @@ class SegmentIndex {
   };
   void build();
   bool neighbours(std::uint32_t i, std::uint32_t j) const;
+  /// Whether two segments that touch are neighbours that share the end only: a fold back would lie on the other.
+  bool join(std::uint32_t i, std::uint32_t j) const;
   int column(Um x) const { return (x - box_.min.x) >> shift_; }
   int row(Um y) const { return (y - box_.min.y) >> shift_; }
   Cells columns_in_row(const Segment& s, int row) const;

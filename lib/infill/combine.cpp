@@ -31,7 +31,8 @@ void combine_sparse(const InfillSettings& infill, const ShellObject& object, std
   if (!infill.infill_sparse_thickness || infill.infill_sparse_density <= 0) return;
   constexpr Um rounding = 1;  // heights of layers are rounded
   const Um most = std::min(*infill.infill_sparse_thickness, object.nozzle) + rounding;
-  for (std::size_t first = 1, end = first; first < areas.size(); first = end) {
+  std::size_t turn = 0;
+  for (std::size_t first = 1, end = first; first < areas.size(); first = end, ++turn) {
     stop_if_asked();
     end = end_of_group(object, first, most);
     const std::size_t count = end - first, last = end - 1;
@@ -41,8 +42,10 @@ void combine_sparse(const InfillSettings& infill, const ShellObject& object, std
       common = geometry::intersect(common, sparse_of(areas[i]));
     if (common.empty()) continue;
     for (PartAreas& part : areas[last])
-      if (!part.sparse.empty())
-        part.combined = geometry::intersect(part.sparse, common), part.combined_layers = static_cast<int>(count);
+      if (!part.sparse.empty()) {
+        part.combined = geometry::intersect(part.sparse, common);
+        part.combined_layers = static_cast<int>(count), part.combined_turn = turn;
+      }
     for (std::size_t i = first; i < end; ++i)
       for (PartAreas& part : areas[i])
         if (!part.sparse.empty()) part.sparse = geometry::subtract(part.sparse, common);

@@ -170,23 +170,25 @@ Density::Volume Density::empty_volume(const ShellObject& object) const {
 }
 
 double Density::Volume::at(Point p, double z_um) const {
-  const auto split = [&](double v, int count) {
+  struct Between {
+    int node;
+    double share;  // of the way to the next
+  };
+  const auto between = [&](double v, int count) {
     const double t = std::clamp(v / cell - 0.5, 0.0, count - 1.0);
     const int i = std::min(static_cast<int>(t), count - 2);
-    return std::pair{i, t - i};
+    return Between{i, t - i};
   };
-  const auto [i, u] = split(p.x - origin.x, columns);
-  const auto [j, v] = split(p.y - origin.y, rows);
-  const auto [k, w] = split(z_um - z0, slices);
+  const auto u = between(p.x - origin.x, columns), v = between(p.y - origin.y, rows), w = between(z_um - z0, slices);
   const auto value = [&](int a, int b, int c) {
     return static_cast<double>(
         values[(static_cast<std::size_t>(c) * static_cast<std::size_t>(rows) + static_cast<std::size_t>(b)) *
                    static_cast<std::size_t>(columns) +
                static_cast<std::size_t>(a)]);
   };
-  const auto row = [&](int b, int c) { return std::lerp(value(i, b, c), value(i + 1, b, c), u); };
-  const auto sheet = [&](int c) { return std::lerp(row(j, c), row(j + 1, c), v); };
-  return std::lerp(sheet(k), sheet(k + 1), w);
+  const auto row = [&](int b, int c) { return std::lerp(value(u.node, b, c), value(u.node + 1, b, c), u.share); };
+  const auto sheet = [&](int c) { return std::lerp(row(v.node, c), row(v.node + 1, c), v.share); };
+  return std::lerp(sheet(w.node), sheet(w.node + 1), w.share);
 }
 
 namespace {

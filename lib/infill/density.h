@@ -67,6 +67,7 @@ class Density {
   /// Of places a step apart over a box, log₂ of the density over the nominal one.
   struct Levels;
   Levels levels_of(const Box& box, double z_um) const;
+  static Regions above(const Levels& levels, double end);
   double base() const { return std::max(infill_.infill_sparse_density, 1.0) / 100; }
   InfillPattern pattern_at(double density) const;
   std::vector<Part> by_isolines(const Region& region, double z_um) const;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace weft::infill {
 namespace {
@@ -19,6 +20,13 @@ constexpr Um step = 1000;              // between places that a layer's density 
 constexpr double longest_even = 1000;  // µm of a line along which its width stays
 constexpr double half = 0.5;
 constexpr double nothing = -30;  // level of no density
+
+/// What of a part is too narrow for lines so far apart: of them there would be stubs.
+Regions too_narrow(const Regions& part, double apart_um) {
+  Regions out = geometry::subtract(part, geometry::opening(part, rounded(apart_um / 2), geometry::Corner::miter));
+  std::erase_if(out, [&](const Region& r) { return 1e6 * area_mm2(r) < apart_um * apart_um / 4; });
+  return out;
+}
 
 }  // namespace
 
@@ -57,9 +65,24 @@ std::vector<Density::Part> Density::parts(const Region& region, double z_um, std
                                                               : by_cells(region, z_um, layer);
 }
 
+Regions Density::above(const Levels& levels, double end) {
+  const LevelGrid& grid = levels.grid;
+  std::vector<double> over(levels.level.size(), -1);
+  for (std::size_t j = 1; j + 1 < grid.rows; ++j)
+    for (std::size_t i = 1; i + 1 < grid.columns; ++i)
+      over[j * grid.columns + i] = std::clamp(levels.level[j * grid.columns + i] - end, -1.0, 1.0);
+  std::vector<Ring> rings;
+  for (const Curve& curve : zero_curves(grid, over)) {
+    Ring& ring = rings.emplace_back();
+    for (const Turned t : curve.points) ring.push_back(levels.from + Point{rounded(t.x), rounded(t.y)});
+  }
+  // what is narrower than the places that were looked at are apart is no part of its own
+  return geometry::opening(geometry::regions_from_rings(rings), step / 2, geometry::Corner::miter);
+}
+
+/// From the densest on. What of a part is too narrow for its lines goes to both its neighbours.
 std::vector<Density::Part> Density::by_isolines(const Region& region, double z_um) const {
   const Levels levels = levels_of(weft::box_of(region.outer), z_um);
-  const LevelGrid& grid = levels.grid;
   // where a level ends, or a pattern
   std::vector<double> ends;
   for (double k = std::floor(levels.most + half); k > std::floor(levels.least + half); --k) ends.push_back(k - half);
@@ -68,30 +91,32 @@ std::vector<Density::Part> Density::by_isolines(const Region& region, double z_u
       if (const double l = std::log2(each.density / base()); l > levels.least && l <= levels.most) ends.push_back(l);
   std::sort(ends.begin(), ends.end(), std::greater<>());
   std::vector<Part> out;
-  Regions rest{region};
-  double upper = levels.most;
-  const auto add = [&](Regions regions, double lower) {
-    const double middle = (lower + upper) / 2, level = base() * std::exp2(std::floor(middle + half));
-    for (Region& r : regions) out.push_back({std::move(r), level, pattern_at(base() * std::exp2(middle)), false});
+  const auto level_at = [&](double middle) { return base() * std::exp2(std::floor(middle + half)); };
+  const auto add = [&](Regions regions, double middle) {
+    for (Region& r : regions)
+      out.push_back({std::move(r), level_at(middle), pattern_at(base() * std::exp2(middle)), false});
   };
+  const double line = length_or(infill_.infill_line_width, nozzle_, nozzle_);
+  Regions rest{region}, denser;
+  double upper = levels.most, middle_of_denser = 0;
   for (const double end : ends) {
     if (rest.empty()) break;
-    std::vector<double> over(levels.level.size(), -1);
-    for (std::size_t j = 1; j + 1 < grid.rows; ++j)
-      for (std::size_t i = 1; i + 1 < grid.columns; ++i)
-        over[j * grid.columns + i] = std::clamp(levels.level[j * grid.columns + i] - end, -1.0, 1.0);
-    std::vector<Ring> rings;
-    for (const Curve& curve : zero_curves(grid, over)) {
-      Ring& ring = rings.emplace_back();
-      for (const Turned t : curve.points) ring.push_back(levels.from + Point{rounded(t.x), rounded(t.y)});
-    }
-    // what is narrower than the places that were looked at are apart is no part of its own
-    const Regions dense = geometry::opening(geometry::regions_from_rings(rings), step / 2);
-    add(geometry::intersect(rest, dense), end);
-    rest = geometry::subtract(rest, dense);
+    const double middle = (end + upper) / 2;
     upper = end;
+    Regions part = geometry::intersect(rest, above(levels, end));
+    if (const Regions narrow = denser.empty() ? Regions{} : too_narrow(part, line / level_at(middle));
+        !narrow.empty()) {
+      part = geometry::subtract(part, narrow);
+      const Regions up = geometry::intersect(narrow, above(levels, middle));
+      denser = geometry::unite(denser, up), rest = geometry::subtract(rest, up);
+    }
+    if (part.empty()) continue;
+    rest = geometry::subtract(rest, part);
+    add(std::exchange(denser, std::move(part)), middle_of_denser);
+    middle_of_denser = middle;
   }
-  add(std::move(rest), std::min(levels.least, upper));
+  add(std::move(denser), middle_of_denser);
+  add(std::move(rest), (std::min(levels.least, upper) + upper) / 2);
   return out;
 }
 

@@ -77,11 +77,28 @@ void see_segments(const Beads& beads, const See& see) {
   }
 }
 
-double volume_of(const LookedAtLayer& layer, double& mm) {
-  double mm3 = 0;
-  for (const Bead& bead : *layer.beads)
-    if (bead.role == Role::infill) mm3 += volume_mm3(bead, layer.height), mm += length_mm(bead);
-  return mm3;
+/// What a layer's sparse infill holds, and of that one layer's share where several are printed at once.
+struct Laid {
+  double mm = 0, mm3 = 0, in_room_mm3 = 0;
+};
+Laid laid_in(const LookedAtLayer& layer) {
+  Laid out;
+  for (const Bead& bead : *layer.beads) {
+    if (bead.role != Role::infill || bead.path.empty()) continue;
+    const double mm3 = volume_mm3(bead, layer.height);
+    out.mm += length_mm(bead), out.mm3 += mm3;
+    out.in_room_mm3 += mm3 / std::max(1.0, std::round(static_cast<double>(bead.path.front().flow)));
+  }
+  return out;
+}
+
+/// Deviation of values, and their mean.
+std::pair<double, double> spread_of(const std::vector<double>& values) {
+  if (values.empty()) return {0, 0};
+  double sum = 0, squares = 0;
+  for (const double v : values) sum += v, squares += v * v;
+  const double count = static_cast<double>(values.size()), mean = sum / count;
+  return {std::sqrt(std::max(0.0, squares / count - mean * mean)), mean};
 }
 
 double room_of(const LookedAtLayer& layer) {
@@ -188,12 +205,14 @@ Figures figures_of(const InfillSettings& infill, std::span<const LookedAtLayer> 
   constexpr double much = 0.2;  // of the largest layer's room
   Figures out;
   std::array<double, 3> cosines{}, sines{};
-  std::vector<double> rooms, densities;
+  std::vector<double> rooms;
+  std::vector<Laid> all;
   for (std::size_t i = 0; i < layers.size(); ++i) {
     stop_if_asked();
-    const double room = room_of(layers[i]), mm3 = volume_of(layers[i], out.mm);
-    out.room_mm3 += room, out.mm3 += mm3;
-    rooms.push_back(room), densities.push_back(room > 0 ? mm3 / room : 0);
+    const double room = room_of(layers[i]);
+    const Laid laid = laid_in(layers[i]);
+    out.room_mm3 += room, out.mm += laid.mm, out.mm3 += laid.mm3, out.in_room_mm3 += laid.in_room_mm3;
+    rooms.push_back(room), all.push_back(laid);
     see_segments(*layers[i].beads, [&](const Junction& a, const Junction& b) {
       const double dx = b.at.x - a.at.x, dy = b.at.y - a.at.y, way = std::hypot(dx, dy);
       if (way <= 0) return;
@@ -208,19 +227,19 @@ Figures figures_of(const InfillSettings& infill, std::span<const LookedAtLayer> 
   for (std::size_t n = 0; n < 3; ++n)
     if (out.mm > 0) out.fabric[n] = std::hypot(cosines[n], sines[n]) / (1000 * out.mm);
   const double largest = rooms.empty() ? 0 : *std::max_element(rooms.begin(), rooms.end());
-  double count = 0, sum = 0, squares = 0;
+  std::vector<double> densities, lengths;
   for (std::size_t i = 0; i < rooms.size(); ++i)
-    if (rooms[i] > much * largest && densities[i] > 0)
-      count += 1, sum += densities[i], squares += densities[i] * densities[i];
-  if (count > 0) out.density_spread = std::sqrt(std::max(0.0, squares / count - sum * sum / (count * count)));
+    if (rooms[i] > much * largest && all[i].mm3 > 0)
+      densities.push_back(all[i].in_room_mm3 / rooms[i]), lengths.push_back(all[i].mm / rooms[i]);
+  out.density_spread = spread_of(densities).first;
+  if (const auto [deviation, mean] = spread_of(lengths); mean > 0) out.length_spread = deviation / mean;
   out.bounds = bounds_of(infill.infill_pattern, out.density());
   if (largest <= 0 || out.density() <= 0) return out;
   const auto middle = static_cast<std::size_t>(std::max_element(rooms.begin(), rooms.end()) - rooms.begin());
-  double mm = 0;
-  const double mm3 = volume_of(layers[middle], mm);
-  if (mm <= 0) return out;
-  const double spacing = 1000 * rooms[middle] / (mm * to_mm(layers[middle].height));  // b/ρ of what was laid
-  if (mm3 <= 0 || !(spacing > 0)) return out;
+  if (all[middle].mm <= 0 || all[middle].mm3 <= 0) return out;
+  const double spacing =
+      1000 * rooms[middle] / (all[middle].mm * to_mm(layers[middle].height));  // b/ρ of what was laid
+  if (!(spacing > 0)) return out;
   out.locality = locality_of(*layers[middle].beads, spacing);
   out.box_dimension = box_dimension_of(*layers[middle].beads, box_of(*layers[middle].sparse), spacing);
   return out;

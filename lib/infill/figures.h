@@ -27,6 +27,8 @@ struct Bounds {
 /// What the sparse infill of an object is like.
 struct Figures {
   double room_mm3 = 0, mm3 = 0, mm = 0;
+  double in_room_mm3 = 0;     ///< of mm3: what is printed for several layers at once counts as one layer's
+  double length_spread = 0;   ///< deviation between layers that have room, of the length of lines in it, of its mean
   double density_spread = 0;  ///< deviation between layers that have room, of the density, 0 … 1
   std::array<double, 3> fabric{};  ///< h₂, h₄, h₆: ‖Σ ℓ e^{inα}‖ / Σ ℓ; h₂ is 0 where no direction is preferred
   double looked_mm = 0, over_air_mm = 0;  ///< of every fifth layer: length, and what of it lies on nothing below
@@ -34,7 +36,7 @@ struct Figures {
   double box_dimension = 0;  ///< of the middle layer: slope of log boxes over −log size, from 2 b/ρ to a quarter of it
   Bounds bounds;             ///< at the density that was laid
 
-  double density() const { return room_mm3 > 0 ? mm3 / room_mm3 : 0; }
+  double density() const { return room_mm3 > 0 ? in_room_mm3 / room_mm3 : 0; }
 };
 
 /// Bounds by density. Sources: Gibson & Ashby 1997, "Cellular solids", chapters 4 and 5: walls along the load carry

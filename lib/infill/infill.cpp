@@ -4,6 +4,7 @@
 #include "core/stop.h"
 #include "geometry/boolean.h"
 #include "geometry/offset.h"
+#include "infill/small_areas.h"
 #include "infill/solid.h"
 #include "infill/sparse.h"
 #include "model/flow.h"
@@ -160,12 +161,20 @@ void fill_winding(const Region& region, InfillPattern pattern, const SolidStyle&
                  .z = input.z,
                  .origin = style.origin,
                  .part = style.part,
-                 .index = input.index,
+                 .turn = input.index,
                  .turned = false,
                  .reach = static_cast<double>(input.reach)},
                 beads);
   for (std::size_t i = from; i < beads.size(); ++i) beads[i].role = style.role;
   for (const Region& rest : geometry::subtract({region}, wide)) fill_solid(rest, style, beads);
+}
+
+/// Lines, which may lose what they would lay twice where they turn.
+void fill_lines(const Region& region, const ShellSettings& shells, const SolidStyle& style, Beads& beads) {
+  const std::size_t from = beads.size();
+  fill_solid(region, style, beads);
+  if (style.role != Role::bridge && shells.small_area_flow_length > 0)
+    thin_short_lines(shells.small_area_flow_length, style.angle_rad, from, beads);
 }
 
 /// What of a part's areas is ironed: what keeps off their edge by the inset.
@@ -205,6 +214,21 @@ std::optional<InfillPattern> winding(SkinPattern pattern) {
   return row == winding_rows.end() ? std::nullopt : std::optional(row->pattern);
 }
 
+/// Of so many layers printed at once. Lines are as far apart in all layers, so that they stand on each other.
+SparseStyle sparse_of(const InfillSettings& infill, const FillInput& input, int layers, std::size_t turn) {
+  SparseStyle style = sparse_style(infill, {.index = input.index,
+                                            .turn = turn,
+                                            .z = input.z,
+                                            .height = input.height * layers,
+                                            .nozzle = input.nozzle,
+                                            .origin = input.origin,
+                                            .reach = static_cast<double>(input.reach),
+                                            .turned_rad = input.turned_rad});
+  style.layers = layers, style.prepared = input.prepared;
+  if (style.prepared != nullptr && style.prepared->band > 0) style.band = style.prepared->band;
+  return style;
+}
+
 Styles styles_of(const InfillSettings& infill, const ShellSettings& shells, const FillInput& input) {
   const Um automatic = flow::automatic_width(input.nozzle, input.height);
   const double overlap = infill.infill_overlap.of(input.wall_line_width > 0 ? input.wall_line_width : automatic);
@@ -230,9 +254,7 @@ Styles styles_of(const InfillSettings& infill, const ShellSettings& shells, cons
   out.bridge.role = Role::bridge, out.bridge.band = input.nozzle, out.bridge.fixed_strand = out.bridge.gaps = true;
   out.bridge.flow = flow::bridge_flow(input.nozzle, input.height) * shells.bridge_flow / 100;
   out.solid_winds = winding(shells.bottom_pattern), out.top_winds = winding(shells.top_pattern);
-  out.sparse = sparse_style(
-      infill, {input.index, input.z, input.height, input.nozzle, input.origin, static_cast<double>(input.reach)});
-  out.sparse.prepared = input.prepared;
+  out.sparse = sparse_of(infill, input, 1, input.index);
   // the round end of a line stays within the outermost wall
   const auto kept_within = [&, depth = depth_of_walls(input)](Um widest) {
     return std::min(overlap, depth - widest / 2.0);
@@ -242,6 +264,24 @@ Styles styles_of(const InfillSettings& infill, const ShellSettings& shells, cons
   out.bridge.overlap_um = kept_within(input.nozzle);
   out.sparse.overlap_um = kept_within(width_of_sparse(infill, input.nozzle, input.height));
   return out;
+}
+
+/// What of a part is sparse, in this layer and for those below it.
+void fill_sparse_areas(const InfillSettings& infill, const FillInput& input, SparseStyle style, const PartAreas& areas,
+                       Beads& beads) {
+  const auto fill_all = [&](const Regions& regions) {
+    style.part = areas.part;
+    for (const Region& region : regions) {
+      stop_if_asked();
+      fill_as_dense(region, style, beads);
+    }
+  };
+  fill_all(areas.sparse);
+  if (areas.combined.empty()) return;
+  const double overlap_um = style.overlap_um;
+  style = sparse_of(infill, input, areas.combined_layers, areas.combined_turn);
+  style.overlap_um = overlap_um;
+  fill_all(areas.combined);
 }
 
 }  // namespace
@@ -262,7 +302,7 @@ FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const 
       if (winds)
         fill_winding(region, *winds, style, input, layer.beads);
       else
-        fill_solid(region, style, layer.beads);
+        fill_lines(region, shells, style, layer.beads);
       if (style.role != Role::bridge) spread_out(flow::spread(input.height, input.overlap_factor), from, layer.beads);
     }
   };
@@ -279,21 +319,7 @@ FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const 
   for (const PartAreas& areas : input.areas) {
     for (const BridgeArea& area : areas.bridges)
       fill_all(area.regions, styles.bridge, std::nullopt, areas.part, [&](const auto&...) { return area.angle_rad; });
-    if (infill.infill_sparse_density > 0) {
-      SparseStyle style = styles.sparse;
-      style.part = areas.part;
-      for (const Region& region : areas.sparse) {
-        stop_if_asked();
-        fill_as_dense(region, style, layer.beads);
-      }
-      style.layers = areas.combined_layers;
-      style.band =
-          flow::band(width_of_sparse(infill, input.nozzle, input.height), input.height * areas.combined_layers);
-      for (const Region& region : areas.combined) {
-        stop_if_asked();
-        fill_as_dense(region, style, layer.beads);
-      }
-    }
+    if (infill.infill_sparse_density > 0) fill_sparse_areas(infill, input, styles.sparse, areas, layer.beads);
     const std::size_t from = layer.beads.size();
     for (const BeltLine& line : areas.belts) lay(line, styles.solid, areas.part, layer.beads);
     spread_out(flow::spread(input.height, input.overlap_factor), from, layer.beads);

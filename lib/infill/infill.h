@@ -24,6 +24,7 @@ struct FillInput {
   Um outer_wall_line_width = 0;                 ///< 0: automatic
   int wall_count = 3;                           ///< around what is filled; ends of lines stay within the outermost
   Point origin{};                               ///< where patterns are anchored: one point for all layers of an object
+  double turned_rad = 0;                        ///< of the object, against its file
   Um reach = 0;                                 ///< how far the object goes from there, along either axis
   const Prepared* prepared = nullptr;           ///< of the object (infill/prepared.h)
   bool topmost = false;                         ///< no layer lies above

@@ -17,6 +17,9 @@ namespace {
 
 constexpr std::uint32_t wall = std::numeric_limits<std::uint32_t>::max();
 constexpr double beyond = 50;  // µm that a root reaches over the edge
+// A branch is grown to the wall unless another is so much nearer: else those beside a wall would hang on each other in
+// a row, and the row would have to be drawn back from its end downwards, through hundreds of layers.
+constexpr double wall_first = 1.5;
 
 /// Branches of one layer: a node knows the one that it hangs on, or the wall.
 struct Node {
@@ -34,12 +37,12 @@ Place place_of(Point p) {
 
 class Forest {
  public:
-  /// Downwards into a layer: no node moves by more than `step`.
-  void descend(const geometry::SegmentIndex& edges, double step) {
+  /// Downwards into a layer below one of that height.
+  void descend(const geometry::SegmentIndex& edges, Um height, LightningLean lean) {
     if (nodes_.empty()) return;
     count_children();
-    shorten(step);
-    straighten(step);
+    shorten(lean.tips * height);
+    straighten(lean.bends * height);
     keep_within(edges);
     tidy();
   }
@@ -62,18 +65,21 @@ class Forest {
     for (const Wanted& w : wanted) {
       stop_if_asked();
       const Place p = place_of(w.at);
-      double least = w.to_wall;
+      double least = std::numeric_limits<double>::infinity();
       std::uint32_t branch = wall;
       double along = 0;
+      bool cut_off = false;  // a branch lies between it and the wall
       for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
         const Place a = nodes_[i].at, b = nodes_[i].parent == wall ? a : nodes_[nodes_[i].parent].at;
         const Place d = b - a;
         const double l2 = d.x * d.x + d.y * d.y;
         const double t = l2 > 0 ? std::clamp(((p.x - a.x) * d.x + (p.y - a.y) * d.y) / l2, 0.0, 1.0) : 0;
         const double off = norm(p - (a + t * d));
+        cut_off = cut_off || segments_cross(w.at, w.foot, point_of(a), point_of(b));
         if (off < least && !edges.crosses(w.at, point_of(a + t * d))) least = off, branch = i, along = t;
       }
       if (least <= radius) continue;
+      if (!cut_off && least >= w.to_wall / wall_first) branch = wall;
       grow(p, branch, along, place_of(w.foot));
     }
   }
@@ -240,7 +246,7 @@ std::vector<Point> hanging(const Regions& here, const Regions& above, double apa
 
 }  // namespace
 
-std::vector<std::vector<Polyline>> lightning(std::span<const LightningLayer> layers, double radius, double lean,
+std::vector<std::vector<Polyline>> lightning(std::span<const LightningLayer> layers, double radius, LightningLean lean,
                                              Point origin) {
   constexpr double samples = 0.5;  // of the radius, between places that are looked at
   std::vector<std::vector<Polyline>> out(layers.size());
@@ -253,7 +259,7 @@ std::vector<std::vector<Polyline>> lightning(std::span<const LightningLayer> lay
       continue;
     }
     const geometry::SegmentIndex edges(here);
-    forest.descend(edges, i + 1 < layers.size() ? lean * layers[i + 1].height : 0);
+    forest.descend(edges, i + 1 < layers.size() ? layers[i + 1].height : 0, lean);
     forest.support(edges,
                    hanging(here, i + 1 < layers.size() ? layers[i + 1].sparse : Regions{}, samples * radius, origin),
                    radius);

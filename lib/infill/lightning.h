@@ -13,15 +13,19 @@ struct LightningLayer {
   Regions sparse;  ///< to be filled
 };
 
+/// How far branches move from layer to layer, in the layer's height.
+struct LightningLean {
+  double tips = 1, bends = 1;
+};
+
 /// Branches below what is solid above sparse infill, and nothing elsewhere: from the top downwards each place that
 /// hangs farther than `radius` from wall and branch grows one, to whichever is nearer; further down tips are shortened,
 /// paths straightened and roots kept at the wall, none moved by more than the layer's height allows.
 /// @param origin  what moves with the object: places that are looked at stand on a lattice around it
-/// @param lean  how far a branch may move from layer to layer, of its height
 /// @returns the branches of each layer. They end at walls a little outside of the area, so that they are cut there.
 /// Source: Tricard, Claux, Lefebvre 2020, "Ribbed support vaults for 3D printing of hollowed objects".
 /// Cost: O(layers · branches · edges nearby), the layers one after the other.
-std::vector<std::vector<Polyline>> lightning(std::span<const LightningLayer> layers, double radius, double lean,
+std::vector<std::vector<Polyline>> lightning(std::span<const LightningLayer> layers, double radius, LightningLean lean,
                                              Point origin);
 
 }  // namespace weft::infill

@@ -60,7 +60,7 @@ struct PatternRow {
   std::string_view formula;
   Drawing (*draw)(const PatternPlace&);  ///< null: it follows the area's edge (sparse.cpp)
   double turn_deg = 0;                   ///< by which each layer is turned against the one below
-  double longest_joint = 1.5;            ///< along the wall, in pitches
+  double longest_joint = 3;              ///< along the wall, in pitches
 };
 const PatternRow& row_of(InfillPattern pattern);
 

@@ -5,10 +5,12 @@
 #include "geometry/boolean.h"
 #include "infill/lightning.h"
 #include "infill/mask.h"
+#include "infill/scan.h"
 #include "infill/sparse.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 namespace weft::infill {
@@ -23,16 +25,18 @@ Regions sparse_of(const LayerAreas& layer) {
   return out;
 }
 
-/// Distance of lines that have the density, by the layers that are most of the object.
-double spacing_of(const InfillSettings& infill, const ShellObject& object) {
-  const ShellLayer& layer = object.layers[std::min<std::size_t>(1, object.layers.size() - 1)];
-  const SparseStyle style = sparse_style(infill, {.height = layer.height, .nozzle = object.nozzle});
-  return style.band / std::max(style.density, 0.01);
+/// The height of the layers that most of the object is made of.
+Um height_of_most(const ShellObject& object) {
+  std::map<Um, Um> of_height;
+  for (const ShellLayer& layer : object.layers) of_height[layer.height] += layer.height;
+  return std::max_element(of_height.begin(), of_height.end(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
 }
 
 /// The surface as the infill meets it: walls, tops and bottoms; or tops alone.
 CubeTree cubes_of(const InfillSettings& infill, const ShellObject& object, const std::vector<LayerAreas>& areas,
-                  Point origin, double spacing, bool tops_only) {
+                  const Frame& frame, double spacing, bool tops_only) {
   const double high = object.layers.back().z;
   const double radius = std::hypot(std::hypot(object.box.size().x, object.box.size().y) / 2 +
                                        std::hypot(infill.infill_offset_x, infill.infill_offset_y),
@@ -44,7 +48,10 @@ CubeTree cubes_of(const InfillSettings& infill, const ShellObject& object, const
     const Regions here = sparse_of(areas[i]);
     if (here.empty()) continue;
     const double z = object.layers[i].z;
-    const auto add = [&](double x, double y) { cubes.add(x - origin.x, y - origin.y, z); };
+    const auto add = [&](double x, double y) {
+      const Turned t = frame.into({rounded(x), rounded(y)});
+      cubes.add(t.x, t.y, z);
+    };
     if (!tops_only)
       for (const Ring& ring : geometry::rings_of(here))
         for (std::size_t k = 0; k < ring.size(); ++k) {
@@ -78,16 +85,26 @@ Prepared prepare(const InfillSettings& infill, const ShellObject& object, const 
                  Point origin, Point on_bed) {
   Prepared out;
   if (object.layers.empty() || infill.infill_sparse_density <= 0) return out;
+  const SparseStyle style = sparse_style(
+      infill, {.height = height_of_most(object), .nozzle = object.nozzle, .turned_rad = object.turned_rad});
+  out.band = style.band;
+  const double spacing = style.band / std::max(style.density, 0.01);
   const InfillPattern pattern = infill.infill_pattern;
   const Point anchored = origin + Point{infill.infill_offset_x, infill.infill_offset_y};
-  if (pattern == InfillPattern::cubicsubdiv || pattern == InfillPattern::support_cubic)
-    out.cubes =
-        cubes_of(infill, object, areas, anchored, spacing_of(infill, object), pattern == InfillPattern::support_cubic);
+  if (pattern == InfillPattern::cubicsubdiv || pattern == InfillPattern::support_cubic) {
+    out.cubes_angle_rad = style.angle_rad;
+    out.cubes = cubes_of(infill, object, areas, Frame(style.angle_rad, anchored), spacing,
+                         pattern == InfillPattern::support_cubic);
+  }
   if (pattern == InfillPattern::lightning) {
     std::vector<LightningLayer> layers;
     for (std::size_t i = 0; i < areas.size(); ++i) layers.push_back({object.layers[i].height, sparse_of(areas[i])});
-    const double lean = std::tan(infill.lightning_infill_support_angle * std::numbers::pi / 180);
-    out.branches = lightning(layers, spacing_of(infill, object), lean, anchored);
+    const auto lean = [&](const std::optional<double>& angle) {
+      return std::tan(angle.value_or(infill.lightning_infill_support_angle) * std::numbers::pi / 180);
+    };
+    out.branches = lightning(
+        layers, spacing, {lean(infill.lightning_infill_prune_angle), lean(infill.lightning_infill_straightening_angle)},
+        anchored);
   }
   out.direction = read_direction(infill, object, on_bed);
   if (Density::varies(infill)) out.density.emplace(infill, object, areas, on_bed);

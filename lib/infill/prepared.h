@@ -12,7 +12,9 @@ namespace weft::infill {
 
 /// What sparse infill knows of the whole object: found once, read by all layers.
 struct Prepared {
+  Um band = 0;  ///< of a line in all layers, however high they are: what lines' distances go by
   std::optional<CubeTree> cubes;
+  double cubes_angle_rad = 0;                   ///< how they are turned, in all layers
   std::vector<std::vector<Polyline>> branches;  ///< of lightning, by layer
   std::optional<Density> density;
   std::optional<Direction> direction;

@@ -34,12 +34,12 @@ struct LayerRange {
   std::size_t from, to;
 };
 
-/// The masks that a run of layers needs, made once: insides of all layers within reach, outlines of the run, of two
+/// The masks that a run of layers needs, made once: insides of all layers within reach, outlines of the run, of three
 /// layers below and one above.
 class Window {
  public:
   Window(const ShellObject& object, LayerRange run, LayerRange within_reach)
-      : insides_from_(within_reach.from), outlines_from_(run.from - std::min<std::size_t>(run.from, 2)) {
+      : insides_from_(within_reach.from), outlines_from_(run.from - std::min<std::size_t>(run.from, 3)) {
     const Grid whole = Grid::over(object.box, finest_cell, 0, most_cells);
     Box box;
     for (std::size_t i = within_reach.from; i < within_reach.to; ++i)
@@ -216,6 +216,43 @@ void find_internal_bridges(const ShellSettings& settings, const SparseStyle& bel
   }
 }
 
+/// Which patches of a layer's sparse infill are too small to be worth it: solid, too; not those that lie on infill that
+/// is none: their lines would hang from line to line of that, an island in sparse infill.
+class SmallPatches {
+ public:
+  /// @param below the sparse infill of the layer below
+  SmallPatches(double least_mm2, const std::optional<Mask>& below) : least_mm2_(least_mm2), below_(below) {}
+
+  bool closes(const Region& patch) { return area_mm2(patch) < least_mm2_ && !goes_on_below(patch); }
+
+  /// Closes those among cells.
+  void close(Mask& sparse, Mask& solid) {
+    Regions small;
+    for (Ring& ring : sparse.outlines())
+      if (double_area(ring) > 0)
+        if (Region patch{std::move(ring), {}}; closes(patch)) small.push_back(std::move(patch));
+    if (small.empty()) return;
+    const Mask closed = Mask(sparse.grid(), small) & sparse;
+    sparse -= closed, solid |= closed;
+  }
+
+ private:
+  bool goes_on_below(const Region& patch) {
+    if (!below_) return false;
+    const Grid& grid = below_->grid();
+    if (!large_) {
+      Regions patches = geometry::regions_from_rings(below_->outlines());
+      std::erase_if(patches, [&](const Region& each) { return area_mm2(each) < least_mm2_; });
+      large_.emplace(grid, patches);
+    }
+    return Mask(grid.window(weft::box_of(patch.outer), grid.cell), {&patch, 1}).shrunk(beyond_cells).meets(*large_);
+  }
+
+  double least_mm2_;
+  const std::optional<Mask>& below_;
+  std::optional<Mask> large_;
+};
+
 /// Narrow solid beside sparse infill is as wide as its lines; what is too short for one is sparse.
 void lay_belts(const Regions& inside, double line, Um band, Kinds& kinds) {
   const Grid& grid = kinds.inside.grid();
@@ -265,9 +302,14 @@ Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, cons
   }
   if (settings.bridges && index > 0) {
     const ShellLayer& below = object.layers[index - 1];
-    find_internal_bridges(settings,
-                          sparse_style(infill, {index - 1, below.z, below.height, object.nozzle, object.box.centre()}),
-                          kinds, sparse_below, line, object.nozzle);
+    const SparseStyle style = sparse_style(infill, {.index = index - 1,
+                                                    .turn = index - 1,
+                                                    .z = below.z,
+                                                    .height = below.height,
+                                                    .nozzle = object.nozzle,
+                                                    .origin = object.box.centre(),
+                                                    .turned_rad = object.turned_rad});
+    find_internal_bridges(settings, style, kinds, sparse_below, line, object.nozzle);
   }
   const Um height = object.layers[index].height;
   if (kinds.sparse)
@@ -328,26 +370,10 @@ void cut_apart(const Regions& mixed, std::span<const Kind> kinds, const Mask& in
   }
 }
 
-/// Sparse infill of a layer, of patches of at least that area.
-Mask large_patches(const Mask& sparse, double least_mm2) {
-  Regions patches = geometry::regions_from_rings(sparse.outlines());
-  std::erase_if(patches, [&](const Region& patch) { return area_mm2(patch) < least_mm2; });
-  return {sparse.grid(), patches};
-}
-
-/// Patches of sparse infill that are too small to be worth it become solid; not what bridges and belts cut off of
-/// infill that goes on below: its lines would hang from line to line of that, an island in sparse infill.
-void drop_small_sparse(PartAreas& areas, double least_mm2, const std::optional<Mask>& below) {
-  std::optional<Mask> large;
-  const auto goes_on = [&](const Region& patch) {
-    if (!below) return false;
-    if (!large) large = large_patches(*below, least_mm2);
-    const Grid& grid = below->grid();
-    return Mask(grid.window(weft::box_of(patch.outer), grid.cell), {&patch, 1}).shrunk(beyond_cells).meets(*large);
-  };
-  const auto small = std::stable_partition(areas.sparse.begin(), areas.sparse.end(), [&](const Region& patch) {
-    return area_mm2(patch) >= least_mm2 || goes_on(patch);
-  });
+/// Patches of sparse infill that bridges and belts leave too small to be worth it become solid.
+void drop_small_sparse(PartAreas& areas, SmallPatches& which) {
+  const auto small = std::stable_partition(areas.sparse.begin(), areas.sparse.end(),
+                                           [&](const Region& patch) { return !which.closes(patch); });
   if (small == areas.sparse.end()) return;
   Regions patches(small, areas.sparse.end());
   areas.sparse.erase(small, areas.sparse.end());
@@ -380,6 +406,7 @@ LayerAreas exact_areas(const ShellSettings& settings, const InfillSettings& infi
     fuzzy -= kinds.belts->area;
   }
   LayerAreas result;
+  SmallPatches small(settings.infill_solid_below_area, sparse_below);
   for (std::size_t i = 0; i < order.size();) {
     PartAreas& areas = result.emplace_back();
     areas.part = parts[order[i]];
@@ -415,7 +442,7 @@ LayerAreas exact_areas(const ShellSettings& settings, const InfillSettings& infi
     }
     if (!mixed.empty()) cut_apart(mixed, all, fuzzy);
     std::erase_if(areas.bridges, [](const BridgeArea& b) { return b.regions.empty(); });
-    if (infill.infill_sparse_density > 0) drop_small_sparse(areas, settings.infill_solid_below_area, sparse_below);
+    if (infill.infill_sparse_density > 0) drop_small_sparse(areas, small);
   }
   return result;
 }
@@ -432,7 +459,8 @@ std::vector<LayerAreas> find_areas(const ShellSettings& settings, const InfillSe
                                    const ShellObject& object, std::size_t first, std::size_t count) {
   const LayerRange run{first, first + count};
   LayerRange within_reach = run;
-  const std::size_t below_run = first - std::min<std::size_t>(first, 1);  // what is sparse there matters too
+  // what is sparse below matters too, and there what is large below that
+  const std::size_t below_run = first - std::min<std::size_t>(first, 2);
   for (std::size_t i = below_run; i < run.to; ++i) {
     const Reach reach = reach_of(settings, object.layers, i);
     within_reach.from = std::min(within_reach.from, i - std::min(i, std::max<std::size_t>(reach.below, 1)));
@@ -441,21 +469,24 @@ std::vector<LayerAreas> find_areas(const ShellSettings& settings, const InfillSe
   }
   const Window window(object, run, within_reach);
   std::vector<LayerAreas> result;
-  std::optional<Mask> sparse_below;
+  std::optional<Mask> sparse_below, unclosed_below;
   for (std::size_t i = below_run; i < run.to; ++i) {
     stop_if_asked();
     if (object.layers[i].inside->empty()) {
-      sparse_below.reset();
+      sparse_below.reset(), unclosed_below.reset();
       if (i >= run.from) result.emplace_back();
       continue;
     }
     Split split = split_of(settings, infill, object, window, i);
+    std::optional<Mask> unclosed = split.sparse;
+    if (split.sparse && infill.infill_sparse_density > 0)
+      SmallPatches(settings.infill_solid_below_area, unclosed_below).close(*split.sparse, split.solid);
     std::optional<Mask> sparse = split.sparse;
     if (i >= run.from) {
       const Kinds kinds = kinds_of(settings, infill, object, window, i, std::move(split), sparse_below);
       result.push_back(exact_areas(settings, infill, object.layers[i], kinds, sparse_below));
     }
-    sparse_below = std::move(sparse);
+    sparse_below = std::move(sparse), unclosed_below = std::move(unclosed);
   }
   return result;
 }

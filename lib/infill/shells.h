@@ -27,6 +27,7 @@ struct ShellObject {
   Box box;
   Um nozzle = 0;              ///< diameter
   double overlap_factor = 1;  ///< how far lines side by side overlap (model/flow.h)
+  double turned_rad = 0;      ///< counter-clockwise, against the file that it is of
 };
 Box box_of(std::span<const ShellLayer> layers);
 
@@ -45,8 +46,9 @@ struct PartAreas {
   Regions sparse;
   Regions combined;  ///< sparse, printed here for `combined_layers` layers at once
   int combined_layers = 1;
-  std::vector<BeltLine> belts;  ///< lines of narrow solid along walls,
-  Regions belted;               ///< and what they cover
+  std::size_t combined_turn = 0;  ///< number of the layers printed at once, by which directions of lines alternate
+  std::vector<BeltLine> belts;    ///< lines of narrow solid along walls,
+  Regions belted;                 ///< and what they cover
   std::vector<BridgeArea> bridges;
 };
 using LayerAreas = std::vector<PartAreas>;  ///< parts ascending, each once

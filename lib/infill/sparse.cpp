@@ -6,6 +6,7 @@
 #include "infill/fermat.h"
 #include "infill/few_points.h"
 #include "infill/medial.h"
+#include "infill/multiply.h"
 #include "infill/pattern.h"
 #include "infill/prepared.h"
 #include "infill/streamlines.h"
@@ -21,12 +22,16 @@ namespace {
 
 /// Loops at even distances from the edge; their width makes up for the middle, where they do not come out even.
 void fill_concentric(const Region& region, const SparseStyle& style, Beads& beads) {
-  const double spacing = style.band / style.density;
+  // rings side by side, and the middles of two such groups
+  const double among = style.multiplier - 1.0, spacing = style.multiplier * style.band / style.density;
   std::vector<Ring> loops;
   double way = 0;
   Regions rest{region};
-  for (bool first = true; !rest.empty(); first = false) {
-    rest = geometry::offset(rest, {.by = -std::max(1, rounded(first ? spacing / 2 : spacing))});
+  for (int i = 0; !rest.empty(); ++i) {
+    const double step = i % style.multiplier != 0
+                            ? style.band
+                            : (i == 0 ? spacing / 2 - among / 2 * style.band : spacing - among * style.band);
+    rest = geometry::offset(rest, {.by = -std::max(1, rounded(step))});
     for (Region& r : rest) {
       loops.push_back(r.outer);
       loops.insert(loops.end(), r.holes.begin(), r.holes.end());
@@ -70,32 +75,38 @@ std::vector<Web::Curve> turned_back(const std::vector<Curve>& curves, const Fram
   return out;
 }
 
-/// What a pattern draws there, or what was found for the whole object.
-Drawing drawing_of(const PatternRow& row, const PatternPlace& place, const Prepared* prepared) {
+/// What was found for the whole object, or nothing; where the density varies, that is what cubes go by.
+const CubeTree* cubes_of(const PatternRow& row, const SparseStyle& style) {
   const bool of_cubes = row.pattern == InfillPattern::cubicsubdiv || row.pattern == InfillPattern::support_cubic;
-  if (of_cubes && prepared != nullptr && prepared->cubes)
-    return {.curves = prepared->cubes->cut(place.z), .pitch = 3 * place.spacing(), .longer = 1};
-  return row.draw(place);
+  if (!of_cubes || style.prepared == nullptr || style.prepared->density) return nullptr;
+  return style.prepared->cubes ? &*style.prepared->cubes : nullptr;
+}
+
+/// How the pattern is turned in that layer.
+double angle_of(const PatternRow& row, const SparseStyle& style) {
+  if (cubes_of(row, style) != nullptr) return style.prepared->cubes_angle_rad;
+  if (!style.turned || row.turn_deg <= 0) return style.angle_rad;
+  const auto turns = static_cast<std::size_t>(std::lround(360 / row.turn_deg));
+  return style.angle_rad + static_cast<double>(style.turn % turns) * row.turn_deg * std::numbers::pi / 180;
 }
 
 /// Cuts a pattern with the region and joins what is left.
 void fill_drawn(const Region& region, const SparseStyle& style, const PatternRow& row, Beads& beads) {
-  double angle = style.angle_rad;
-  if (style.turned && row.turn_deg > 0) {
-    const auto turns = static_cast<std::size_t>(std::lround(360 / row.turn_deg));
-    angle += static_cast<double>(style.index % turns) * row.turn_deg * std::numbers::pi / 180;
-  }
+  const double angle = angle_of(row, style);
   const Frame frame(angle, style.origin);
   PatternPlace place{.band = static_cast<double>(style.band),
-                     .density = style.density,
+                     .density = style.density / style.multiplier,
                      .z = static_cast<double>(style.z),
-                     .index = style.index,
+                     .index = style.turn,
                      .area = span_of(region, frame),
                      .reach = style.reach};
   // turned by any angle, the object's box reaches farther by the root of two
   const double own = std::max({-place.area.min.x, -place.area.min.y, place.area.max.x, place.area.max.y});
   place.reach = std::max(place.reach * std::numbers::sqrt2, own);
-  const Drawing drawing = drawing_of(row, place, style.prepared);
+  const CubeTree* cubes = cubes_of(row, style);
+  Drawing drawing = cubes != nullptr ? Drawing{.curves = cubes->cut(place.z), .pitch = 3 * place.spacing(), .longer = 1}
+                                     : row.draw(place);
+  multiply(drawing, style.multiplier, style.band);
   Web web(region, style);
   for (const Family& family : drawing.families)
     web.add_lines(region, angle + family.angle_rad, family.pitch, family.phase);
@@ -159,20 +170,23 @@ Um width_of_sparse(const InfillSettings& infill, Um nozzle, Um height) {
 
 SparseStyle sparse_style(const InfillSettings& infill, const SparseLayer& layer) {
   const Numbers& angles = infill.infill_angles;
-  const double angle = angles.empty() ? infill.infill_angle : angles[layer.index % angles.size()];
+  const double angle = angles.empty() ? infill.infill_angle : angles[layer.turn % angles.size()];
+  const double turned_rad = infill.infill_angle_frame == InfillFrame::part ? layer.turned_rad : 0;
   return {.pattern = infill.infill_pattern,
           .density = infill.infill_sparse_density / 100,
           .band = flow::band(width_of_sparse(infill, layer.nozzle, layer.height), layer.height),
-          .angle_rad = angle * std::numbers::pi / 180,
+          .angle_rad = angle * std::numbers::pi / 180 + turned_rad,
           .connect = infill.infill_connect_lines,
           .z = layer.z,
           .origin = layer.origin + Point{infill.infill_offset_x, infill.infill_offset_y},
           .index = layer.index,
+          .turn = layer.turn,
           .turned = angles.empty(),
           .reach = layer.reach + std::max(std::abs(infill.infill_offset_x), std::abs(infill.infill_offset_y)),
           .anchor_max = infill.infill_anchor_max ? static_cast<double>(*infill.infill_anchor_max) : -1,
           .anchor_um = static_cast<double>(infill.infill_anchor_length),
           .loops = infill.infill_wall_line_count,
+          .multiplier = infill.infill_multiplier,
           .bend = infill.infill_crossings == InfillCrossings::bend};
 }
 

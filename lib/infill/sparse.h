@@ -22,23 +22,26 @@ struct SparseStyle {
   Point origin{};  ///< patterns are anchored here, so that layers stand on each other
   int layers = 1;  ///< printed at once: as much higher are the beads
   std::uint32_t part = 0;
-  std::size_t index = 0;               ///< of the layer, for patterns that are turned from layer to layer
+  std::size_t index = 0;               ///< of the layer
+  std::size_t turn = 0;                ///< the same, for patterns that are turned from layer to layer
   bool turned = true;                  ///< they are; else `angle_rad` holds as it is
   double reach = 0;                    ///< no layer of the object is farther from the origin along an axis; 0: unknown
   double anchor_max = -1;              ///< longest joint, µm; negative: by the distance of the lines
   double anchor_um = 0;                ///< how far ends without a joint are bent along the edge
   int loops = 0;                       ///< lines around the area
+  int multiplier = 1;                  ///< lines side by side for each of the pattern
   bool even = true;                    ///< lines of a small region are as wide as its density asks for, not as usual
   bool bend = false;                   ///< lines of two directions turn where they meet, and none crosses another
   const Prepared* prepared = nullptr;  ///< of the object, for patterns that look at all of it
 };
 
-/// Of a layer: where it is, and the nozzle's diameter.
+/// Of a layer, or of layers printed at once: where they are, and the nozzle's diameter.
 struct SparseLayer {
-  std::size_t index = 0;
+  std::size_t index = 0, turn = 0;
   Um z = 0, height = 0, nozzle = 0;
   Point origin{};
   double reach = 0;
+  double turned_rad = 0;  ///< of the object, against its file
 };
 /// Of a line of sparse infill.
 Um width_of_sparse(const InfillSettings& infill, Um nozzle, Um height);

@@ -96,7 +96,7 @@ class Flow {
   std::optional<double> angle_at(Place p) const {
     const Direction* field =
         style_.prepared != nullptr && style_.prepared->direction ? &*style_.prepared->direction : nullptr;
-    const double turn = style_.turned && style_.index % 2 == 1 ? std::numbers::pi / 2 : 0;
+    const double turn = style_.turned && style_.turn % 2 == 1 ? std::numbers::pi / 2 : 0;
     if (field == nullptr) return style_.angle_rad + turn;
     const auto angle = field->at(p.x, p.y, style_.z);
     if (!angle) return std::nullopt;

@@ -11,8 +11,8 @@
 namespace weft::infill {
 namespace {
 
-constexpr double farther = 8;        // than other joints are those without which a path would end
-constexpr double least_even = 0.88;  // of the band: how narrow lines may become by them
+constexpr double farther = 4;       // than other joints are those without which a path would end
+constexpr double least_even = 0.8;  // of the band: how narrow lines may become by them
 
 Place turn(double x, double y, double angle_rad) {
   const double c = std::cos(angle_rad), s = std::sin(angle_rad);
@@ -37,7 +37,8 @@ void shorten(std::vector<Place>& places, double by) {
   places.back() = end + (by / std::max(norm(before - end), 1e-9)) * (before - end);
 }
 
-Web::Web(const Region& region, const SparseStyle& style) : style_(style), outline_(region, Frame(0, style.origin)) {
+Web::Web(const Region& region, const SparseStyle& style)
+    : region_(region), style_(style), outline_(region, Frame(0, style.origin)) {
   const std::vector<Turned>& points = outline_.points();
   normals_.reserve(points.size());
   for (std::uint32_t i = 0; i < points.size(); ++i) {
@@ -171,14 +172,16 @@ void Web::emit(double most, Um band, double wanted, Beads& beads) {
   for (const std::vector<Place>& loop : loops_) around += infill::length_of(loop) + norm(loop.back() - loop.front());
   const double widest = wanted > 0 ? 1 / least_narrowing : 1;
   if (wanted <= 0) wanted = raw + around;
-  // joints that make up much of a small area's plastic are not worth it: shorter ones, or none
-  for (const double longest : {most, most / 2, 0.4 / 1.5 * most, 0.0}) {
+  neighbours_ = most / 2;
+  // joints that make up much of a small area's plastic are not worth it: shorter ones, or the shortest alone
+  for (const double longest : {most, most / 2, 0.0}) {
     join(style_.connect ? longest : 0.0);
     if (style_.connect && longest > 0) {
       join_the_rest(longest);
       merge_loops(longest);
-      join_far(style_.anchor_max >= 0 ? longest : farther * longest, wanted / least_even - around - laid_length());
     }
+    if (style_.connect && most > 0)
+      join_far(style_.anchor_max >= 0 ? most : farther * most, wanted / least_even - around - laid_length());
     if (style_.anchor_um > 0) anchor(style_.anchor_um);
     const std::vector<std::vector<Place>> paths = joined_paths();
     double laid = around;
@@ -242,7 +245,7 @@ void Web::write(const std::vector<std::vector<Place>>& paths, Um width, Beads& b
     Polyline line;
     line.reserve(path.size());
     for (const Place& p : path) {
-      const Point at{style_.origin.x + rounded(p.x), style_.origin.y + rounded(p.y)};
+      const Point at = on_plane(p);
       if (line.empty() || line.back() != at) line.push_back(at);
     }
     if (closed && line.size() > 1 && line.back() == line.front()) line.pop_back();

@@ -2,6 +2,7 @@
 #pragma once
 #include "core/polygon.h"
 #include "geometry/spatial_index.h"
+#include "infill/beside.h"
 #include "infill/fit_sides.h"
 #include "infill/sparse.h"
 
@@ -34,6 +35,7 @@ void shorten(std::vector<Place>& places, double by);
 /// Lines of a region and where they end, and how they are joined to paths beside the region's edge.
 class Web {
  public:
+  /// Both are to outlive it.
   Web(const Region& region, const SparseStyle& style);
 
   /// Lines y = phase + k·spacing in a frame turned by that angle. Beside an edge along them they bend aside.
@@ -75,6 +77,8 @@ class Web {
     double at = 0, cut = 0;
   };
   std::vector<std::vector<Meeting>> meetings() const;
+  static std::size_t meeting_with(const std::vector<Meeting>& meetings, std::uint32_t other);
+  void part_threes(std::vector<std::vector<Meeting>>& all) const;
   std::vector<Place> stretch(std::uint32_t line, double from, double to) const;
   void give_way(const std::vector<Sides>& sides, const Interval& i, double y, double angle_rad,
                 std::vector<Place>& places) const;
@@ -83,6 +87,7 @@ class Web {
   Place relative(Point p) const {
     return {static_cast<double>(p.x) - style_.origin.x, static_cast<double>(p.y) - style_.origin.y};
   }
+  Point on_plane(Place p) const { return {style_.origin.x + rounded(p.x), style_.origin.y + rounded(p.y)}; }
   double laid_length() const;
   double length(std::uint32_t line) const { return lines_[line].length; }
   std::vector<Place> walked_from(std::uint32_t end) const;
@@ -105,16 +110,19 @@ class Web {
   std::uint32_t other_end_of_path(std::uint32_t end) const;
   std::uint32_t beside(std::uint32_t end, bool after) const;
   std::vector<Place> way_of(std::uint32_t end) const;
-  bool crosses_a_line(const std::vector<Place>& way, std::uint32_t a, std::uint32_t b) const;
+  bool crosses_a_line(const std::vector<Place>& way, std::uint32_t a, std::uint32_t b);
   void join_far(double longest, double most_more);
   void anchor(double length);
   bool try_join(std::uint32_t a, std::uint32_t b, double longest);
   void part(std::uint32_t a);
-  std::optional<std::vector<Place>> arc_between(std::uint32_t a, std::uint32_t b, double inset, double longest) const;
+  std::optional<std::vector<Place>> arc_between(std::uint32_t a, std::uint32_t b, double inset, double longest);
+  std::optional<std::vector<Place>> arc_beside(std::uint32_t a, std::uint32_t b, double inset, double longest);
+  std::optional<Beside::Foot> foot_of(std::uint32_t end) const;
   double inside_of(Place p, std::uint32_t first, std::uint32_t last) const;
   std::vector<std::vector<Place>> joined_paths() const;
   void write(const std::vector<std::vector<Place>>& paths, Um width, Beads& beads) const;
 
+  const Region& region_;
   const SparseStyle& style_;
   Outline outline_;
   std::vector<Place> normals_;
@@ -128,6 +136,10 @@ class Web {
   std::vector<std::uint32_t> at_ring_, in_order_;           // by end on the edge: its ring, its place in `order_`
   std::vector<std::uint32_t> joint_, set_;
   Um band_ = 0;
+  double neighbours_ = 0;                 // length of joints between which no line can come near the edge
+  std::optional<Beside> beside_;          // the edge, where joints run; made when it is wanted
+  geometry::SegmentIndex all_lines_;      // the same
+  std::vector<std::uint32_t> line_of_;    // beside its segments
   std::vector<double> pull_;              // how far each end is drawn back along its line
   std::vector<std::vector<Place>> arc_;   // by end, of the one that the joint was made from
   std::vector<std::vector<Place>> bent_;  // by end: along the edge, of one that is joined to none

@@ -6,12 +6,15 @@
 #include "infill/web.h"
 
 #include <algorithm>
+#include <array>
+#include <numbers>
 
 namespace weft::infill {
 namespace {
 
-constexpr double crowded = 1.5;  // bands: where two meetings of a line are nearer, as where three meet, lines cross
-constexpr double in_front = 1;   // bands that a meeting is before a line's end, at least
+constexpr double crowded = 1.5;    // bands: where two meetings of a line are nearer, as where three meet, lines cross
+constexpr double one_place = 0.3;  // bands: three lines that meet so near each other meet in a place
+constexpr double in_front = 1;     // bands that a meeting is before a line's end, at least
 
 }  // namespace
 
@@ -62,16 +65,50 @@ std::vector<std::vector<Web::Meeting>> Web::meetings() const {
   return out;
 }
 
+/// Of a line's meetings, the one with another line; their number where they do not meet.
+std::size_t Web::meeting_with(const std::vector<Meeting>& meetings, std::uint32_t other) {
+  return static_cast<std::size_t>(
+      std::find_if(meetings.begin(), meetings.end(), [&](const Meeting& m) { return m.other == other; }) -
+      meetings.begin());
+}
+
+/// Where three lines meet in a place the outer two turn, far enough apart that the middle one runs between them.
+void Web::part_threes(std::vector<std::vector<Meeting>>& all) const {
+  const double together = one_place * style_.band;
+  const auto direction = [&](std::uint32_t line) {  // all run into one half of the plane
+    const Place d = lines_[line].places.back() - lines_[line].places.front();
+    const double angle = std::atan2(d.y, d.x);
+    return angle < -1e-9 ? angle + 2 * std::numbers::pi : angle;
+  };
+  for (std::uint32_t line = 0; line < all.size(); ++line)
+    for (std::size_t k = 1; k < all[line].size(); ++k) {
+      const Meeting &m = all[line][k - 1], &n = all[line][k];
+      if (n.at - m.at > together || family_[m.other] == family_[n.other]) continue;
+      std::array<std::uint32_t, 3> three{line, m.other, n.other};
+      std::sort(three.begin(), three.end(),
+                [&](std::uint32_t a, std::uint32_t b) { return direction(a) < direction(b); });
+      const auto [first, middle, last] = three;
+      if (line != middle) continue;  // seen from there once
+      const std::size_t at_first = meeting_with(all[first], last), at_last = meeting_with(all[last], first);
+      const std::size_t to_first = meeting_with(all[first], middle), to_last = meeting_with(all[last], middle);
+      if (at_first == all[first].size() || to_first == all[first].size() || to_last == all[last].size()) continue;
+      if (std::abs(all[first][at_first].at - all[first][to_first].at) > together) continue;
+      all[first][at_first].cut *= 2, all[last][at_last].cut *= 2;
+      const auto drop = [&](std::uint32_t from, std::size_t which) {
+        all[from].erase(all[from].begin() + static_cast<std::ptrdiff_t>(which));
+      };
+      drop(first, to_first), drop(last, to_last), drop(line, k), drop(line, k - 1);
+      k = 0;
+    }
+}
+
 void Web::bend_crossings() {
   auto all = meetings();
+  part_threes(all);
   // where meetings are crowded, none of both lines turns
   std::vector<std::vector<bool>> out(all.size());
   for (std::size_t line = 0; line < all.size(); ++line) out[line].assign(all[line].size(), false);
-  const auto twin = [&](std::uint32_t line, std::size_t k) {
-    const auto& others = all[all[line][k].other];
-    return static_cast<std::size_t>(
-        std::find_if(others.begin(), others.end(), [&](const Meeting& m) { return m.other == line; }) - others.begin());
-  };
+  const auto twin = [&](std::uint32_t line, std::size_t k) { return meeting_with(all[all[line][k].other], line); };
   for (std::uint32_t line = 0; line < all.size(); ++line)
     for (std::size_t k = 1; k < all[line].size(); ++k)
       if (all[line][k].at - all[line][k - 1].at < crowded * style_.band)

@@ -117,16 +117,17 @@ void Web::part(std::uint32_t a) {
 
 bool Web::try_join(std::uint32_t a, std::uint32_t b, double longest) {
   if (a == b || set_of(a / 2) == set_of(b / 2)) return false;
-  if (ends_[a].sine < shallowest || ends_[b].sine < shallowest) return false;
   const double inset = band_ / 2.0 - style_.overlap_um;
-  const auto room = [&](std::uint32_t e) {
-    return inset / ends_[e].sine + std::max(pull_[e ^ 1U], 0.0) < length(e / 2);
-  };
-  if (!room(a) || !room(b)) return false;
   const double before_a = pull_[a], before_b = pull_[b];
-  pull_[a] = inset / ends_[a].sine, pull_[b] = inset / ends_[b].sine;
   std::optional<std::vector<Place>> arc = arc_between(a, b, inset, longest);
-  if (!arc) {
+  const auto room = [&](std::uint32_t e) { return pull_[e] + std::max(pull_[e ^ 1U], 0.0) < length(e / 2); };
+  const auto crosses = [&] {
+    std::vector<Place> way{pulled(a)};
+    way.insert(way.end(), arc->begin(), arc->end());
+    way.push_back(pulled(b));
+    return infill::length_of(way) > neighbours_ && crosses_a_line(way, a / 2, b / 2);
+  };
+  if (!arc || !room(a) || !room(b) || crosses()) {
     pull_[a] = before_a, pull_[b] = before_b;
     return false;
   }
@@ -136,9 +137,35 @@ bool Web::try_join(std::uint32_t a, std::uint32_t b, double longest) {
   return true;
 }
 
-/// The inner points of the way from end a to end b beside the edge; nothing when it is too long or folds.
-std::optional<std::vector<Place>> Web::arc_between(std::uint32_t a, std::uint32_t b, double inset,
-                                                   double longest) const {
+/// Where the line from that end inwards comes as far from the edge as joints are.
+std::optional<Beside::Foot> Web::foot_of(std::uint32_t end) const {
+  const std::vector<Place>& places = lines_[end / 2].places;
+  Polyline line;
+  for (const Place& p : places) line.push_back(on_plane(p));
+  if (end % 2 == 1) std::reverse(line.begin(), line.end());
+  return beside_->met_by(line);
+}
+
+/// The same as arc_between, along the line that keeps the distance from all of the edge: slower.
+std::optional<std::vector<Place>> Web::arc_beside(std::uint32_t a, std::uint32_t b, double inset, double longest) {
+  if (inset < 1) return std::nullopt;
+  if (!beside_) beside_.emplace(region_, rounded(inset));
+  const auto from = foot_of(a), to = foot_of(b);
+  if (!from || !to) return std::nullopt;
+  const auto way = beside_->way(*from, *to, longest);
+  if (!way) return std::nullopt;
+  pull_[a] = from->way_um, pull_[b] = to->way_um;
+  std::vector<Place> arc;
+  for (std::size_t i = 1; i + 1 < way->size(); ++i) arc.push_back(relative((*way)[i]));
+  return arc;
+}
+
+/// Draws both ends back from the edge. @returns the inner points of the way from end a to end b beside it; nothing when
+/// it is too long
+std::optional<std::vector<Place>> Web::arc_between(std::uint32_t a, std::uint32_t b, double inset, double longest) {
+  if (ends_[a].sine < shallowest || ends_[b].sine < shallowest) return arc_beside(a, b, inset, longest);
+  pull_[a] = inset / ends_[a].sine, pull_[b] = inset / ends_[b].sine;
+  if (pull_[a] >= length(a / 2) || pull_[b] >= length(b / 2)) return std::nullopt;
   std::vector<Place> arc;
   double way = 0;
   Place last = pulled(a);
@@ -150,7 +177,7 @@ std::optional<std::vector<Place>> Web::arc_between(std::uint32_t a, std::uint32_
     const std::uint32_t vertex = outline_.next(edge);
     const Place n = normals_[edge], m = normals_[vertex];
     const double bend = 1 + n.x * m.x + n.y * m.y;
-    if (bend < 0.2 || steps > most_steps) return std::nullopt;  // a spike
+    if (bend < 0.2 || steps > most_steps) return arc_beside(a, b, inset, longest);  // a spike
     const Place p = place(vertex) + (inset / bend) * (n + m);
     const Place step = p - last, forward = {n.y, -n.x};
     if (step.x * forward.x + step.y * forward.y > 0) {  // else the edge is shorter than the inset eats up
@@ -188,24 +215,19 @@ void Web::anchor(double length) {
     if (count < 2) continue;
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint32_t e = order_[first + k];
-      if (joint_[e] != nobody || ends_[e].sine < shallowest) continue;
-      if (inset / ends_[e].sine + std::max(pull_[e ^ 1U], 0.0) >= this->length(e / 2)) continue;
+      if (joint_[e] != nobody) continue;
       const std::uint32_t next = order_[first + (k + 1) % count], before = order_[first + (k + count - 1) % count];
       for (const bool forward : {true, false}) {
         const std::uint32_t other = forward ? next : before;
         if (joint_[other] != nobody && joint_[other] == e) continue;
-        const double kept = pull_[e];
-        pull_[e] = inset / ends_[e].sine;
-        const double before_other = pull_[other];
-        pull_[other] = inset / std::max(ends_[other].sine, shallowest);
-        if (pull_[other] >= this->length(other / 2)) pull_[other] = 0;
+        const double kept = pull_[e], kept_other = pull_[other];
         auto arc = forward ? arc_between(e, other, inset, 1e9) : arc_between(other, e, inset, 1e9);
-        const Place end = pulled(other), start = pulled(e);
-        pull_[other] = before_other;
-        if (!arc) {
-          pull_[e] = kept;
+        if (!arc || pull_[e] + std::max(pull_[e ^ 1U], 0.0) >= this->length(e / 2)) {
+          pull_[e] = kept, pull_[other] = kept_other;
           continue;
         }
+        const Place end = pulled(other), start = pulled(e);
+        pull_[other] = kept_other;
         if (!forward) std::reverse(arc->begin(), arc->end());
         arc->insert(arc->begin(), start);
         arc->push_back(end);

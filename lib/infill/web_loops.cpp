@@ -115,20 +115,31 @@ std::vector<Place> Web::way_of(std::uint32_t end) const {
   return way;
 }
 
-/// Whether a way along the edge meets a line that comes near the edge without ending there. Its own two lines end it.
-bool Web::crosses_a_line(const std::vector<Place>& way, std::uint32_t a, std::uint32_t b) const {
-  const auto turn = [](Place p, Place q, Place r) { return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x); };
-  for (std::uint32_t line = 0; line < lines_.size(); ++line) {
-    if (line == a || line == b) continue;
-    const std::vector<Place>& places = lines_[line].places;
-    for (std::size_t i = 1; i < places.size(); ++i)
-      for (std::size_t k = 1; k < way.size(); ++k) {
-        const Place p = places[i - 1], q = places[i], r = way[k - 1], s = way[k];
-        if (std::max(p.x, q.x) < std::min(r.x, s.x) || std::max(r.x, s.x) < std::min(p.x, q.x) ||
-            std::max(p.y, q.y) < std::min(r.y, s.y) || std::max(r.y, s.y) < std::min(p.y, q.y))
-          continue;
-        if (turn(p, q, r) * turn(p, q, s) < 0 && turn(r, s, p) * turn(r, s, q) < 0) return true;
+/// Whether a way along the edge meets a line that comes near the edge without ending there; that may be one of its own
+/// two, which it begins and ends on. Where lines cross each other anyway it may.
+bool Web::crosses_a_line(const std::vector<Place>& way, std::uint32_t a, std::uint32_t b) {
+  if (families_ > 1 && !style_.bend) return false;
+  if (line_of_.empty()) {
+    std::vector<geometry::Segment> segments;
+    for (std::uint32_t line = 0; line < lines_.size(); ++line) {
+      const std::vector<Place>& places = lines_[line].places;
+      for (std::size_t i = 1; i < places.size(); ++i) {
+        segments.push_back({on_plane(places[i - 1]), on_plane(places[i])});
+        line_of_.push_back(line);
       }
+    }
+    all_lines_ = geometry::SegmentIndex(std::move(segments));
+  }
+  const double beginning = band_ / 2.0;
+  const auto near_end = [&](Place p) { return norm(p - way.front()) < beginning || norm(p - way.back()) < beginning; };
+  std::vector<geometry::SegmentIndex::Crossing> met;
+  for (std::size_t k = 1; k < way.size(); ++k) {
+    met.clear();
+    all_lines_.crossings(on_plane(way[k - 1]), on_plane(way[k]), met);
+    for (const auto& each : met) {
+      const std::uint32_t line = line_of_[each.segment];
+      if ((line != a && line != b) || !near_end(way[k - 1] + each.along * (way[k] - way[k - 1]))) return true;
+    }
   }
   return false;
 }

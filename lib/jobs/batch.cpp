@@ -7,7 +7,6 @@
 #include "jobs/memory.h"
 #include "jobs/memory_gate.h"
 #include "jobs/workplace.h"
-#include "pipeline/model_parts.h"
 #include "tasks/crew.h"
 
 #include <algorithm>
@@ -41,9 +40,9 @@ struct Running {
 /// the file's size is the only cheap sign. What is measured corrects it.
 std::uint64_t estimate_of(const Job& job) {
   std::uint64_t bytes = 0;
-  for (const auto& model : pipeline::files_of(job.models)) {
+  for (const auto& input : inputs_of(job)) {
     std::error_code ignored;
-    const auto size = fs::file_size(model, ignored);
+    const auto size = fs::file_size(input, ignored);
     if (!ignored) bytes += size;
   }
   const auto copies = static_cast<std::uint64_t>(job.placement.copies);
@@ -159,12 +158,13 @@ class Run {
   std::optional<Fate> fate_before(std::size_t i, Outcome& outcome) {
     const auto& job = jobs_[i];
     outcome.report.warnings = job.notices;
+    if (job.refused) throw Error(*job.refused);
     refuse_what_never_fits(i);
     const auto record = read_record(options_.folder, job.line);
     if (record && !options_.check_full)
       for (const auto& file : record->files) files_.trust(file);
     outcome.inputs_sha256 = inputs_hash(job.job, files_);
-    outcome.files = files_.known(pipeline::files_of(job.job.models));
+    outcome.files = files_.known(inputs_of(job.job));
     if (!record || record->inputs_sha256 != outcome.inputs_sha256 || record->build != build_id() || !stands(*record))
       return std::nullopt;
     outcome.exit_status = record->exit_status, outcome.error = record->error;
@@ -210,11 +210,12 @@ class Run {
     return jobs_[i].line.timeout_s > 0 ? jobs_[i].line.timeout_s : options_.timeout_s;
   }
 
-  /// A mesh takes no less memory than its file: what is larger than all of it need not be read for minutes first.
+  /// A mesh or grid takes no less memory than its file: what is larger than all of it need not be read for minutes
+  /// first.
   void refuse_what_never_fits(std::size_t i) {
-    for (const auto& model : pipeline::files_of(jobs_[i].job.models)) {
+    for (const auto& input : inputs_of(jobs_[i].job)) {
       std::error_code unknown;
-      if (const auto size = fs::file_size(model, unknown); unknown || gate_.limit() == 0 || size <= gate_.limit())
+      if (const auto size = fs::file_size(input, unknown); unknown || gate_.limit() == 0 || size <= gate_.limit())
         continue;
       running_[i]->stop = Stop::too_large;
       throw Stopped{};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/job_list.h"
+#include "pipeline/field_files.h"
 #include "pipeline/transform_words.h"
 #include "settings/value.h"
 
@@ -109,9 +110,23 @@ constexpr std::array fields{
 
 }  // namespace
 
+void refuse_cut_off(std::string_view text) {
+  if (text.find('\0') != std::string_view::npos) throw std::invalid_argument("a text holds the character 0");
+}
+
 std::string path_in(const std::filesystem::path& folder, const std::string& path) {
   const std::filesystem::path p(path);
   return p.is_absolute() || folder.empty() ? path : (folder / p).string();
+}
+
+void place_field_files(JobLine& job, const std::filesystem::path& folder) {
+  const auto place = [&](const std::string& key, std::string& text) {
+    if (!text.empty() && pipeline::names_field_file(key)) text = path_in(folder, text);
+  };
+  for (auto& [key, text] : job.settings) place(key, text);
+  for (auto& said : job.by_name.settings) place(said.key, said.text);
+  for (auto& mark : job.marks)
+    for (auto& [key, text] : mark.settings) place(key, text);
 }
 
 const std::vector<std::string_view>& field_names() {

@@ -29,6 +29,10 @@ bool named_like_a_model(const fs::path& path) {
 
 std::string bytes_of(const std::string& path) {
   if (path == "-") return {std::istreambuf_iterator<char>(std::cin), {}};
+  constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 30;
+  std::error_code unknown;
+  if (const auto bytes = fs::file_size(path, unknown); !unknown && bytes > most_bytes)
+    throw Error{Error::Kind::file, fmt::format("of {} MB is no list of jobs", bytes >> 20), path, "check the path"};
   return std::string(FileBytes(path).view());
 }
 
@@ -87,15 +91,23 @@ void append(JobList& to, JobList from) {
   std::move(from.errors.begin(), from.errors.end(), std::back_inserter(to.errors));
 }
 
+/// What a run that is killed leaves of a file, and the next one removes: its name, then .weft- and six letters.
+bool named_like_debris(const std::string& output) {
+  constexpr std::string_view tail = ".weft-abcdef";
+  const auto name = fs::path(output).filename().string();
+  return name.size() > tail.size() && name.substr(name.size() - tail.size()).starts_with(".weft-");
+}
+
 bool leaves_its_folder(const std::string& output) {
   const fs::path path = fs::path(output).lexically_normal();
   return path.is_absolute() || path.empty() || *path.begin() == ".." || path == "." || !path.has_filename() ||
          *path.begin() == ".weft";
 }
 
-/// What a run writes beside the G-code: report.jsonl, summary.csv, junit.xml (-2-of-3 for a share) and index.html.
+/// What a run writes beside the G-code: report.jsonl, summary.csv, junit.xml (-2-of-3 for a share) and index.html. Nor
+/// is it a folder.
 bool is_a_report(const std::string& output) {
-  const auto name = fs::path(output).lexically_normal().string();
+  const auto name = fs::path(output).lexically_normal().begin()->string();
   constexpr std::pair<std::string_view, std::string_view> reports[] = {
       {"report", ".jsonl"}, {"summary", ".csv"}, {"junit", ".xml"}, {"index", ".html"}};
   return std::any_of(std::begin(reports), std::end(reports),
@@ -167,6 +179,8 @@ void complete(JobList& list) {
              "give a path relative to -o");
     else if (is_a_report(job.output))
       refuse(job, fmt::format("output '{}' is the name of a report", job.output), "as in part.gcode");
+    else if (named_like_debris(job.output))
+      refuse(job, fmt::format("output '{}' is named like a file that is not whole", job.output), "as in part.gcode");
     else if (const auto [at, is_new] = outputs.emplace(fs::path(job.output).lexically_normal().string(), job.where);
              !is_new)
       refuse(job, fmt::format("output '{}' is that of {}", job.output, at->second),

@@ -41,9 +41,9 @@ struct JobList {
 /// One JSON object a line: {"id": …, "models": […], "profiles": […], "set": {…}, "output": …}, and where they are
 /// wanted "center": [x, y], "keep_position", "drop", "scale", "rotate", "copies", "spacing", "audit", "timeout" (s),
 /// "plate", "arrange", "fill", and the free fields "label", "priority", "due" and "x-…". Blank lines do not count.
-/// Models and profiles are relative to `folder`. A model may be an object: {"file": …} or {"parts": [{"file": …,
-/// "tool": 1, "set": {…}}]}, "tool", "set", "copies", "place": [x, y, degrees], "modifiers": [{"file": …, "set": {…}}],
-/// "negatives": […].
+/// Models, profiles and files that settings name are relative to `folder`. A model may be an object: {"file": …} or
+/// {"parts": [{"file": …, "tool": 1, "set": {…}}]}, "tool", "set", "copies", "place": [x, y, degrees], "modifiers":
+/// [{"file": …, "set": {…}}], "negatives": […].
 JobList read_jsonl(std::string_view text, const std::string& path, const std::filesystem::path& folder);
 
 /// A header line with the same names, of which models and profiles are lists separated by `;` (by `,` where
@@ -70,8 +70,15 @@ void complete(JobList& list);
 bool set_field(JobLine& job, std::string_view name, const std::vector<std::string>& values,
                const std::filesystem::path& folder);
 
+/// No path, name or setting holds the character 0, at which systems cut them off.
+/// @throws std::invalid_argument with one clause
+void refuse_cut_off(std::string_view text);
+
 /// A path of a list as it can be opened from here.
 std::string path_in(const std::filesystem::path& folder, const std::string& path);
+
+/// The same for every setting of the job that names a file.
+void place_field_files(JobLine& job, const std::filesystem::path& folder);
 
 /// Whether it is the name of a field that is only carried: label, priority, due, or anything that begins with "x-".
 bool is_free_field(std::string_view name);

@@ -2,6 +2,8 @@
 #include "jobs/prepare.h"
 
 #include "gcode/writer.h"
+#include "jobs/record.h"
+#include "pipeline/field_files.h"
 #include "pipeline/model_parts.h"
 #include "pipeline/profile_file.h"
 #include "pipeline/project.h"
@@ -45,6 +47,30 @@ class ProfileShelf {
   std::map<std::vector<std::filesystem::path>, Profile> profiles_;
 };
 
+/// The settings of a job whose profiles are laid.
+/// @param refused is why its project cannot be printed: that is its model's fault, not the list's
+Settings settings_of(Profile& profile, const JobLine& line, bool alone, const Common& common,
+                     std::optional<Error>& refused) {
+  bool said = true;  // unless it turns out that no project says anything
+  try {
+    said = apply_project(profile, line.models, alone, line.placement.plate, common.import);
+  } catch (const Error& error) {
+    refused = error;
+  }
+  for (const auto& [key, text] : common.settings) apply_value(profile, key, text, "--set " + key);
+  for (const auto& [key, text] : line.settings) apply_value(profile, key, text, line.where);
+  for (const auto& field : pipeline::field_files(profile.settings, line.by_name, line.marks))
+    refuse_outside(field, common.import);
+  try {
+    check_consistency(profile);
+    gcode::check_custom_code(profile.settings);
+  } catch (const Error& error) {
+    if (!said) throw;
+    if (!refused) refused = error;
+  }
+  return profile.settings;
+}
+
 Prepared prepare_one(JobLine line, const Common& common, ProfileShelf& shelf) {
   if (!common.keep_going)
     for (const auto& model : line.models)
@@ -52,23 +78,16 @@ Prepared prepare_one(JobLine line, const Common& common, ProfileShelf& shelf) {
   auto files = common.profiles;
   for (const auto& typed : line.profiles) files.push_back(profile_file(typed, line.folder, common.import.folders));
   Profile profile = shelf.of(files, common.import);
-  apply_project(profile, line.models, files.empty(), line.placement.plate, common.import);
-  for (const auto& [key, text] : common.settings) apply_value(profile, key, text, "--set " + key);
-  for (const auto& [key, text] : line.settings) apply_value(profile, key, text, line.where);
-  check_consistency(profile);
-  gcode::check_custom_code(profile.settings);
   Prepared out;
+  const auto settings = settings_of(profile, line, files.empty(), common, out.refused);
   out.job = {.models = line.models,
-             .settings = profile.settings,
+             .settings = settings,
              .placement = line.placement,
              .marks = line.marks,
              .by_name = line.by_name,
              .audit = line.audit};
   out.notices = profile.notices;
-  for (const auto& model : line.models)
-    for (const auto& part : pipeline::parts_of(model)) out.read.push_back(part.file);
-  for (const auto& mark : line.marks)
-    if (!mark.source.starts_with("box:")) out.read.push_back(mark.source);
+  for (auto& input : inputs_of(out.job)) out.read.emplace_back(std::move(input));
   out.read.insert(out.read.end(), files.begin(), files.end());
   out.read.insert(out.read.end(), profile.parents.begin(), profile.parents.end());
   out.line = std::move(line);

@@ -19,7 +19,8 @@ struct Prepared {
   JobLine line;
   Job job;
   Notices notices;                          ///< of its profiles
-  std::vector<std::filesystem::path> read;  ///< its models and profiles, inherited ones too
+  std::optional<Error> refused{};           ///< why it is going to fail: its project cannot be read, or fits no printer
+  std::vector<std::filesystem::path> read;  ///< models, marks, profiles with inherited ones, fields of infill
 };
 
 /// Resolves and checks every job before the first is run: profiles and settings as `weft slice` would, models by

@@ -120,6 +120,7 @@ JobList read_csv(std::string_view text, const std::string& path, const std::file
         const auto& name = header.cells[i];
         const auto& cell = row.cells[i];
         if (cell.empty()) continue;
+        refuse_cut_off(cell);
         if (is_free_field(name)) {
           job.free_fields.emplace_back(name, json_text(nlohmann::json(cell)));
           continue;
@@ -130,6 +131,7 @@ JobList read_csv(std::string_view text, const std::string& path, const std::file
           throw std::invalid_argument(fmt::format("{}: {}", name, problem.what()));
         }
       }
+      place_field_files(job, folder);
       list.jobs.push_back(std::move(job));
     } catch (const std::invalid_argument& problem) {
       list.errors.emplace_back(Error::Kind::usage, problem.what(), job.where, "");

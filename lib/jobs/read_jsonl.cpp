@@ -18,7 +18,10 @@ using Json = nlohmann::ordered_json;
 
 /// A number, text or flag as profiles write it. @throws std::invalid_argument
 std::string text_of(const Json& v) {
-  if (v.is_string()) return v.get<std::string>();
+  if (v.is_string()) {
+    refuse_cut_off(v.get_ref<const std::string&>());
+    return v.get<std::string>();
+  }
   if (v.is_number() || v.is_boolean()) return v.dump();
   throw std::invalid_argument(fmt::format("{} is neither text, number nor true or false", v.dump()));
 }
@@ -154,6 +157,7 @@ void set_all(JobLine& job, const Json& object, const std::filesystem::path& fold
     if (is_free_field(name)) {
       if (!v.is_primitive() || v.is_null())
         throw std::invalid_argument(name + ": is not a text, a number, true or false");
+      if (v.is_string()) refuse_cut_off(v.get_ref<const std::string&>());
       job.free_fields.emplace_back(name, v.dump());
       continue;
     }
@@ -191,6 +195,7 @@ JobList read_jsonl(std::string_view text, const std::string& path, const std::fi
     job.where = fmt::format("{}:{}", path, number);
     try {
       set_all(job, parse_line(line), folder);
+      place_field_files(job, folder);
       list.jobs.push_back(std::move(job));
     } catch (const std::invalid_argument& problem) {
       list.errors.emplace_back(

@@ -5,9 +5,10 @@
 #include "core/file_bytes.h"
 #include "core/hash.h"
 #include "core/json_text.h"
+#include "core/write_file.h"
+#include "pipeline/field_files.h"
 #include "pipeline/model_parts.h"
 #include "pipeline/transform_words.h"
-#include "pipeline/write_file.h"
 #include "settings/exact.h"
 
 #include <cmath>
@@ -211,9 +212,12 @@ std::string inputs_hash(const Job& job, FileHashes& files) {
   for (const auto& mark : job.marks) {
     exact::add(key, std::uint64_t{mark.model});
     exact::add(key, mark.kind);
-    exact::add(key, mark.source.starts_with("box:") ? mark.source : files.of(mark.source));
+    const bool box = mark.source.starts_with("box:");
+    exact::add(key, box ? mark.source : fs::path(mark.source).filename().string());  // stands in the G-code
+    if (!box) exact::add(key, files.of(mark.source));
     for (const auto& [name, text] : mark.settings) exact::add(key, name), exact::add(key, text);
   }
+  for (const auto& field : pipeline::field_files(job)) exact::add(key, files.of(field));
   const auto& p = job.placement;
   exact::add(key, p.centre);
   exact::add(key, p.keep_position);
@@ -232,6 +236,14 @@ std::string inputs_hash(const Job& job, FileHashes& files) {
   if (p.transform.stretch != Transform{}.stretch) exact::add(key, pipeline::find_transform_word("scale")->text(p));
   exact::add(key, job.audit);
   return sha256(key + exact::bytes_of(job.settings));
+}
+
+std::vector<std::string> inputs_of(const Job& job) {
+  auto out = pipeline::files_of(job.models);
+  for (const auto& mark : job.marks)
+    if (!mark.source.starts_with("box:")) out.push_back(mark.source);
+  for (auto& field : pipeline::field_files(job)) out.push_back(std::move(field));
+  return out;
 }
 
 bool has_gcode(const fs::path& folder, const Record& record, bool check_full) {

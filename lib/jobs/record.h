@@ -91,7 +91,10 @@ class FileHashes {
   std::map<std::string, KnownFile> known_;
 };
 
-/// Hash of everything the job's G-code depends on besides this build of weft: models by name and content, settings,
+/// The files that a job's G-code is made of: models, marks, and what infill is laid by.
+std::vector<std::string> inputs_of(const Job& job);
+
+/// Hash of everything the job's G-code depends on besides this build of weft: its files by name and content, settings,
 /// placement. Two jobs of the same hash give the same bytes. @throws Error{file}
 std::string inputs_hash(const Job& job, FileHashes& files);
 

@@ -3,9 +3,10 @@
 
 #include "core/escape.h"
 #include "core/json_text.h"
-#include "pipeline/write_file.h"
+#include "core/write_file.h"
 
-#include <algorithm>
+#include <map>
+#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -13,19 +14,28 @@
 namespace weft::jobs {
 namespace {
 
-/// Keys that jobs set for themselves, in the order of their first appearance.
-std::vector<std::string> own_settings(const Collected& collected) {
-  std::vector<std::string> keys;
+using Given = std::vector<std::pair<std::string, std::string>>;
+
+/// Names that jobs give values to, in the order of their first appearance.
+std::vector<std::string> names_in(const Collected& collected, Given JobLine::*given) {
+  std::vector<std::string> out;
+  std::set<std::string_view> seen;
   for (const auto& entry : collected.entries)
-    for (const auto& [key, text] : entry.line.settings)
-      if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
-  return keys;
+    for (const auto& [name, value] : entry.line.*given)
+      if (seen.insert(name).second) out.push_back(name);
+  return out;
 }
 
-std::string own_value(const JobLine& line, const std::string& key) {
+/// Cells of a job below these names; of a name that it gives twice the last. @param text of a value
+template <class Text>
+std::string cells_of(const std::vector<std::string>& names, const Given& given, const Text& text) {
+  std::map<std::string_view, std::string_view> values;
+  for (const auto& [name, value] : given) values[name] = value;
   std::string out;
-  for (const auto& [k, text] : line.settings)
-    if (k == key) out = text;
+  for (const auto& name : names) {
+    const auto at = values.find(name);
+    out += "," + (at == values.end() ? std::string() : escape::csv(text(std::string(at->second))));
+  }
   return out;
 }
 
@@ -77,21 +87,6 @@ std::string with_free_fields(const std::string& object, const JobLine& line) {
   return id + fields + object.substr(id.size());
 }
 
-/// Names of the free fields of all jobs, in the order of their first appearance.
-std::vector<std::string> free_names(const Collected& collected) {
-  std::vector<std::string> out;
-  for (const auto& entry : collected.entries)
-    for (const auto& [name, value] : entry.line.free_fields)
-      if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
-  return out;
-}
-
-std::string free_cell(const JobLine& line, const std::string& wanted) {
-  for (const auto& [name, value] : line.free_fields)
-    if (name == wanted) return free_text(value);
-  return {};
-}
-
 }  // namespace
 
 std::string report_jsonl(const Collected& collected) {
@@ -106,7 +101,7 @@ std::string report_jsonl(const Collected& collected) {
 }
 
 std::string summary_csv(const Collected& collected) {
-  const auto keys = own_settings(collected), fields = free_names(collected);
+  const auto keys = names_in(collected, &JobLine::settings), fields = names_in(collected, &JobLine::free_fields);
   std::string out =
       "id,output,status,exit_status,seconds,layers,height_mm,print_time_s,filament_mm,filament_g,audit,warnings,error,"
       "cost,currency";
@@ -122,8 +117,8 @@ std::string summary_csv(const Collected& collected) {
                          escape::csv(r->currency));
     else
       out += "missing,,,,,,,,,,,,";
-    for (const auto& field : fields) out.append(",").append(escape::csv(free_cell(entry.line, field)));
-    for (const auto& key : keys) out.append(",").append(escape::csv(own_value(entry.line, key)));
+    out += cells_of(fields, entry.line.free_fields, free_text);
+    out += cells_of(keys, entry.line.settings, [](const std::string& as_it_is) { return as_it_is; });
     out += "\n";
   }
   return out;
@@ -167,10 +162,15 @@ std::string junit_xml(const Collected& collected, std::string_view suite) {
   return out + " </testsuite>\n</testsuites>\n";
 }
 
+std::array<std::string, 3> summary_names(const std::string& suffix) {
+  return {"report" + suffix + ".jsonl", "summary" + suffix + ".csv", "junit" + suffix + ".xml"};
+}
+
 void write_summaries(const Collected& collected, const std::filesystem::path& folder, const std::string& suffix) {
-  write_file(folder / ("report" + suffix + ".jsonl"), report_jsonl(collected));
-  write_file(folder / ("summary" + suffix + ".csv"), summary_csv(collected));
-  write_file(folder / ("junit" + suffix + ".xml"), junit_xml(collected, "weft batch"));
+  const auto [report, summary, junit] = summary_names(suffix);
+  write_file(folder / report, report_jsonl(collected));
+  write_file(folder / summary, summary_csv(collected));
+  write_file(folder / junit, junit_xml(collected, "weft batch"));
 }
 
 }  // namespace weft::jobs

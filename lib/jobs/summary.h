@@ -2,6 +2,7 @@
 #pragma once
 #include "jobs/batch.h"
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -33,6 +34,11 @@ std::string summary_csv(const Collected& collected);
 
 /// JUnit XML as CI systems read it: a test case a job; one that failed is a failure, one that was not run an error.
 std::string junit_xml(const Collected& collected, std::string_view suite);
+
+/// Names of what is written beside the G-code: report.jsonl, summary.csv, junit.xml, or of a share report-3-of-20.jsonl
+/// and so on.
+/// @param suffix "" or "-3-of-20"
+std::array<std::string, 3> summary_names(const std::string& suffix);
 
 /// Writes DIR/report.jsonl, DIR/summary.csv and DIR/junit.xml, or for a share DIR/report-3-of-20.jsonl and so on.
 /// @param suffix "" or "-3-of-20"  @throws Error{file}

@@ -2,7 +2,7 @@
 #include "jobs/workplace.h"
 
 #include "core/error.h"
-#include "pipeline/write_file.h"
+#include "core/write_file.h"
 
 #include <cerrno>
 #include <cstring>

@@ -98,7 +98,7 @@ void Archive::read(const std::string& part, const std::function<void(std::string
     status = UNZ_BADZIPFILE;  // minizip would give what is packed by bzip2 as it lies there
   if (status == UNZ_OK) status = unzOpenCurrentFile(zip_->handle);
   if (status != UNZ_OK) throw damaged(where, reason_of(status));
-  packed_ += facts.compressed_size;
+  packed_ += std::min<std::uint64_t>(facts.compressed_size, zip_->bytes.size());  // it is not believed beyond that
   std::uint64_t size = 0;
   char buffer[1 << 16];
   while (const int got = unzReadCurrentFile(zip_->handle, buffer, sizeof buffer)) {
@@ -112,6 +112,17 @@ void Archive::read(const std::string& part, const std::function<void(std::string
   }
   if (status = unzCloseCurrentFile(zip_->handle); status != UNZ_OK) throw damaged(where, reason_of(status));
   if (size != facts.uncompressed_size) throw damaged(where, reason_of(UNZ_BADZIPFILE));
+}
+
+std::string Archive::text(const std::string& part) {
+  std::string out;
+  read(part, [&](std::string_view piece) {
+    out += piece;
+    if (out.size() > harmless_bytes)
+      throw Error(Error::Kind::model, fmt::format("is text of more than {} MB", harmless_bytes >> 20),
+                  path_ + "/" + part, "no settings are: do not trust the file");
+  });
+  return out;
 }
 
 }  // namespace weft::mesh

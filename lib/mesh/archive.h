@@ -21,6 +21,9 @@ class Archive {
   /// Throws: Error::Kind::model when it is missing, damaged, encrypted, or larger than a model could be.
   void read(const std::string& part, const std::function<void(std::string_view piece)>& take);
 
+  /// The part as a whole. Throws: as read; Error::Kind::model when it is more text than settings could be, 64 MB.
+  std::string text(const std::string& part);
+
  private:
   struct Zip;
   std::unique_ptr<Zip> zip_;

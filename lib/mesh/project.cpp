@@ -70,7 +70,7 @@ std::optional<Project> read_project(const std::string& path) {
   Project out;
   if (const std::string part = "Metadata/Slic3r_PE.config"; archive.has(part)) {
     out.author = Author::prusaslicer;
-    archive.read(part, [&](std::string_view piece) { out.configuration += piece; });
+    out.configuration = archive.text(part);
   }
   if (archive.has("Metadata/project_settings.config")) out.author = Author::orca, out.other_configuration = true;
   read_prusaslicer(archive, path, out);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include "mesh/layer_profile.h"
 #include "mesh/mark.h"
 #include "mesh/mesh.h"
 #include "mesh/repair.h"
@@ -36,6 +37,7 @@ struct ItemOfFile {
   std::string name{};
   std::vector<ForeignSetting> settings{};
   std::vector<RangeOfItem> ranges{};
+  std::vector<HeightAt> heights{};  ///< of its layers; empty: nothing is said of them
 };
 
 /// One of the plates of a project.

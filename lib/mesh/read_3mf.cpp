@@ -43,11 +43,14 @@ class Build {
       stop_if_asked();
       says.push_back(cura_of(item));
       const auto* said = said_of(item);
-      ItemOfFile what{object(item).name, said ? said->settings : says.back().settings, {}};
+      ItemOfFile what{object(item).name, said ? said->settings : says.back().settings, {}, {}};
       if (what.name.empty() && said) what.name = said->name;
-      if (const auto at = places.find(item.object.second); at != places.end())
+      if (const auto at = places.find(item.object.second); at != places.end()) {
         if (const auto ranges = document_.parts.ranges.find(at->second); ranges != document_.parts.ranges.end())
           what.ranges = ranges->second;
+        if (const auto heights = document_.parts.heights.find(at->second); heights != document_.parts.heights.end())
+          what.heights = heights->second;
+      }
       contents.items.push_back(std::move(what));
       for (auto& body : bodies(item, said)) {
         body.item = contents.items.size() - 1;
@@ -165,8 +168,9 @@ class Build {
       if (mark.volume) {
         made.name = mark.volume->name;
         made.settings = mark.volume->settings, made.author = document_.parts.author;
-        const auto before = std::count_if(parts_.begin(), parts_.end(),
-                                          [&](const PartInWork& part) { return part.number() < mark.volume->number; });
+        const auto before = std::count_if(parts_.begin(), parts_.end(), [volume = mark.volume](const PartInWork& part) {
+          return part.number() < volume->number;
+        });
         if (apart_ && key.kind == MarkKind::negative) made.after = static_cast<std::size_t>(before);
       }
       out.front().marks.push_back(std::move(made));

@@ -1,30 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/disjoint_sets.h"
 #include "mesh/adjacency.h"
 #include "mesh/transform.h"
 #include "mesh/weld.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace weft::mesh {
 namespace {
-
-/// What hangs together.
-class Groups {
- public:
-  explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-  std::size_t root(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::size_t a, std::size_t b) {
-    a = root(a), b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 struct Shell {
   Box3 box;
@@ -58,13 +41,13 @@ std::size_t body_around(const std::vector<Shell>& shells, std::size_t hole, bool
 std::vector<Mesh> split(const Mesh& mesh) {
   auto adjacency = adjacency_of(mesh);
   const std::size_t count = adjacency.shells.number_shells();
-  Groups groups(count);
+  DisjointSets groups(count);
   for (std::size_t begin = 0, i = 0; i < adjacency.crowded_ends.size(); begin = adjacency.crowded_ends[i++])
     for (std::size_t side = begin + 1; side < adjacency.crowded_ends[i]; ++side)
       groups.join(adjacency.shells.shell(adjacency.crowded[begin].triangle()),
                   adjacency.shells.shell(adjacency.crowded[side].triangle()));
   std::vector<Shell> shells(count);
-  const auto shell_of = [&](std::size_t t) { return groups.root(adjacency.shells.shell(t)); };
+  const auto shell_of = [&](std::size_t t) { return groups.of(adjacency.shells.shell(t)); };
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (const std::uint32_t corner : mesh.triangles[t]) shells[shell_of(t)].box.add(mesh.vertices[corner]);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -73,7 +56,7 @@ std::vector<Mesh> split(const Mesh& mesh) {
     shell.six_um3 += six_volumes_um3(shell.box.min, mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
   }
   for (std::size_t s = 0; s < count; ++s)
-    if (groups.root(s) == s && shells[s].six_um3 < 0) groups.join(s, body_around(shells, s, mesh.cut_through));
+    if (groups.of(s) == s && shells[s].six_um3 < 0) groups.join(s, body_around(shells, s, mesh.cut_through));
   std::vector<std::size_t> body(count, count);
   std::vector<Mesh> out;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

@@ -2,6 +2,7 @@
 #include "mesh/three_mf_parts.h"
 
 #include "core/number.h"
+#include "mesh/layer_profile.h"
 #include "mesh/text.h"
 #include "mesh/weld.h"
 #include "mesh/xml.h"
@@ -155,6 +156,13 @@ void read_ranges(Archive& archive, const std::string& path, const std::string& p
                  }});
 }
 
+void read_profiles(Archive& archive, const std::string& path, const std::string& part, ThreeMfParts& out) {
+  if (!archive.has(part)) return;
+  std::string text;
+  archive.read(part, [&](std::string_view piece) { text += piece; });
+  out.heights.merge(layer_profiles(text, path));
+}
+
 }  // namespace
 
 const ObjectSaid* ThreeMfParts::of(std::uint32_t object) const {
@@ -183,6 +191,8 @@ ThreeMfParts parts_of(Archive& archive, const std::string& path) {
   read_orca(archive, path, out);
   read_ranges(archive, path, "Metadata/Prusa_Slicer_layer_config_ranges.xml", out);
   read_ranges(archive, path, "Metadata/layer_config_ranges.xml", out);
+  read_profiles(archive, path, "Metadata/Slic3r_PE_layer_heights_profile.txt", out);
+  read_profiles(archive, path, "Metadata/layer_heights_profile.txt", out);
   return out;
 }
 

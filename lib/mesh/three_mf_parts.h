@@ -41,6 +41,7 @@ struct ThreeMfParts {
   Author author = Author::unknown;
   std::map<std::uint32_t, ObjectSaid> objects{};               ///< by id
   std::map<std::uint32_t, std::vector<RangeOfItem>> ranges{};  ///< by the object's place among objects, from 1
+  std::map<std::uint32_t, std::vector<HeightAt>> heights{};    ///< likewise
   std::vector<PlateSaid> plates{};
 
   const ObjectSaid* of(std::uint32_t object) const;
@@ -49,7 +50,8 @@ struct ThreeMfParts {
   const VolumeSaid* of_component(std::uint32_t object, std::uint32_t component) const;
 };
 
-/// Reads `Metadata/Slic3r_PE_model.config`, `Metadata/model_settings.config` and the ranges of heights, where they are.
+/// Reads `Metadata/Slic3r_PE_model.config`, `Metadata/model_settings.config` and what they say of heights of layers,
+/// where they are.
 /// Throws: Error::Kind::model.
 ThreeMfParts parts_of(Archive& archive, const std::string& path);
 

@@ -27,8 +27,9 @@ inline constexpr auto fields<Arc> = listed(&Arc::first, &Arc::last, &Arc::centre
 template <>
 inline constexpr auto fields<Extrude> = listed(&Extrude::path, &Extrude::role, &Extrude::tool, &Extrude::scope,
                                                &Extrude::height, &Extrude::speed_mm_s, &Extrude::segment_speed_mm_s,
-                                               &Extrude::acceleration_mm_s2, &Extrude::below, &Extrude::air_quarters,
-                                               &Extrude::loop_length, &Extrude::on_support, &Extrude::arcs);
+                                               &Extrude::acceleration_mm_s2, &Extrude::below, &Extrude::follows_surface,
+                                               &Extrude::air_quarters, &Extrude::loop_length, &Extrude::on_support,
+                                               &Extrude::arcs);
 template <>
 inline constexpr auto fields<Travel> = listed(&Travel::path, &Travel::speed_mm_s, &Travel::crosses_wall,
                                               &Travel::z_speed_mm_s, &Travel::acceleration_mm_s2);
@@ -36,9 +37,11 @@ template <>
 inline constexpr auto fields<Retract> = listed(&Retract::wipe, &Retract::wipe_speed_mm_s, &Retract::before_wipe,
                                                &Retract::to_change);
 template <>
-inline constexpr auto fields<Prime> = listed<Prime>();
+inline constexpr auto fields<Prime> = listed(&Prime::extra_mm3);
 template <>
 inline constexpr auto fields<SetFan> = listed(&SetFan::share);
+template <>
+inline constexpr auto fields<SetPressureAdvance> = listed(&SetPressureAdvance::seconds);
 template <>
 inline constexpr auto fields<ObjectStart> = listed(&ObjectStart::object);
 template <>

@@ -16,20 +16,20 @@ double speed_between(const Travel& travel, Point3 a, Point3 b) {
 
 Point3 end_of(const LayerPlan& layer, Point3 before) {
   std::optional<Point3> end;
-  const overloaded look{[&](const Extrude& bead) {
-                          if (!bead.path.empty()) end = place_of(bead, bead.path.size() - 1, layer.z);
-                        },
-                        [&](const Travel& travel) {
-                          if (!travel.path.empty()) end = travel.path.back();
-                        },
-                        [&](const Retract& retract) {
-                          if (!retract.wipe.empty())
-                            end = Point3{retract.wipe.back().x, retract.wipe.back().y, layer.z};
-                        },
-                        [&](const Feed& feed) {
-                          if (feed.moves) end = Point3{feed.to.x, feed.to.y, layer.z};
-                        },
-                        LeavesAlone<Prime, SetFan, ObjectStart, ObjectEnd, ToolChange, SetTemperature, Pause>{}};
+  const overloaded look{
+      [&](const Extrude& bead) {
+        if (!bead.path.empty()) end = place_of(bead, bead.path.size() - 1, layer.z);
+      },
+      [&](const Travel& travel) {
+        if (!travel.path.empty()) end = travel.path.back();
+      },
+      [&](const Retract& retract) {
+        if (!retract.wipe.empty()) end = Point3{retract.wipe.back().x, retract.wipe.back().y, layer.z};
+      },
+      [&](const Feed& feed) {
+        if (feed.moves) end = Point3{feed.to.x, feed.to.y, layer.z};
+      },
+      LeavesAlone<Prime, SetFan, ObjectStart, ObjectEnd, ToolChange, SetTemperature, Pause, SetPressureAdvance>{}};
   for (auto step = layer.steps.rbegin(); step != layer.steps.rend() && !end; ++step) std::visit(look, *step);
   return end.value_or(before);
 }

@@ -31,9 +31,11 @@ struct Extrude {
   std::vector<float>
       segment_speed_mm_s{};       ///< set by motion where speed varies along the path: one a segment; else empty
   double acceleration_mm_s2 = 0;  ///< set by motion; 0: whatever the firmware has
-  /// Of a ramp: how far below the layer's z each junction lies, one a junction; else empty. Flow is the band's share
-  /// that is laid there, so that volume is as for any bead. Such a bead is not resampled.
+  /// Of a ramp, or of what follows a surface: how far below the layer's z each junction lies (above it: less than 0),
+  /// one a junction; else empty. Flow is the band's share that is laid there, so that volume is as for any bead. Such a
+  /// bead is not resampled.
   std::vector<Um> below{};
+  bool follows_surface = false;  ///< it is as much lower, or higher, than its layer as it lies below or above its z
   /// Of walls: how much of the width lies over air, in quarters rounded up; 0 where it is less than a tenth.
   std::uint8_t air_quarters = 0;
   /// Of a piece that was cut out of a closed bead: the length of all of it; 0: the path is the whole bead.
@@ -66,11 +68,18 @@ struct Retract {
   friend bool operator==(const Retract&, const Retract&) = default;
 };
 /// Pushes it forward again.
-struct Prime {};
+struct Prime {
+  double extra_mm3 = 0;  ///< beside what was drawn back
+};
 
 /// Part-cooling fan, 0 … 1.
 struct SetFan {
   double share = 0;
+};
+
+/// How much further than moves ask for the extruder goes while they gain speed: mm of filament a mm/s of it.
+struct SetPressureAdvance {
+  double seconds = 0;
 };
 
 /// Everything until the next ObjectEnd belongs to that object (index into PrintPlan::objects).
@@ -118,7 +127,7 @@ struct Pause {
 };
 
 using Step = std::variant<Extrude, Travel, Retract, Prime, SetFan, ObjectStart, ObjectEnd, ToolChange, SetTemperature,
-                          Pause, Feed>;
+                          Pause, Feed, SetPressureAdvance>;
 
 /// One layer of the whole plate, in the order it is printed.
 struct LayerPlan {

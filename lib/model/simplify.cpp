@@ -24,7 +24,9 @@ bool is_even(const VertexPath& path) {
   return std::all_of(path.begin(), path.end(), [&](const PathVertex& v) { return v.band == path[0].band; });
 }
 
-constexpr double per_place = 1.0 / (static_cast<double>(tolerances::path) * tolerances::path),
+// A bow may stand so far off its chord: the piece comes to lie in its middle, two thirds of that from its ends.
+constexpr double most_bow = 1.25 * tolerances::path;
+constexpr double per_place = 1.0 / (most_bow * most_bow),
                  per_band = 1.0 / (static_cast<double>(tolerances::band) * tolerances::band);
 
 /// The squares of how far places or bands lie off a piece, in units of the tolerances.

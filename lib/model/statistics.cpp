@@ -45,6 +45,7 @@ void Statistics::append(const Statistics& later) {
   filament_mm3 += later.filament_mm3;
   filament_g += later.filament_g;
   layer_s.insert(layer_s.end(), later.layer_s.begin(), later.layer_s.end());
+  silent_layer_s.insert(silent_layer_s.end(), later.silent_layer_s.begin(), later.silent_layer_s.end());
   print_time_s += later.print_time_s;
 }
 

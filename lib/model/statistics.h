@@ -49,6 +49,7 @@ struct Statistics {
 
   double filament_mm = 0, filament_mm3 = 0, filament_g = 0;  ///< with material_flow and extra prime
   std::vector<double> layer_s;                               ///< one a layer
+  std::vector<double> silent_layer_s;                        ///< the same in silent mode; empty: there is none
   double print_time_s = 0;                                   ///< sum of layer_s: without heating and custom G-code
 
   /// Of that tool, which then is one of `tools`.

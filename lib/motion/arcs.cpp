@@ -11,7 +11,9 @@
 namespace weft::motion {
 namespace {
 
-constexpr std::size_t least_pieces = 3;
+constexpr std::size_t least_pieces = 2;  // two lines are longer than one arc
+constexpr std::size_t first_tries = 3;   // what is flat over two pieces may bend over four
+constexpr double most_rad = 1.9 * std::numbers::pi;
 constexpr double largest_radius_um = 1e6;
 constexpr double lattice_um = 1.5;  // what the rounding of the centre moves an arc by
 
@@ -40,6 +42,11 @@ double off_circle_um(Point centre, double radius, Point a, Point b) {
   return off;
 }
 
+/// Firmware rounds down: its pieces may be nearly twice as long as they are meant.
+int pieces_of(double length_um, double chord_um) {
+  return std::max(1, static_cast<int>(length_um / chord_um));
+}
+
 class Fitter {
  public:
   Fitter(const ArcRules& rules, const Extrude& bead) : rules_(rules), bead_(bead), path_(bead.path) {}
@@ -47,9 +54,13 @@ class Fitter {
   /// The arc from junction `first` that goes on longest.
   std::optional<Arc> longest_from(std::size_t first) const {
     std::size_t good = first + least_pieces, bad = path_.size();
-    if (furthest(first, good) < good) return std::nullopt;
-    auto best = arc(first, good);
+    std::optional<Arc> best;
+    for (std::size_t tries = 0; !best && tries < first_tries; ++tries, ++good) {
+      if (good >= bad || furthest(first, good) < good) return std::nullopt;
+      best = arc(first, good);
+    }
     if (!best) return std::nullopt;
+    good = best->last;
     for (std::size_t step = least_pieces; good + 1 < bad; step *= 2) {  // gallop
       const std::size_t wanted = std::min(good + step, bad - 1), next = furthest(first, wanted);
       if (next < wanted) bad = next + 1;
@@ -68,10 +79,31 @@ class Fitter {
       else
         bad = middle;
     }
-    return best;
+    return stays_round(*best) ? best : std::nullopt;
+  }
+
+  /// Two arcs that follow each other as one, which may turn by more than 180°.
+  std::optional<Arc> joined(const Arc& a, const Arc& b) const {
+    if (a.last != b.first || a.ccw != b.ccw || distance(a.centre, b.centre) > lattice_um + rules_.tolerance ||
+        furthest(a.first, b.last) < b.last)
+      return std::nullopt;
+    for (const Point centre : {a.centre, b.centre, lerp(a.centre, b.centre, 0.5)}) {
+      const Arc both{a.first, b.last, centre, a.ccw};
+      const double begin = distance(centre, path_[a.first].at), end = distance(centre, path_[b.last].at);
+      if (std::abs(begin - end) <= lattice_um && holds(both, most_rad)) return both;
+    }
+    return std::nullopt;
   }
 
  private:
+  /// Do the pieces that firmware cuts it into stand off it by no more than its tolerance?
+  bool stays_round(const Arc& arc) const {
+    const Point from = path_[arc.first].at;
+    const double radius = distance(arc.centre, from), length = radius * sweep_of(from, path_[arc.last].at, arc);
+    const double piece = length / pieces_of(length, chord_um(rules_.firmware, rules_.segment, radius));
+    return piece * piece <= 8 * radius * rules_.tolerance;
+  }
+
   double laid(std::size_t i) const { return path_[i].width * static_cast<double>(path_[i].flow); }
   bool has_room(Point p) const {
     return rules_.room.empty() || (p.x >= rules_.room.min.x && p.x <= rules_.room.max.x && p.y >= rules_.room.min.y &&
@@ -107,7 +139,7 @@ class Fitter {
     Arc out{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last), {}, *h < 0};
     out.centre = {rounded((static_cast<double>(a.x) + b.x) / 2 - to_centre * y),
                   rounded((static_cast<double>(a.y) + b.y) / 2 + to_centre * x)};
-    return holds(out) ? std::optional(out) : std::nullopt;
+    return holds(out, std::numbers::pi) ? std::optional(out) : std::nullopt;
   }
 
   /// The middle of what each junction allows, µm to the left of the chord.
@@ -134,14 +166,17 @@ class Fitter {
     return 0.5 * (least + most);
   }
 
-  bool holds(const Arc& arc) const {
+  /// Does it stay within the tolerance, and turn by less than that?
+  bool holds(const Arc& arc, double less_than_rad) const {
     const double radius = distance(arc.centre, path_[arc.first].at), most = rules_.tolerance + lattice_um;
     const double step = 2 * std::numbers::pi / 3;  // no piece goes so far round, nor back
     for (std::size_t i = arc.first; i < arc.last; ++i) {
       const Point p = path_[i].at, q = path_[i + 1].at;
       if (off_circle_um(arc.centre, radius, p, q) > most || sweep_of(p, q, arc) > step) return false;
     }
-    return sweep_of(path_[arc.first].at, path_[arc.last].at, arc) < std::numbers::pi;
+    double turned = 0;
+    for (std::size_t i = arc.first; i < arc.last; ++i) turned += sweep_of(path_[i].at, path_[i + 1].at, arc);
+    return turned < less_than_rad;
   }
 
   const ArcRules& rules_;
@@ -161,7 +196,11 @@ void fit_arcs(const ArcRules& rules, Extrude& bead) {
       ++i;
       continue;
     }
-    bead.arcs.push_back(*arc);
+    const auto both = bead.arcs.empty() ? std::nullopt : fitter.joined(bead.arcs.back(), *arc);
+    if (both)
+      bead.arcs.back() = *both;
+    else
+      bead.arcs.push_back(*arc);
     i = arc->last;
   }
 }
@@ -174,15 +213,18 @@ double deviation_um(const Extrude& bead, const Arc& arc) {
   return most;
 }
 
-Polyline chords_of(Firmware firmware, const Extrude& bead, const Arc& arc) {
+double chord_um(Firmware firmware, std::optional<Um> segment, double radius_um) {
   constexpr double klipper_um = 1000, marlin_least_um = 100, marlin_most_um = 1000, marlin_circle = 72, reprap_um = 5;
+  if (segment) return *segment;
+  if (firmware == Firmware::klipper) return klipper_um;
+  if (firmware == Firmware::reprapfirmware) return std::sqrt(8 * radius_um * reprap_um);
+  return std::clamp(2 * std::numbers::pi * radius_um / marlin_circle, marlin_least_um, marlin_most_um);
+}
+
+Polyline chords_of(Firmware firmware, std::optional<Um> segment, const Extrude& bead, const Arc& arc) {
   const Point from = bead.path[arc.first].at, to = bead.path[arc.last].at;
   const double radius = distance(arc.centre, from), sweep = sweep_of(from, to, arc), length = radius * sweep;
-  const double chord = firmware == Firmware::klipper ? klipper_um
-                       : firmware == Firmware::reprapfirmware
-                           ? std::sqrt(8 * radius * reprap_um)
-                           : std::clamp(2 * std::numbers::pi * radius / marlin_circle, marlin_least_um, marlin_most_um);
-  const int count = std::max(1, static_cast<int>(length / chord));
+  const int count = pieces_of(length, chord_um(firmware, segment, radius));
   const double begin = angle_about(arc.centre, from);
   Polyline out;
   for (int i = 1; i < count; ++i) {

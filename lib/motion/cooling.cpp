@@ -33,12 +33,13 @@ Slowdown slowdown_for(const Rules& rules, const std::vector<Move>& moves, double
 }
 
 void slow_down(LayerPlan& layer, const Slowdown& slowdown) {
-  const overloaded slow{
-      [&](Extrude& bead) {
-        bead.speed_mm_s = slowdown.of(bead.speed_mm_s);
-        for (auto& v : bead.segment_speed_mm_s) v = static_cast<float>(slowdown.of(static_cast<double>(v)));
-      },
-      LeavesAlone<Travel, Retract, Prime, SetFan, ObjectStart, ObjectEnd, ToolChange, SetTemperature, Feed, Pause>{}};
+  const overloaded slow{[&](Extrude& bead) {
+                          bead.speed_mm_s = slowdown.of(bead.speed_mm_s);
+                          for (auto& v : bead.segment_speed_mm_s)
+                            v = static_cast<float>(slowdown.of(static_cast<double>(v)));
+                        },
+                        LeavesAlone<Travel, Retract, Prime, SetFan, ObjectStart, ObjectEnd, ToolChange, SetTemperature,
+                                    Feed, Pause, SetPressureAdvance>{}};
   for (auto& step : layer.steps) std::visit(slow, step);
 }
 
@@ -125,12 +126,12 @@ void set_fan(const CoolingSettings& cooling, LayerPlan& layer, double seconds) {
   steps.emplace_back(SetFan{share});
   double now = share;
   std::size_t next = 0;  // of `wanted`
-  const overloaded before{
-      [&](const Extrude&) {
-        const double fan = wanted[next++];
-        if (fan != now) steps.emplace_back(SetFan{now = fan});
-      },
-      LeavesAlone<Travel, Retract, Prime, SetFan, ObjectStart, ObjectEnd, ToolChange, SetTemperature, Feed, Pause>{}};
+  const overloaded before{[&](const Extrude&) {
+                            const double fan = wanted[next++];
+                            if (fan != now) steps.emplace_back(SetFan{now = fan});
+                          },
+                          LeavesAlone<Travel, Retract, Prime, SetFan, ObjectStart, ObjectEnd, ToolChange,
+                                      SetTemperature, Feed, Pause, SetPressureAdvance>{}};
   for (auto& step : layer.steps) {
     std::visit(before, step);
     steps.push_back(std::move(step));

@@ -21,9 +21,36 @@ struct Move {
   bool prints = false;     ///< may be slowed down to let a layer set
 };
 
+/// A way in mm.
+struct Way {
+  double x = 0, y = 0, z = 0;
+};
+/// What is asked of a move.
+struct Asked {
+  double speed_mm_s = 0, acceleration_mm_s2 = 0;
+  double e_mm = 0;  ///< of filament, spread evenly
+};
+/// A move within what the axes can do; nothing: it goes nowhere.
+std::optional<Move> move_along(const MachineSettings& machine, Way way, const Asked& asked);
+
+/// Seconds that the extruder alone takes for so much filament, from rest to rest.
+double extruder_seconds(double mm, double speed_mm_s, const MachineSettings& machine);
+
 /// The moves of a layer with speeds, within what the axes can do.
 /// Pre: set_speeds has been applied.
-std::vector<Move> moves_of(const AllRules& all, const LayerPlan& layer, std::optional<Point3> start);
+std::vector<Move> moves_of(const AllRules& all, const LayerPlan& layer, std::optional<Point3> start,
+                           const MachineSettings& machine);
+
+/// The moves of one bead, its ways to it and from it left out, and the junctions that each ends at.
+struct BeadMoves {
+  std::vector<Move> moves{};
+  std::vector<std::size_t> ends{};
+};
+/// Pre: the bead has a speed, and no arcs yet.
+BeadMoves moves_of(const Rules& rules, const Extrude& bead);
+
+/// How fast a corner may be taken by the rule of the machine's firmware, mm/s.
+double corner_speed_mm_s(const MachineSettings& machine, const Move& in, const Move& out);
 
 /// Printing slowed down: nothing is printed faster than this, slower speeds stay. So what is fastest gives first, and
 /// outer walls keep their speed, on which their gloss hangs, as long as anything else has time to give.
@@ -43,7 +70,8 @@ struct Slowdown {
 /// Source: Klipper docs/Kinematics.md ("Look-ahead", "Junction speed", "Smoothed look-ahead"), Config_Reference.md;
 /// Marlin docs "Configuring Marlin: Jerk, Junction Deviation", planner; S. Jeon 2011, junction deviation;
 /// RepRapFirmware docs M566. Cost: O(moves).
+/// @param steady of each move, the seconds at its highest speed; null: not asked for
 void seconds_of(const MachineSettings& machine, const std::vector<Move>& moves, const Slowdown& slowdown,
-                std::vector<double>& seconds);
+                std::vector<double>& seconds, std::vector<double>* steady = nullptr);
 
 }  // namespace weft::motion

@@ -5,7 +5,10 @@
 #include "model/flow.h"
 #include "motion/arcs.h"
 #include "motion/cooling.h"
+#include "motion/extrusion_rate.h"
+#include "motion/fan_lead.h"
 #include "motion/kinematics.h"
+#include "motion/pressure_advance.h"
 #include "motion/speeds.h"
 
 #include <algorithm>
@@ -72,6 +75,7 @@ void count_times(const LayerPlan& layer, ToolId loaded, const std::vector<Move>&
       [&](const Feed&) { return &s.travel.retraction_s; },
       // These take no move, and what they wait for nobody knows.
       [&](const SetFan&) { return &of_the_user; },
+      [&](const SetPressureAdvance&) { return &of_the_user; },
       [&](const ObjectStart&) { return &of_the_user; },
       [&](const ObjectEnd&) { return &of_the_user; },
       [&](const SetTemperature&) { return &of_the_user; },
@@ -106,6 +110,20 @@ void add_fans(const LayerPlan& layer, std::vector<float>& step_s) {
   step_s = std::move(out);
 }
 
+/// Curves are told as arcs, as far as the settings of each bead ask for it.
+void tell_arcs(const AllRules& all, LayerPlan& layer) {
+  const auto& own = of_scope(all, layer.scope);
+  const Box room = own.arc_tolerance ? box_of(reach_area(own.machine)).grown(-2 * *own.arc_tolerance) : Box{};
+  StopNowAndThen stop(16);
+  for (Step& step : layer.steps) {
+    auto* bead = std::get_if<Extrude>(&step);
+    if (bead == nullptr || bead->path.size() < 2) continue;
+    stop.step();
+    const Rules& rules = of_scope(all, bead->scope);
+    if (rules.arc_tolerance) fit_arcs({*rules.arc_tolerance, room, rules.machine.firmware, rules.arc_segment}, *bead);
+  }
+}
+
 double area_of(const Rules& rules) {
   const double diameter_mm = to_mm(rules.material.filament_diameter);
   return std::numbers::pi / 4 * diameter_mm * diameter_mm;
@@ -134,6 +152,12 @@ void count_tools(const AllRules& all, const Rules& layer, const std::vector<Prim
   s.filament_mm = s.filament_mm3 = s.filament_g = 0;  // each tool has a filament of its own
   for (const auto& tool : s.tools)
     s.filament_mm += tool.filament_mm, s.filament_mm3 += tool.filament_mm3, s.filament_g += tool.filament_g;
+}
+
+/// What is pushed forward beside what was drawn back: it left the nozzle while it ironed.
+void count_extra(const Prime& prime, ToolId loaded, Statistics& s) {
+  s.features[static_cast<std::size_t>(Role::ironing)].mm3 += prime.extra_mm3;
+  if (loaded != any_tool) s.tool(loaded).filament_mm3 += prime.extra_mm3;
 }
 
 Statistics count(const AllRules& all, const Rules& rules, const LayerPlan& layer, std::optional<Point3> at) {
@@ -168,7 +192,7 @@ Statistics count(const AllRules& all, const Rules& rules, const LayerPlan& layer
                                 if (!retract.wipe.empty())
                                   at = Point3{retract.wipe.back().x, retract.wipe.back().y, at ? at->z : layer.z};
                               },
-                              [&](const Prime&) { prime(); },
+                              [&](const Prime& p) { prime(), count_extra(p, loaded, s); },
                               [&](const ToolChange& change) {
                                 ++s.tool(loaded = change.tool).changes;
                                 changed = true;
@@ -181,7 +205,7 @@ Statistics count(const AllRules& all, const Rules& rules, const LayerPlan& layer
                                   s.tool(loaded).filament_mm3 += mm3, s.tool(loaded).tower_mm3 += mm3;
                                 at = Point3{feed.to.x, feed.to.y, at ? at->z : layer.z};
                               },
-                              LeavesAlone<SetFan, ObjectStart, ObjectEnd, SetTemperature, Pause>{}};
+                              LeavesAlone<SetFan, ObjectStart, ObjectEnd, SetTemperature, Pause, SetPressureAdvance>{}};
   StopNowAndThen stop(64);
   for (const auto& step : layer.steps) {
     stop.step();
@@ -211,27 +235,79 @@ Rules rules_of(const Settings& s, const Settings* above) {
           s.tools.tool_change_time,
           s.tools.switch_extruder_retraction_amount,
           s.tools.switch_extruder_extra_prime_amount,
-          s.gcode.arc_fitting ? std::optional(s.gcode.arc_tolerance) : std::nullopt};
+          s.gcode.arc_fitting ? std::optional(s.gcode.arc_tolerance) : std::nullopt,
+          in_silent_mode(s.machine),
+          s.gcode.arc_segment_length};
 }
+
+namespace {
+
+/// The moves of a layer and the seconds that each takes, slowed down for it to cool; its speeds are what they are then.
+struct Timed {
+  std::vector<Move> moves;
+  std::vector<double> seconds;
+  double sum() const { return std::accumulate(seconds.begin(), seconds.end(), 0.0); }
+};
+
+/// @param machine that plans it; null: that of the layer
+Timed timed(const AllRules& all, const LayerPlan& layer, std::optional<Point3> start,
+            const MachineSettings* machine = nullptr) {
+  if (machine == nullptr) machine = &of_scope(all, layer.scope).machine;
+  Timed out{moves_of(all, layer, start, *machine), {}};
+  seconds_of(*machine, out.moves, {}, out.seconds);
+  return out;
+}
+
+Timed cooled(const AllRules& all, LayerPlan& layer, std::optional<Point3> start) {
+  const Rules& rules = of_scope(all, layer.scope);
+  Timed out = timed(all, layer, start);
+  const auto slowdown = slowdown_for(rules, out.moves, out.sum());
+  if (slowdown.slows()) {
+    slow_down(layer, slowdown);
+    seconds_of(rules.machine, out.moves, slowdown, out.seconds);
+  }
+  return out;
+}
+
+/// What is told between the steps: fan, and pressure advance.
+void tell_between(const AllRules& all, const Timed& time, LayerPlan& layer, std::vector<float>& step_s) {
+  const Rules& rules = of_scope(all, layer.scope);
+  const double lead_s = rules.cooling.cool_fan_lead;
+  const bool tells_pressure = tells_pressure_advance(all, layer);
+  if (!all.tools.empty() || lead_s > 0 || tells_pressure) step_s = step_seconds(layer, time.moves, time.seconds);
+  if (tells_pressure) {
+    TimedSteps steps{layer.steps, std::move(step_s)};
+    tell_pressure_advance(all, layer, time.moves, time.seconds, steps);
+    layer.steps = std::move(steps.steps), step_s = std::move(steps.seconds);
+  }
+  set_fan(rules.cooling, layer, time.sum());
+  if (!step_s.empty()) add_fans(layer, step_s);
+  if (lead_s > 0) {
+    TimedSteps steps{std::move(layer.steps), std::move(step_s)};
+    lead_fan(lead_s, steps);
+    layer.steps = std::move(steps.steps), step_s = std::move(steps.seconds);
+  }
+  if (all.tools.empty()) step_s.clear();
+}
+
+}  // namespace
 
 PlannedLayer plan_layer(AllRules all, LayerPlan layer, std::optional<Point3> start) {
   set_speeds(all, layer, start);
-  const Rules& rules = of_scope(all, layer.scope);
-  auto moves = moves_of(all, layer, start);
-  std::vector<double> seconds;
-  seconds_of(rules.machine, moves, {}, seconds);
-  const double seconds_now = std::accumulate(seconds.begin(), seconds.end(), 0.0);
-  const auto slowdown = slowdown_for(rules, moves, seconds_now);
-  if (slowdown.slows()) {
-    slow_down(layer, slowdown);
-    seconds_of(rules.machine, moves, slowdown, seconds);
+  const bool even_rate = limits_extrusion_rate(all, layer);
+  if (!even_rate) tell_arcs(all, layer);
+  Timed time = cooled(all, layer, start);
+  if (even_rate) {
+    limit_extrusion_rate(all, layer);
+    tell_arcs(all, layer);
+    time = timed(all, layer, start);
   }
   PlannedLayer out;
-  out.statistics = count(all, rules, layer, start);
-  count_times(layer, all.loaded, moves, seconds, out.statistics);
-  if (!all.tools.empty()) out.step_s = step_seconds(layer, moves, seconds);
-  set_fan(rules.cooling, layer, out.statistics.print_time_s);
-  if (!out.step_s.empty()) add_fans(layer, out.step_s);
+  out.statistics = count(all, of_scope(all, layer.scope), layer, start);
+  count_times(layer, all.loaded, time.moves, time.seconds, out.statistics);
+  if (const auto& silent = of_scope(all, layer.scope).silent)
+    out.statistics.silent_layer_s.push_back(timed(all, layer, start, &*silent).sum());
+  tell_between(all, time, layer, out.step_s);
   out.plan = std::move(layer);
   return out;
 }

@@ -21,10 +21,12 @@ struct Rules {
   CoolingSettings cooling;
   /// Of travels above the first layer, mm/s: beads that follow their width get no faster. Absent: as in speeds.
   std::optional<double> speed_travel_above{};
-  double tool_change_s = 0;           ///< to load this tool
-  Um amount_to_change = 0;            ///< drawn back before another one is
-  Um extra_prime_to_change = 0;       ///< pushed forward beyond that
-  std::optional<Um> arc_tolerance{};  ///< curves are told as arcs (motion/arcs.h); absent: they are not
+  double tool_change_s = 0;                 ///< to load this tool
+  Um amount_to_change = 0;                  ///< drawn back before another one is
+  Um extra_prime_to_change = 0;             ///< pushed forward beyond that
+  std::optional<Um> arc_tolerance{};        ///< curves are told as arcs (motion/arcs.h); absent: they are not
+  std::optional<MachineSettings> silent{};  ///< the machine in its silent mode; absent: it has none
+  std::optional<Um> arc_segment{};          ///< pieces that firmware cuts arcs into; absent: as its documents say
 };
 
 /// @param above what holds above the first layer: a bead's nominal width is that of the others. Null: the same

@@ -129,15 +129,19 @@ double corner_speed2(const MachineSettings& machine, const Move& in, const Move&
   return v * v;
 }
 
-double trapezoid_s(double length, double cruise2, double a, double entry2, double exit2) {
+/// Seconds of a move, and of them those at its highest speed.
+struct Trapezoid {
+  double seconds = 0, steady = 0;
+};
+Trapezoid trapezoid(double length, double cruise2, double a, double entry2, double exit2) {
   const double entry = std::sqrt(entry2), exit = std::sqrt(exit2);
   const double ramps = (2 * cruise2 - entry2 - exit2) / (2 * a);
   if (ramps <= length) {
-    const double v = std::sqrt(cruise2);
-    return (2 * v - entry - exit) / a + (length - ramps) / v;
+    const double v = std::sqrt(cruise2), steady = (length - ramps) / v;
+    return {(2 * v - entry - exit) / a + steady, steady};
   }
   const double peak = std::sqrt(a * length + 0.5 * (entry2 + exit2));
-  return (2 * peak - entry - exit) / a;
+  return {(2 * peak - entry - exit) / a, 0};
 }
 
 double gain2(const Move& m) {  // what acceleration adds to the square of the speed along a move
@@ -179,7 +183,12 @@ class SmoothedStretch {
     std::reverse(gains_more_.begin(), gains_more_.end());
   }
 
-  void times(std::span<double> seconds) const {
+  void times(std::span<double> seconds, std::span<double> steady) const {
+    const auto take = [&](std::size_t i, double cruise2) {
+      const Trapezoid t = time(i, cruise2);
+      seconds[i] = t.seconds;
+      if (!steady.empty()) steady[i] = t.steady;
+    };
     double peak2 = 0;
     std::size_t after = n_;  // of the moves [i + 1, after) it is known that they only brake
     for (std::size_t i = n_; i-- > 0;) {
@@ -190,9 +199,9 @@ class SmoothedStretch {
       double least2 = peak2;
       for (std::size_t k = i + 1; k < after; ++k) {
         least2 = std::min(least2, start2_[k]);
-        seconds[k] = time(k, least2);
+        take(k, least2);
       }
-      seconds[i] = time(i, std::min({0.5 * (start2_[i] + reach2_[i]), v2, peak2}));
+      take(i, std::min({0.5 * (start2_[i] + reach2_[i]), v2, peak2}));
       after = i;
     }
   }
@@ -203,9 +212,9 @@ class SmoothedStretch {
     const double asked = m.asked_mm_s2 > 0 ? m.asked_mm_s2 : m.acceleration_mm_s2;
     return std::min(gain2(m), 2 * asked * share * m.length_mm);
   }
-  double time(std::size_t i, double cruise2) const {
-    return trapezoid_s(moves_[i].length_mm, cruise2, moves_[i].acceleration_mm_s2, std::min(start2_[i], cruise2),
-                       std::min(start2_[i + 1], cruise2));
+  Trapezoid time(std::size_t i, double cruise2) const {
+    return trapezoid(moves_[i].length_mm, cruise2, moves_[i].acceleration_mm_s2, std::min(start2_[i], cruise2),
+                     std::min(start2_[i + 1], cruise2));
   }
 
   std::span<const Move> moves_;
@@ -216,7 +225,7 @@ class SmoothedStretch {
 };
 
 void klipper_seconds(const MachineSettings& machine, const std::vector<Move>& moves, std::span<const double> corners2,
-                     std::span<const double> speed, std::vector<double>& seconds) {
+                     std::span<const double> speed, std::vector<double>& seconds, std::span<double> steady) {
   for (std::size_t begin = 0; begin < moves.size();) {
     if (moves[begin].length_mm == 0) {
       seconds[begin] = moves[begin].pause_s;
@@ -228,17 +237,22 @@ void klipper_seconds(const MachineSettings& machine, const std::vector<Move>& mo
     const std::size_t count = end - begin;
     const SmoothedStretch stretch(machine, std::span(moves).subspan(begin, count), corners2.subspan(begin, count),
                                   speed.subspan(begin, count));
-    stretch.times(std::span(seconds).subspan(begin, count));
+    stretch.times(std::span(seconds).subspan(begin, count), steady.empty() ? steady : steady.subspan(begin, count));
     begin = end;
   }
 }
 
 }  // namespace
 
+double corner_speed_mm_s(const MachineSettings& machine, const Move& in, const Move& out) {
+  return std::sqrt(corner_speed2(machine, in, out, in.speed_mm_s, out.speed_mm_s));
+}
+
 void seconds_of(const MachineSettings& machine, const std::vector<Move>& moves, const Slowdown& slowdown,
-                std::vector<double>& seconds) {
+                std::vector<double>& seconds, std::vector<double>* steady) {
   const std::size_t n = moves.size();
   seconds.assign(n, 0);
+  if (steady != nullptr) steady->assign(n, 0);
   std::vector<double> speed(n), entry2(n + 1, 0.0);  // entry2[i]: between moves i − 1 and i
   for (std::size_t i = 0; i < n; ++i)
     speed[i] = moves[i].prints ? slowdown.of(moves[i].speed_mm_s) : moves[i].speed_mm_s;
@@ -251,16 +265,21 @@ void seconds_of(const MachineSettings& machine, const std::vector<Move>& moves, 
     const double v = std::min(v_in, v_out);
     entry2[i] = std::min(v * v, corner_speed2(machine, in, out, v_in, v_out));
   }
-  if (machine.firmware == Firmware::klipper) return klipper_seconds(machine, moves, entry2, speed, seconds);
+  if (machine.firmware == Firmware::klipper)
+    return klipper_seconds(machine, moves, entry2, speed, seconds, steady ? std::span(*steady) : std::span<double>());
   const auto gain = [&](std::size_t i) { return moves[i].length_mm > 0 ? gain2(moves[i]) : 1e18; };
   for (std::size_t i = n; i-- > 0;) entry2[i] = std::min(entry2[i], entry2[i + 1] + gain(i));
   if (const int blocks = blocks_of(machine); blocks > 0) see_only(static_cast<std::size_t>(blocks) - 1, moves, entry2);
   for (std::size_t i = 0; i < n; ++i) entry2[i + 1] = std::min(entry2[i + 1], entry2[i] + gain(i));
   for (std::size_t i = 0; i < n; ++i) {
     const auto& m = moves[i];
-    seconds[i] = m.length_mm == 0
-                     ? m.pause_s
-                     : trapezoid_s(m.length_mm, speed[i] * speed[i], m.acceleration_mm_s2, entry2[i], entry2[i + 1]);
+    if (m.length_mm == 0) {
+      seconds[i] = m.pause_s;
+      continue;
+    }
+    const auto t = trapezoid(m.length_mm, speed[i] * speed[i], m.acceleration_mm_s2, entry2[i], entry2[i + 1]);
+    seconds[i] = t.seconds;
+    if (steady != nullptr) (*steady)[i] = t.steady;
   }
 }
 

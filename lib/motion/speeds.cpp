@@ -3,7 +3,7 @@
 
 #include "core/stop.h"
 #include "model/flow.h"
-#include "motion/arcs.h"
+#include "motion/even_curves.h"
 #include "motion/resample.h"
 
 #include <algorithm>
@@ -67,42 +67,15 @@ double with_overhang(const Rules& rules, const Extrude& bead, double speed_mm_s)
   return std::min(speed_mm_s, (rules.speeds.*over_air_speeds.at(bead.air_quarters - 1U)).of(speed_mm_s));
 }
 
-/// The largest speed at which a segment of that area and length may follow one of flow rate q (and half duration t)
-/// when the rate may grow by `slope` mm³/s²: area·v = q + slope·(t + length/2v).
-double reachable_speed(double area, double length_mm, double q, double half_s, double slope) {
-  const double b = q + slope * half_s, c = 0.5 * slope * length_mm;
-  return (b + std::sqrt(b * b + 4 * area * c)) / (2 * area);
-}
-
-struct Segment {
-  double length_mm, area_mm2, area_change_mm2, speed_mm_s;
-};
-
-/// Lowers speeds until the flow rate changes no faster than `slope`, mm³/s²: within each segment, then from each to the
-/// next in both directions (the faster of two gives way, so that nothing is ever raised). Not below `least`: where the
-/// width jumps, crawling would do more harm than the jump.
-void limit_slope(std::vector<Segment>& segments, double slope, double least_mm_s) {
-  const auto lower = [&](Segment& s, double v) { s.speed_mm_s = std::min(s.speed_mm_s, std::max(v, least_mm_s)); };
-  for (auto& s : segments)
-    if (s.area_change_mm2 > 0) lower(s, std::sqrt(slope * s.length_mm / s.area_change_mm2));
-  const auto follow = [&](const Segment& before, Segment& s) {
-    if (s.area_mm2 <= 0 || before.speed_mm_s <= 0) return;
-    const double half_s = 0.5 * before.length_mm / before.speed_mm_s;
-    lower(s, reachable_speed(s.area_mm2, s.length_mm, before.area_mm2 * before.speed_mm_s, half_s, slope));
-  };
-  for (std::size_t i = 1; i < segments.size(); ++i) follow(segments[i - 1], segments[i]);
-  for (std::size_t i = segments.size(); i-- > 1;) follow(segments[i], segments[i - 1]);
-}
-
 /// Joins neighbours of nearly the same speed at the lowest of them; one speed for the whole bead where that will do.
-void store(const std::vector<Segment>& segments, Extrude& bead) {
+void store(const std::vector<double>& segments, Extrude& bead) {
   std::vector<float> speeds(segments.size());
   bool one = true;
   for (std::size_t i = 0; i < segments.size();) {
-    double least = segments[i].speed_mm_s, most = least;
+    double least = segments[i], most = least;
     std::size_t end = i + 1;
     for (; end < segments.size(); ++end) {
-      const double v = segments[end].speed_mm_s;
+      const double v = segments[end];
       if (std::max(most, v) > same_speed * std::min(least, v)) break;
       least = std::min(least, v), most = std::max(most, v);
     }
@@ -136,6 +109,14 @@ double feature_acceleration_mm_s2(const Rules& rules, Role role) {
   return std::min({a, rules.machine.machine_max_acceleration_x, rules.machine.machine_max_acceleration_y});
 }
 
+double bead_acceleration_mm_s2(const Rules& rules, const Extrude& bead) {
+  const double a = feature_acceleration_mm_s2(rules, bead.role);
+  constexpr std::uint8_t more_than_half = 3;  // quarters
+  if (bead.air_quarters < more_than_half || !rules.speeds.acceleration_overhang) return a;
+  return std::min({*rules.speeds.acceleration_overhang, rules.machine.machine_max_acceleration_x,
+                   rules.machine.machine_max_acceleration_y});
+}
+
 double travel_acceleration_mm_s2(const Rules& rules) {
   return std::min({rules.speeds.acceleration_travel.value_or(rules.speeds.acceleration_print),
                    rules.machine.machine_max_acceleration_x, rules.machine.machine_max_acceleration_y});
@@ -167,14 +148,11 @@ void set_bead_speed(const Rules& rules, Extrude& bead) {
     bead.speed_mm_s = wanted(area_mm2(path[0], height_mm));
     return;
   }
-  std::vector<Segment> segments(path.size() - 1);
+  std::vector<double> segments(path.size() - 1);
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     const double a = area_mm2(path[i], height_mm), b = area_mm2(path[i + 1], height_mm);
-    segments[i] = {distance(path[i].at, path[i + 1].at) / 1000.0, 0.5 * (a + b) * share, std::abs(a - b) * share,
-                   std::min(wanted(a), wanted(b))};
+    segments[i] = std::min(wanted(a), wanted(b));
   }
-  if (rules.speeds.max_extrusion_rate_slope)
-    limit_slope(segments, *rules.speeds.max_extrusion_rate_slope, rules.cooling.cool_min_speed);
   store(segments, bead);
 }
 
@@ -191,12 +169,12 @@ void set_wipe(const Rules& rules, double speed_mm_s, std::optional<Point3> at, R
                             : std::max(rules.retraction.retract_before_wipe / 100.0, 1 - while_wiping_mm / amount_mm);
 }
 
-/// Moves, speed and arcs.
-void set_bead(const Rules& rules, const Box& arc_room, Extrude& bead) {
+/// Moves, speed and acceleration.
+void set_bead(const Rules& rules, Extrude& bead) {
   if (bead.below.empty()) resample(bead.path);
   set_bead_speed(rules, bead);
-  bead.acceleration_mm_s2 = rules.speeds.acceleration_enabled ? feature_acceleration_mm_s2(rules, bead.role) : 0;
-  if (rules.arc_tolerance) fit_arcs({*rules.arc_tolerance, arc_room}, bead);
+  bead.acceleration_mm_s2 = rules.speeds.acceleration_enabled ? bead_acceleration_mm_s2(rules, bead) : 0;
+  if (rules.speeds.speed_curvature_even > 0 && bead.role == Role::outer_wall) even_curves(rules, bead);
 }
 }  // namespace
 
@@ -209,7 +187,6 @@ void set_speeds(AllRules all, LayerPlan& layer, std::optional<Point3> start) {
     travel.z_speed_mm_s = std::min(rules.speeds.speed_z_hop, rules.machine.machine_max_speed_z);
     travel.acceleration_mm_s2 = write_accelerations ? travel_acceleration_mm_s2(rules) : 0;
   };
-  const Box arc_room = rules.arc_tolerance ? box_of(reach_area(rules.machine)).grown(-2 * *rules.arc_tolerance) : Box{};
   std::vector<Step> steps;
   steps.reserve(layer.steps.size() + 8);
   auto at = start;
@@ -224,7 +201,7 @@ void set_speeds(AllRules all, LayerPlan& layer, std::optional<Point3> start) {
           set_travel(travel);
           steps.emplace_back(std::move(travel));
         }
-        set_bead(of_scope(all, bead.scope), arc_room, bead);
+        set_bead(of_scope(all, bead.scope), bead);
         at = place_of(bead, bead.path.size() - 1, layer.z);
         return true;
       },
@@ -248,7 +225,7 @@ void set_speeds(AllRules all, LayerPlan& layer, std::optional<Point3> start) {
         if (feed.moves) at = Point3{feed.to.x, feed.to.y, at ? at->z : layer.z};
         return true;
       },
-      Stays<Prime, SetFan, ObjectStart, ObjectEnd, SetTemperature, Pause>{},
+      Stays<Prime, SetFan, ObjectStart, ObjectEnd, SetTemperature, Pause, SetPressureAdvance>{},
   };
   StopNowAndThen stop(16);
   for (auto& step : layer.steps) {

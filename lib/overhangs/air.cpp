@@ -38,4 +38,19 @@ double Air::share(Point p, Point side) {
   return in_air ? sum + 1 - begin : sum;
 }
 
+double Air::longest_um(Point a, Point b) {
+  const double length = distance(a, b);
+  index_.crossings(a, b, crossings_);
+  if (crossings_.empty()) return at(lerp(a, b, 0.5)) ? length : 0;
+  bool in_air = !crossings_.front().enters;
+  double longest = 0, begin = 0;
+  for (const auto& crossing : crossings_) {
+    if (in_air) longest = std::max(longest, crossing.along - begin);
+    in_air = crossing.enters, begin = crossing.along;
+  }
+  if (in_air) longest = std::max(longest, 1 - begin);
+  last_.reset();
+  return longest * length;
+}
+
 }  // namespace weft::overhangs

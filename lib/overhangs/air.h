@@ -28,6 +28,9 @@ class Air {
   /// The share of the line from p − side to p + side that lies in the air.
   double share(Point p, Point side);
 
+  /// The longest piece of the line from a to b that lies in the air, µm.
+  double longest_um(Point a, Point b);
+
  private:
   geometry::SegmentIndex index_;
   std::optional<Point> last_;  // that was asked about

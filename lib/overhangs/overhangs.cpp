@@ -205,4 +205,17 @@ void mark(std::span<const Strand> strands, Regions over_air, LayerPlan& layer) {
   layer.steps = std::move(steps);
 }
 
+double longest_span_mm(const Regions& over_air, const LayerPlan& layer) {
+  if (over_air.empty()) return 0;
+  Air air(over_air);
+  double longest_um = 0;
+  for (const Step& step : layer.steps) {
+    const auto* bead = std::get_if<Extrude>(&step);
+    if (bead == nullptr || !row_of(bead->role).over_air) continue;
+    for (std::size_t i = 1; i < bead->path.size(); ++i)
+      longest_um = std::max(longest_um, air.longest_um(bead->path[i - 1].at, bead->path[i].at));
+  }
+  return longest_um / 1000;
+}
+
 }  // namespace weft::overhangs

@@ -34,4 +34,8 @@ Regions worth_keeping(Regions over_air);
 ///       that is near it.
 void mark(std::span<const Strand> strands, Regions over_air, LayerPlan& layer);
 
+/// The longest way over air of what is laid straight there: bridges, and strands of walls; mm.
+/// @param over_air of the layer
+double longest_span_mm(const Regions& over_air, const LayerPlan& layer);
+
 }  // namespace weft::overhangs

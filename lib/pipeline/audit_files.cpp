@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/audit_files.h"
 
+#include "core/file_bytes.h"
+#include "preview/file_time.h"
 #include "tasks/parallel.h"
 #include "tasks/tasks.h"
 
@@ -12,6 +14,7 @@ std::vector<AuditOutcome> audit_files(const std::vector<AuditJob>& jobs, unsigne
     const auto& s = *jobs[i].settings;
     try {
       outcome.report = audit::examine(s.machine, s.material, s.audit, jobs[i].file);
+      if (jobs[i].with_time) outcome.seconds = preview::time_of(FileBytes(jobs[i].file.string()).view(), s).seconds;
     } catch (const Error& error) {
       outcome.error = error;
     }

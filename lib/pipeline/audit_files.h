@@ -14,12 +14,15 @@ namespace weft {
 struct AuditJob {
   std::filesystem::path file;
   const Settings* settings = nullptr;
+  bool with_time =
+      false;  ///< what its moves take is reckoned, too: in memory for those between two rests, and its bytes
 };
 
 /// What came of it: a report, or why there is none.
 struct AuditOutcome {
   std::optional<audit::Report> report;
   std::optional<Error> error;
+  std::optional<double> seconds{};  ///< of its moves, where it was asked for
 };
 
 /// Audits files of any slicer, several at a time, in constant memory each. Outcomes are in the order of the jobs; one

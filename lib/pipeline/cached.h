@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include "cache/stage_cache.h"
 #include "core/build_id.h"
 #include "core/hash.h"
 #include "core/stop.h"
 #include "pipeline/codec.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/sample.h"
-#include "pipeline/stage_cache.h"
 #include "pipeline/stage_table.h"
 #include "pipeline/stopwatch.h"
 #include "settings/exact.h"
@@ -93,9 +93,12 @@ void begin(const Watch& watch) {
   if (!row.says.empty()) watch.progress(row.says, row.share);
 }
 
-/// One stage of a job: announced, timed, and taken from the cache where that has it.
+/// One stage of a job: announced, timed, and taken from the cache where that has it. (A return type in words would put
+/// the whole table of stages into the function's name, and into whatever compilers say of it.)
+/// @return the Result of what its row says
 template <Stage stage, class Key, class Make>
-Result<ResultOf<stage>> run_stage(const Running& job, Key key, Make make) {
+auto run_stage(const Running& job, Key key, Make make) {
+  static_assert(std::is_same_v<std::invoke_result_t<Make&>, ResultOf<stage>>, "a stage makes what its row says");
   begin<stage>(job.watch);
   const Stopwatch stopwatch(job.report.timings_ms[stage]);
   return cached(job.cache, key, make);

@@ -33,8 +33,10 @@ template <>
 inline constexpr auto fields<mesh::RangeOfItem> = listed(&mesh::RangeOfItem::from, &mesh::RangeOfItem::to,
                                                          &mesh::RangeOfItem::settings);
 template <>
+inline constexpr auto fields<mesh::HeightAt> = listed(&mesh::HeightAt::z, &mesh::HeightAt::height);
+template <>
 inline constexpr auto fields<mesh::ItemOfFile> = listed(&mesh::ItemOfFile::name, &mesh::ItemOfFile::settings,
-                                                        &mesh::ItemOfFile::ranges);
+                                                        &mesh::ItemOfFile::ranges, &mesh::ItemOfFile::heights);
 template <>
 inline constexpr auto fields<mesh::PlateOfFile> = listed(&mesh::PlateOfFile::number, &mesh::PlateOfFile::name,
                                                          &mesh::PlateOfFile::objects);
@@ -47,6 +49,7 @@ template <>
 inline constexpr auto fields<pipeline::FilledLayer> = listed(&pipeline::FilledLayer::top, &pipeline::FilledLayer::skin,
                                                              &pipeline::FilledLayer::sparse,
                                                              &pipeline::FilledLayer::beads,
+                                                             &pipeline::FilledLayer::inner_beads,
                                                              &pipeline::FilledLayer::notices);
 
 template <>

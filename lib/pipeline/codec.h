@@ -24,6 +24,7 @@ inline constexpr int codec_version = 3;
 struct FilledLayer {
   Regions top, skin, sparse;
   Beads beads;
+  std::vector<std::uint32_t> inner_beads;  ///< how many of the last are of each inner area (model/area.h)
   Notices notices;
 };
 

@@ -20,6 +20,7 @@ void tell_infill(const Settings& settings, const PrintedLayers& layers, Report& 
   constexpr auto choices = choices_of(InfillPattern{});
   to.pattern = choices[static_cast<std::size_t>(settings.infill.infill_pattern)].name;
   to.mm3 = f.mm3, to.density_percent = 100 * f.density(), to.density_spread_percent = 100 * f.density_spread;
+  to.length_spread_percent = 100 * f.length_spread;
   to.fabric = f.fabric;
   to.over_air_percent = f.looked_mm > 0 ? 100 * f.over_air_mm / f.looked_mm : 0;
   to.locality = f.locality, to.box_dimension = f.box_dimension;

@@ -79,21 +79,37 @@ std::vector<Areas> areas_of_one(const ObjectScopes& scopes, const std::vector<sl
 
 namespace {
 
+/// What of a piece has other sparse infill.
+struct InnerPiece {
+  std::size_t mix = 0;
+  ScopeId scope = 0;
+  Regions regions;
+};
+
 /// Regions of a layer that are of one mix.
 struct Piece {
   std::size_t mix = 0;
   ScopeId scope = 0;
   Regions regions;
+  std::vector<InnerPiece> inner{};
 };
 
 bool modifies(VolumeKind kind) {
   return kind == VolumeKind::modifier || kind == VolumeKind::tint;
 }
 
+/// Does a modifier speak of sparse infill, and of nothing else?
+bool of_infill(const Volume& volume) {
+  return volume.kind == VolumeKind::modifier && volume.said.empty() && !volume.overlay.empty() &&
+         std::all_of(volume.overlay.values.begin(), volume.overlay.values.end(),
+                     [](const Laid& laid) { return laid.row->section == "infill"; });
+}
+
 /// How the volumes of an object make its layers.
 class Union {
  public:
-  Union(const Object& object, const ObjectScopes& scopes) : object_(object), scopes_(scopes), mixes_(mixes_of(object)) {
+  Union(const Object& object, const ObjectScopes& scopes, const Scopes& all_scopes)
+      : object_(object), scopes_(scopes), all_scopes_(all_scopes), mixes_(mixes_of(object)) {
     modified_ = std::any_of(object.volumes.begin(), object.volumes.end(),
                             [](const Volume& volume) { return modifies(volume.kind); });
   }
@@ -112,7 +128,10 @@ class Union {
         for (auto& piece : out) piece.regions = geometry::subtract(piece.regions, cuts[v]->layer.regions);
     }
     for (std::size_t v = 0; v < cuts.size(); ++v)
-      if (modifies(object_.volumes[v].kind) && cuts[v]) modify(v, cuts[v]->layer.regions, scopes, out);
+      if (modifies(object_.volumes[v].kind) && cuts[v] && !of_infill(object_.volumes[v]))
+        modify(v, cuts[v]->layer.regions, scopes, out);
+    for (std::size_t v = 0; v < cuts.size(); ++v)
+      if (cuts[v] && of_infill(object_.volumes[v])) modify_infill(v, cuts[v]->layer.regions, scopes, out);
     if (modified_) join(out);
     const auto nothing = [](const Piece& piece) { return piece.regions.empty(); };
     if (std::all_of(out.begin(), out.end(), nothing)) out.resize(std::min<std::size_t>(out.size(), 1));
@@ -147,21 +166,56 @@ class Union {
     const auto found = std::find(mixes_.begin(), mixes_.end(), mix);
     return found == mixes_.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - mixes_.begin()));
   }
+  /// The mix with one more modifier.
+  std::optional<std::size_t> with(std::size_t mix, std::size_t modifier) const {
+    Mix out = mixes_[mix];
+    out.modifiers.insert(std::upper_bound(out.modifiers.begin(), out.modifiers.end(), modifier), modifier);
+    return index_of(out);
+  }
   void modify(std::size_t modifier, const Regions& by, const std::vector<ScopeId>& scopes,
               std::vector<Piece>& pieces) const {
     if (by.empty()) return;
-    for (std::size_t i = 0, before = pieces.size(); i < before; ++i) {
-      Mix mix = mixes_[pieces[i].mix];
-      mix.modifiers.push_back(modifier);
-      const auto index = index_of(mix);
-      if (!index) continue;
-      // Where it changes nothing it divides nothing, unless what is said of it by name may hold over another's.
-      if (scopes[*index] == pieces[i].scope && object_.volumes[modifier].said.empty()) continue;
-      Regions inside = geometry::intersect(pieces[i].regions, by);
-      if (inside.empty()) continue;
-      pieces[i].regions = geometry::subtract(pieces[i].regions, by);
-      pieces.push_back({*index, scopes[*index], std::move(inside)});
+    for (std::size_t i = 0, before = pieces.size(); i < before; ++i) divide(i, modifier, by, scopes, pieces);
+  }
+  void divide(std::size_t i, std::size_t modifier, const Regions& by, const std::vector<ScopeId>& scopes,
+              std::vector<Piece>& pieces) const {
+    const auto index = with(pieces[i].mix, modifier);
+    if (!index) return;
+    // Where it changes nothing it divides nothing, unless what is said of it by name may hold over another's.
+    if (scopes[*index] == pieces[i].scope && object_.volumes[modifier].said.empty()) return;
+    Regions inside = geometry::intersect(pieces[i].regions, by);
+    if (inside.empty()) return;
+    pieces[i].regions = geometry::subtract(pieces[i].regions, by);
+    pieces.push_back({*index, scopes[*index], std::move(inside)});
+  }
+  /// Walls and skins of a piece run through; but what is solid throughout has nothing sparse that could be other.
+  void modify_infill(std::size_t modifier, const Regions& by, const std::vector<ScopeId>& scopes,
+                     std::vector<Piece>& pieces) const {
+    if (by.empty()) return;
+    for (std::size_t i = 0, before = pieces.size(); i < before; ++i)
+      if (all_scopes_[pieces[i].scope].infill.infill_sparse_density >= 100)
+        divide(i, modifier, by, scopes, pieces);
+      else
+        nest(modifier, by, scopes, pieces[i]);
+  }
+  void nest(std::size_t modifier, const Regions& by, const std::vector<ScopeId>& scopes, Piece& piece) const {
+    std::vector<InnerPiece> found;
+    Regions own = piece.regions;  // what of it has no other infill yet
+    const auto take = [&](std::size_t mix, Regions& from) {
+      const auto index = with(mix, modifier);
+      if (!index) return;
+      Regions inside = geometry::intersect(from, by);
+      if (inside.empty()) return;
+      from = geometry::subtract(from, by);
+      found.push_back({*index, scopes[*index], std::move(inside)});
+    };
+    for (auto& inner : piece.inner) {
+      own = geometry::subtract(own, inner.regions);
+      take(inner.mix, inner.regions);
     }
+    take(piece.mix, own);
+    std::move(found.begin(), found.end(), std::back_inserter(piece.inner));
+    std::erase_if(piece.inner, [&](const auto& inner) { return inner.regions.empty() || inner.scope == piece.scope; });
   }
   /// No two of one scope.
   static void join(std::vector<Piece>& pieces) {
@@ -169,24 +223,26 @@ class Union {
       for (std::size_t k = pieces.size(); --k > i;)
         if (pieces[k].scope == pieces[i].scope) {
           pieces[i].regions = geometry::unite(pieces[i].regions, pieces[k].regions);
+          std::move(pieces[k].inner.begin(), pieces[k].inner.end(), std::back_inserter(pieces[i].inner));
           pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(k));
         }
   }
 
   const Object& object_;
   const ObjectScopes& scopes_;
+  const Scopes& all_scopes_;
   std::vector<Mix> mixes_;
   bool modified_ = false;
 };
 
 }  // namespace
 
-std::vector<slice::Cut> united(const Object& object, const ObjectScopes& scopes,
+std::vector<slice::Cut> united(const Object& object, const ObjectScopes& scopes, const Scopes& all_scopes,
                                const std::vector<const std::vector<slice::Cut>*>& cuts, std::vector<Areas>& areas) {
   std::size_t count = 0;
   for (std::size_t v = 0; v < cuts.size(); ++v)
     if (object.volumes[v].kind == VolumeKind::model) count = std::max(count, cuts[v]->size());
-  const Union whole(object, scopes);
+  const Union whole(object, scopes, all_scopes);
   struct Layer {
     slice::Cut cut;
     Areas areas;
@@ -202,7 +258,8 @@ std::vector<slice::Cut> united(const Object& object, const ObjectScopes& scopes,
       out.cut.closed = both(out.cut.closed, cut.closed), out.cut.bridged = both(out.cut.bridged, cut.bridged);
     }
     for (auto& piece : whole.pieces(out.cut.layer.z - out.cut.layer.height, own)) {
-      out.areas.push_back({piece.scope, static_cast<std::uint32_t>(piece.regions.size())});
+      Area& area = out.areas.emplace_back(Area{piece.scope, static_cast<std::uint32_t>(piece.regions.size())});
+      for (auto& inner : piece.inner) area.inner.push_back({inner.scope, std::move(inner.regions)});
       std::move(piece.regions.begin(), piece.regions.end(), std::back_inserter(out.cut.layer.regions));
     }
     return out;
@@ -215,11 +272,12 @@ std::vector<slice::Cut> united(const Object& object, const ObjectScopes& scopes,
   return out;
 }
 
-std::string files_of_infill(const Scopes& scopes, Point at) {
+std::string files_of_infill(const Scopes& scopes, Point at, double turned_deg) {
   std::string out;
   for (ScopeId id = 0; id < scopes.size(); ++id) {
     out += infill::Density::files_of(scopes[id].infill);
     if (scopes[id].infill.infill_phase_frame == InfillFrame::plate) out += "plate";
+    if (scopes[id].infill.infill_angle_frame == InfillFrame::part) out += fmt::format("turned {}", turned_deg);
   }
   return out.empty() ? out : fmt::format("{} {} {}", out, at.x, at.y);
 }

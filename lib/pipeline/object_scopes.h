@@ -30,17 +30,17 @@ const ScopesFrom& at(const ObjectScopes& scopes, Um bottom);
 
 /// The layers of several volumes put together: where parts overlap the later one has it, and those of one scope are
 /// united; negative volumes cut parts before them; modifiers divide what they meet. Beside them goes what areas each
-/// has.
+/// has. Modifiers that speak of sparse infill alone divide nothing: they make inner areas of what they meet.
 /// @param cuts beside the object's volumes, all at the same heights
-std::vector<slice::Cut> united(const Object& object, const ObjectScopes& scopes,
+std::vector<slice::Cut> united(const Object& object, const ObjectScopes& scopes, const Scopes& all_scopes,
                                const std::vector<const std::vector<slice::Cut>*>& cuts, std::vector<Areas>& areas);
 
 /// The areas of layers of one volume: one each.
 std::vector<Areas> areas_of_one(const ObjectScopes& scopes, const std::vector<slice::Cut>& cuts);
 
 /// What the files that infill is laid by hold, and where the object lies on them, as well where patterns stand still
-/// against the plate; empty where nothing of that is asked for.
+/// against the plate, or are turned with the object; empty where nothing of that is asked for.
 /// @throws Error{settings} for one that is not there
-std::string files_of_infill(const Scopes& scopes, Point at);
+std::string files_of_infill(const Scopes& scopes, Point at, double turned_deg);
 
 }  // namespace weft::pipeline

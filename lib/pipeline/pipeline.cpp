@@ -2,6 +2,7 @@
 #include "pipeline/pipeline.h"
 
 #include "adhesion/adhesion.h"
+#include "contour/ascend.h"
 #include "core/error.h"
 #include "core/file_bytes.h"
 #include "core/hash.h"
@@ -9,6 +10,7 @@
 #include "gcode/digest.h"
 #include "gcode/writer.h"
 #include "pipeline/cached.h"
+#include "pipeline/collect_figures.h"
 #include "pipeline/estimate.h"
 #include "pipeline/give_back.h"
 #include "pipeline/model_parts.h"
@@ -20,9 +22,9 @@
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
 #include "pipeline/support_object.h"
+#include "pipeline/thumbnails.h"
 #include "pipeline/toolpath_pictures.h"
 #include "pipeline/vase.h"
-#include "preview/thumbnail.h"
 #include "settings/catalogue.h"
 #include "settings/tools.h"
 #include "tasks/parallel.h"
@@ -204,6 +206,28 @@ void keep(const Sample& sample, std::size_t at_least, PrintedLayers& layers) {
     if (!sample.has(i)) layers[i] = {layers[i].z, layers[i].height, {}, {}, {}, {}, {}, {}};
 }
 
+/// Are layers of an object to follow its surface?
+bool follows_surface(const Scopes& scopes, const ObjectScopes& object) {
+  return std::any_of(object.begin(), object.end(), [&](const ScopesFrom& from) {
+    return std::any_of(from.of_mix.begin(), from.of_mix.end(),
+                       [&](ScopeId id) { return scopes[id].layers.z_contouring; });
+  });
+}
+
+/// What objects look like, where layers are to follow that.
+std::vector<contour::Surface> surfaces_of(const Scopes& scopes, const Plate& plate) {
+  std::vector<contour::Surface> out;
+  bool wanted = false;
+  for (std::size_t i = 0; i < scopes.size(); ++i) wanted |= scopes[static_cast<ScopeId>(i)].layers.z_contouring;
+  for (std::size_t o = 0; o < plate.objects.size() && wanted; ++o) {
+    std::vector<const Mesh*> meshes;
+    for (const auto& volume : plate.objects[o].volumes)
+      if (volume.kind == VolumeKind::model) meshes.push_back(&volume.mesh);
+    out.emplace_back(meshes);
+  }
+  return out;
+}
+
 /// In which order copies are printed: all at once, or one after the other.
 Sequence sequence_of(const Settings& settings, const Plate& plate, const std::vector<PrintedLayers>& layers,
                      const std::vector<SupportOf>& supports) {
@@ -240,14 +264,21 @@ Planned plan(const Job& job, Printing& what, const Running& running, PlanFor use
   std::vector<PrintedLayers> layers;
   Box3 box;
   auto supports = rooms_of(scopes, plate);
+  auto surfaces = surfaces_of(scopes, plate);
   for (std::size_t o = 0; o < plate.objects.size(); ++o) {
     for (const auto& volume : plate.objects[o].volumes)
       if (volume.kind == VolumeKind::model) box.add(box_of(volume.mesh));
     layers.push_back(print_object(running, scopes, tools, of_object[o], plate.objects[o], supports[o]));
+    if (!surfaces.empty() && follows_surface(scopes, of_object[o]))
+      tasks::for_each_index(layers.back().size(), [&](std::size_t i) {
+        auto& layer = layers.back()[i];
+        contour::ascend(surfaces[o], {layer.z, layer.height}, layer.beads);
+      });
     keep(running.sample, adhesion::layers_needed(job.settings.adhesion), layers.back());
   }
   beside.wait();
   if (what.sequence.empty()) what.sequence = sequence_of(job.settings, plate, layers, supports);
+  if (running.report.figures) tell_surface(plate, layers, *running.report.figures);
   for (auto& object : plate.objects)
     for (auto& volume : object.volumes) volume.mesh = {};
   refuse_emptiness(what.name, box, layers);
@@ -255,7 +286,7 @@ Planned plan(const Job& job, Printing& what, const Running& running, PlanFor use
   begin<Stage::travel>(running.watch);
   auto& report = running.report;
   out.plate = plan_plate(scopes, tools, plate, what.sequence, std::move(layers), std::move(supports), report,
-                         {use, job.audit == audit::Mode::annotate});
+                         {use, job.audit == audit::Mode::annotate, std::move(surfaces)});
   const auto& plan = out.plate.plan;
   report.layers = plan.layers.size();
   for (const auto& layer : plan.layers)
@@ -290,7 +321,8 @@ std::optional<audit::Passed> print(const Job& job, Printing what, const Watch& w
                   statistics,
                   std::filesystem::path(what.name).stem().string(),
                   {},
-                  provenance_lines(report.models, report.marks, job.placement, job.by_name) + overlay_lines(what.plate),
+                  provenance_lines(report.models, report.marks, job.placement, job.by_name, report.infill_files) +
+                      overlay_lines(what.plate),
                   std::move(digests),
                   tool_count(job.settings) > 1 ? settings_of_tools(job.settings) : std::vector<Settings>{},
                   std::move(cold_at_start)};

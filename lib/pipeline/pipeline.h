@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "audit/audit.h"
+#include "cache/stage_cache.h"
 #include "mesh/mark.h"
 #include "mesh/mesh.h"
 #include "model/sequence.h"
-#include "pipeline/by_name.h"
 #include "pipeline/report.h"
-#include "pipeline/stage_cache.h"
 #include "pipeline/write_gcode.h"
+#include "plate/by_name.h"
 #include "plate/plate.h"
 #include "settings/settings.h"
 

@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "adhesion/adhesion.h"
-#include "audit/audit.h"
-#include "gcode/digest.h"
 #include "model/sequence.h"
-#include "motion/motion.h"
-#include "overhangs/overhangs.h"
 #include "pipeline/add_raft.h"
 #include "pipeline/at_heights.h"
-#include "pipeline/change_tool.h"
 #include "pipeline/check.h"
-#include "pipeline/codec.h"
+#include "pipeline/collect_figures.h"
 #include "pipeline/conflicts.h"
+#include "pipeline/ironing.h"
 #include "pipeline/labels.h"
-#include "pipeline/lagging_tower.h"
 #include "pipeline/ooze_shield.h"
 #include "pipeline/passes.h"
 #include "pipeline/place_heat.h"
+#include "pipeline/plan_moves.h"
 #include "pipeline/prime_lines.h"
 #include "pipeline/sample.h"
 #include "pipeline/stages.h"
@@ -228,145 +224,13 @@ void add_adhesion_to_rises(const Settings& settings, std::span<travel::LayerInpu
   }
 }
 
-/// A layer that is done with, until all are.
-struct PackedLayer {
-  LayerPlan bare;      ///< without steps
-  std::string packed;  ///< with them
-  gcode::LayerDigest digest;
-  Statistics statistics;
-  LayerTimes times{};
-};
-
-/// Where the start G-code leaves the nozzle, where the first travel must know it: round no-go areas and notches.
-std::optional<Point> start_of(const Settings& settings) {
-  const auto& m = settings.machine;
-  const bool open = m.bed_exclude_areas.empty() && m.bed_shape != BedShape::polygon && m.machine_reach.size() <= 2;
-  return open ? std::nullopt : audit::place_after(m, settings.gcode.machine_start_gcode);
-}
-
-/// Of all objects of a layer.
-Regions over_air_of(travel::LayerInput& input) {
-  Regions out;
-  for (auto& object : input.objects) std::move(object.over_air.begin(), object.over_air.end(), std::back_inserter(out));
+/// What each copy with a label looks like, and where it stands.
+std::vector<contour::Standing> standing_of(const std::vector<contour::Surface>& surfaces,
+                                           const std::vector<Copy>& copies, std::size_t count, Um lift) {
+  std::vector<contour::Standing> out;
+  for (std::size_t i = 0; i < count && !surfaces.empty(); ++i)
+    out.push_back({&surfaces[copies[i].of], copies[i].by, lift});
   return out;
-}
-
-/// What the moves of all layers hang on, beside the beads.
-struct MovesOf {
-  const Scopes& scopes;
-  const ToolScopes& tools;
-  const Passes& passes;
-  const std::vector<std::vector<Pause>>& pauses;  ///< of each layer
-  std::vector<Um> standing;                       ///< of each layer, how high what is printed before it reaches
-  const Vase& vase;
-};
-
-/// Where each pass begins, as far as it is known: after another tool was loaded the nozzle may be anywhere,
-/// and the way to the next object is one over all that stands (go_over).
-std::vector<std::optional<Point>> starts_of(const MovesOf& of, const std::vector<travel::Prepared>& prepared,
-                                            const std::vector<travel::Ordered>& ordered) {
-  std::vector<std::optional<Point>> from(ordered.size());
-  if (!from.empty()) from[0] = start_of(of.scopes[0]);
-  for (std::size_t p = 1; p < ordered.size(); ++p) {
-    from[p] = ordered[p - 1].end ? ordered[p - 1].end : from[p - 1];
-    if (of.passes.passes[p].changes || prepared[p].input.time.comes_down) from[p].reset();
-  }
-  return from;
-}
-
-/// The passes of a layer one after the other, with the changes of the tool between them.
-LayerPlan joined(const MovesOf& of, std::size_t layer, std::vector<LayerPlan> passes) {
-  LayerPlan out = std::move(passes.front());
-  for (std::size_t k = 0; k < passes.size(); ++k) {
-    LayerPlan& own = k == 0 ? out : passes[k];
-    const auto from = k > 0 ? place_behind(out) : std::nullopt;
-    if (auto steps = change_before(of.passes, of.passes.begin[layer] + k, of.tools, out, from); !steps.empty())
-      put_before(own, std::move(steps));
-    if (k > 0)
-      out.steps.insert(out.steps.end(), std::make_move_iterator(own.steps.begin()),
-                       std::make_move_iterator(own.steps.end()));
-  }
-  pause_before(out, of.pauses[layer]);
-  return out;
-}
-
-std::vector<motion::Rules> rules_of(const Scopes& scopes) {
-  std::vector<motion::Rules> out;
-  for (std::size_t i = 0; i < scopes.size(); ++i) {
-    const auto id = static_cast<ScopeId>(i);
-    out.push_back(motion::rules_of(scopes[id], &scopes[scopes.above_first_layer(id)]));
-  }
-  return out;
-}
-
-std::vector<overhangs::Strand> strands_of(const Scopes& scopes) {
-  std::vector<overhangs::Strand> out;
-  for (std::size_t i = 0; i < scopes.size(); ++i) {
-    const auto& s = scopes[static_cast<ScopeId>(i)];
-    out.push_back({s.machine.nozzle_diameter, s.shells.bridge_flow / 100, s.shells.overhang_walls});
-  }
-  return out;
-}
-
-/// Ways, speeds and times. What a layer was made of is let go of as it goes.
-std::vector<PackedLayer> plan_moves(const MovesOf& of, std::vector<travel::Prepared> prepared,
-                                    std::vector<travel::Ordered> ordered, Notices& notices, PlanFor use) {
-  const auto& scopes = of.scopes;
-  const Settings& settings = scopes[0];
-  const auto from = starts_of(of, prepared, ordered);
-  const auto rules = rules_of(scopes);
-  const auto strands = strands_of(scopes);
-  std::vector<motion::Rules> of_tools;
-  if (of.tools.several())
-    for (const auto& tool : of.tools.tools()) of_tools.push_back(motion::rules_of(tool));
-  std::vector<travel::Routed> departures(prepared.size());  // without their plans, which go on
-  travel::Spiral spiral(settings.layers.smooth_spiralized_contours);
-  std::vector<Bead> turns(of.vase.end);  // walls that become turns, by layer
-  struct Begun {
-    LayerPlan plan;
-    std::optional<Point3> start;
-    ToolId loaded = any_tool;
-  };
-  std::optional<Point3> at;
-  auto packed = tasks::parallel_linked(
-      of.passes.begin.size() - 1,
-      [&](std::size_t i) {
-        std::vector<LayerPlan> plans;
-        for (std::size_t p = of.passes.begin[i]; p < of.passes.begin[i + 1]; ++p) {
-          auto layer = std::move(prepared[p]);
-          travel::prepare_ways(settings.travel, layer);
-          const auto& retraction = scopes[of.tools.several() ? layer.input.scope : 0].retraction;
-          auto routed = travel::route(settings.travel, retraction, layer, ordered[p], from[p]);
-          lower_tower(of.passes.lag_of(i), routed.plan);
-          if (of.vase.has(i)) turns[i] = wall_of(layer.input);
-          overhangs::mark(strands, over_air_of(layer.input), routed.plan);
-          departures[p].departures = routed.departures;
-          plans.push_back(std::move(routed.plan));
-        }
-        return joined(of, i, std::move(plans));
-      },
-      [&](std::size_t i, LayerPlan plan) {
-        const auto& passes = of.passes;
-        if (of.vase.has(i)) wind(of.vase, i, turns[i], spiral, plan);
-        const ToolId loaded = i > 0 ? passes.passes[passes.begin[i] - 1].tool : any_tool;
-        if (plan.time.comes_down && at) go_over(settings.machine, of.standing[i], *at, plan);
-        Begun layer{std::move(plan), at, loaded};
-        at = motion::start_after(layer.plan, at);
-        return layer;
-      },
-      [&](std::size_t, Begun layer) {
-        auto planned = motion::plan_layer({rules, of_tools, layer.loaded}, std::move(layer.plan), layer.start);
-        const auto& plan = planned.plan;
-        if (use == PlanFor::figures) return PackedLayer{{plan.z, plan.height, plan.time}, {}, {}, planned.statistics};
-        auto times = of_tools.empty() ? LayerTimes{} : times_of(plan, std::move(planned.step_s));
-        return PackedLayer{{plan.z, plan.height, plan.time},
-                           encode(plan),
-                           gcode::digest_of(settings, plan),
-                           planned.statistics,
-                           std::move(times)};
-      });
-  for (auto& notice : travel::notices_of(departures)) notices.push_back(std::move(notice));
-  return packed;
 }
 
 /// How near the order of each layer is to the shortest.
@@ -376,28 +240,6 @@ std::vector<Report::Tour> tours_of(const std::vector<travel::Prepared>& prepared
     const auto gap = travel::gap_of(prepared[i], ordered[i], i > 0 ? ordered[i - 1].end : std::nullopt);
     return Report::Tour{gap.way_um / 1000, gap.least_um / 1000};
   });
-}
-
-/// Plastic that stands in the melt for minutes creeps upwards: clogs, and none at the next wall.
-void tell_slow_ironing(const std::vector<PackedLayer>& layers, Notices& notices) {
-  constexpr double long_s = 180, slow_mm3_s = 0.1;
-  const PackedLayer* worst = nullptr;
-  const auto ironing = [](const PackedLayer& layer) {
-    return layer.statistics.features[static_cast<std::size_t>(Role::ironing)];
-  };
-  for (const auto& layer : layers) {
-    const auto own = ironing(layer);
-    if (own.s > long_s && own.mm3 < slow_mm3_s * own.s && (worst == nullptr || own.s > ironing(*worst).s))
-      worst = &layer;
-  }
-  if (worst == nullptr) return;
-  const auto own = ironing(*worst);
-  notices.push_back(
-      {"ironing_slow",
-       fmt::format("ironing_enabled: at z {:.3f} the nozzle irons for {:.0f} minutes at {:.3f} mm³/s: filament that "
-                   "stands in the melt so long may clog; a larger ironing_flow, ironing_line_spacing or speed_ironing "
-                   "is quicker through it",
-                   to_mm(worst->bare.z), own.s / 60, own.mm3 / own.s)});
 }
 
 /// Does one of the first so many objects, which are models, begin there?
@@ -433,11 +275,34 @@ void give_room(const Settings& settings, std::vector<travel::LayerInput>& inputs
   }
 }
 
+/// The layers one after the other.
+/// @return of each, when its tools are used
+std::vector<LayerTimes> put_together(std::vector<PackedLayer> planned, bool keeps_layers, Report& report,
+                                     PlannedPlate& out) {
+  std::vector<LayerTimes> times;
+  std::vector<IronedLayer> ironed;
+  std::optional<FigureSum> figures;
+  if (report.figures) figures.emplace(*report.figures);
+  for (auto& layer : planned) {
+    times.push_back(std::move(layer.times));
+    out.statistics.append(layer.statistics);
+    if (figures && layer.figures) figures->add(layer.bare.z, std::move(*layer.figures), layer.statistics);
+    ironed.push_back({layer.bare.z, layer.statistics.features[static_cast<std::size_t>(Role::ironing)]});
+    if (keeps_layers) out.layers.push_back({layer.statistics});
+    out.plan.layers.push_back(std::move(layer.bare));
+    out.digests.push_back(std::move(layer.digest));
+    out.packed.push_back(std::move(layer.packed));
+  }
+  if (figures) figures->finish();
+  tell_slow_ironing(ironed, out.plan.notices);
+  return times;
+}
+
 }  // namespace
 
 PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, const Sequence& sequence,
                         std::vector<PrintedLayers> layers, std::vector<SupportOf> supports, Report& report,
-                        PlanOptions options) {
+                        const PlanOptions& options) {
   const Stopwatch stopwatch(report.timings_ms[Stage::travel]);
   const auto& settings = scopes[0];
   const ScopeId on_first_layer = scopes.on_first_layer(0);
@@ -476,21 +341,14 @@ PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, c
       prepared.size(), [&](std::size_t i) { return travel::order(settings.travel, prepared[i], linked[i]); });
   if (report.tours) *report.tours = tours_of(prepared, ordered);
   const auto pauses = pauses_of(settings.tools, timeline, plan.notices);
-  auto planned = plan_moves({scopes, tools, passes, pauses, heights_before(timeline, settings.machine.z_offset), vase},
-                            std::move(prepared), std::move(ordered), plan.notices, options.use);
+  auto planned = plan_moves(
+      {scopes, tools, passes, pauses, heights_before(timeline, settings.machine.z_offset), vase,
+       standing_of(options.surfaces, copies, copies_on(plate), raft_lift(settings) + settings.machine.z_offset)},
+      std::move(prepared), std::move(ordered), plan.notices, {options.use, report.figures.has_value()});
   out.purged = passes.purged;
-  tell_slow_ironing(planned, plan.notices);
-  std::vector<LayerTimes> times;
-  for (std::size_t i = 0; i < planned.size(); ++i) {
-    auto& layer = planned[i];
-    if (tools.several()) times.push_back(std::move(layer.times));
-    out.statistics.append(layer.statistics);
-    if (options.use == PlanFor::figures)
-      out.layers.push_back({layer.statistics, has_bottom(timeline[i], copies_on(plate))});
-    plan.layers.push_back(std::move(layer.bare));
-    out.digests.push_back(std::move(layer.digest));
-    out.packed.push_back(std::move(layer.packed));
-  }
+  const bool keeps_layers = options.use == PlanFor::figures;
+  const auto times = put_together(std::move(planned), keeps_layers, report, out);
+  for (std::size_t i = 0; i < out.layers.size(); ++i) out.layers[i].bottom = has_bottom(timeline[i], copies_on(plate));
   if (tools.several() && options.use == PlanFor::writing) place_heat(tools.tools(), times, out);
   return out;
 }

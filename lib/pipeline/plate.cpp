@@ -9,6 +9,7 @@
 #include "mesh/placement.h"
 #include "mesh/read.h"
 #include "pipeline/cached.h"
+#include "pipeline/infill_files.h"
 #include "pipeline/model_parts.h"
 #include "pipeline/nest.h"
 #include "pipeline/provenance.h"
@@ -17,8 +18,8 @@
 #include "pipeline/tints.h"
 #include "pipeline/transform_models.h"
 #include "pipeline/transform_words.h"
-#include "preview/thumbnail.h"
 #include "profile/foreign_overlay.h"
+#include "settings/modifier_list.h"
 #include "settings/value.h"
 #include "tasks/parallel.h"
 
@@ -157,9 +158,25 @@ std::string option_of(mesh::MarkKind kind) {
   return out;
 }
 
-/// What the command line or a job lays beside a model: beside each object that is printed of it.
-void add_marks(const Job& job, const mesh::ReadOptions& read, std::vector<Typed>& typed, Report& report) {
-  for (const auto& mark : job.marks) {
+/// What the command line or a job marks, and before that what infill_modifiers lays beside each model.
+std::vector<ModelMark> marks_of(const Job& job) {
+  std::vector<ModelMark> out;
+  for (const auto& mesh : parse_modifier_list(job.settings.infill.infill_modifiers))
+    for (std::size_t m = 0; m < job.models.size(); ++m) {
+      ModelMark mark{m, mesh::MarkKind::modifier, mesh.file, {{"infill_sparse_density", mesh.density_percent}}};
+      if (!mesh.pattern.empty()) mark.settings.emplace_back("infill_pattern", mesh.pattern);
+      out.push_back(std::move(mark));
+    }
+  out.insert(out.end(), job.marks.begin(), job.marks.end());
+  return out;
+}
+
+/// They are laid beside each object that is printed of the model. @param first  those of infill_modifiers, which the
+/// settings tell of
+void add_marks(const std::vector<ModelMark>& marks, std::size_t first, const mesh::ReadOptions& read,
+               std::vector<Typed>& typed, Report& report) {
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    const auto& mark = marks[i];
     std::vector<Mesh> meshes;
     Report::Mark told{mark.model, std::string(mark_key(mark.kind)), mark.source, {}, mark.settings};
     if (mark.source.starts_with("box:")) {
@@ -169,7 +186,7 @@ void add_marks(const Job& job, const mesh::ReadOptions& read, std::vector<Typed>
       told.sha256 = file.sha256;
       for (auto& object : file.objects) meshes.push_back(std::move(object.mesh));
     }
-    report.marks.push_back(std::move(told));
+    if (i >= first) report.marks.push_back(std::move(told));
     const bool is_box = mark.source.starts_with("box:");
     mesh::Mark out{mark.kind, false, {}, is_box ? mark.source : std::filesystem::path(mark.source).stem().string()};
     for (const auto& [key, text] : mark.settings) out.settings.push_back({key, text});
@@ -253,11 +270,12 @@ class Builder {
       in_order(object);
       object.hull = parts.size() == placed.footprints.size() ? placed.hull : hull_of(placed, parts);
       object.copies = placed.instances;
+      object.turned_deg = job_.placement.rotate_deg + what.own.rotate_deg;
     }
   }
 
   Plate take_plate() && {
-    pipeline::lay_by_name(job_.by_name, plate_, origins_);
+    plate::lay_by_name(job_.by_name, plate_, origins_);
     return std::move(plate_);
   }
 
@@ -272,6 +290,7 @@ class Builder {
         added.overlay = {fmt::format("object '{}'", added.name), Scope::object};
         const auto& item = model.items[object.item];
         lay(model, item.settings, added.overlay);
+        added.heights = item.heights;
         for (const auto& range : item.ranges) {
           added.ranges.push_back(
               {range.from,
@@ -317,12 +336,12 @@ class Builder {
   std::optional<mesh::PlacementOfModel> own_of(std::size_t object) const {
     std::optional<mesh::PlacementOfModel> out;
     for (const auto& place : job_.by_name.places)
-      if (pipeline::means(place.of, plate_, origins_, object)) {
+      if (plate::means(place.of, plate_, origins_, object)) {
         if (!out) out.emplace();
         out->at = place.at, out->rotate_deg = place.rotate_deg, out->copies = 1;
       }
     for (const auto& copies : job_.by_name.copies)
-      if (pipeline::means(copies.of, plate_, origins_, object)) {
+      if (plate::means(copies.of, plate_, origins_, object)) {
         if (!out) out.emplace();
         if (out->at && copies.count > 1)
           throw Error{Error::Kind::usage,
@@ -400,7 +419,7 @@ class Builder {
   std::vector<Typed> typed_;
   Notices& notices_;
   Plate plate_;
-  pipeline::Origins origins_;
+  plate::Origins origins_;
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> object_of_;  ///< of the plate, by model and item
   std::map<std::size_t, std::vector<std::size_t>> item_of_, volume_of_;   ///< of each object of a model
   std::map<const Object*, std::vector<Later>> later_;
@@ -438,7 +457,9 @@ Plate place_models(const Job& job, Report& report, StageCache* cache) {
       .scale = job.placement.scale, .mm_per_unit = transform.mm_per_unit, .sha256 = {}, .plate = job.placement.plate};
   auto typed =
       tasks::parallel_map(job.models.size(), [&](std::size_t i) { return read_typed(job.models[i], read, cache); });
-  add_marks(job, read, typed, report);
+  const auto marks = marks_of(job);
+  add_marks(marks, marks.size() - job.marks.size(), read, typed, report);
+  report.infill_files = infill_files(job.settings.infill);
   for (const auto& each : typed) note_model(each.model, report);
   if (turned || transform.mm_per_unit != 1)
     for (auto& model : report.models) tell_transforms(job.placement, model);
@@ -469,20 +490,6 @@ Plate place_models(const Job& job, Report& report, StageCache* cache) {
   if (job.audit == audit::Mode::reject) mesh::check_fits(placed, bed, job.settings.audit.audit_tolerance);
   for (std::size_t i = 0; i < placed.size(); ++i) builder.put(together[i], std::move(placed[i]));
   return std::move(builder).take_plate();
-}
-
-std::vector<gcode::Thumbnail> thumbnails_of(const Settings& settings, const Plate& plate) {
-  const auto& sizes = settings.gcode.thumbnails;
-  if (sizes.empty() || plate.objects.empty()) return {};
-  std::vector<preview::Standing> standing;
-  for (const auto& object : plate.objects)
-    for (const auto& volume : object.volumes)
-      if (volume.kind == VolumeKind::model) standing.push_back({&volume.mesh, object.copies.front()});
-  return tasks::parallel_map(sizes.size(), [&](std::size_t i) {
-    const auto size = sizes[i];
-    const auto png = preview::thumbnail(standing, {size.width, size.height});
-    return gcode::Thumbnail{size.width, size.height, std::string(png.begin(), png.end())};
-  });
 }
 
 }  // namespace weft::pipeline

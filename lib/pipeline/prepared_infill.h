@@ -4,7 +4,6 @@
 #include "infill/prepared.h"
 
 #include <map>
-#include <span>
 #include <vector>
 
 namespace weft::pipeline {
@@ -14,15 +13,16 @@ class PreparedInfill {
  public:
   /// @param handed  what the stage is handed of a scope: shells, infill, nozzle and what more there is
   /// @param asked   the scopes of the object, as its shells ask for them
-  /// @param parts   what fills its layers
+  /// @param object  its layers, whatever the nozzle  @param parts  what fills them
   /// @param origin  where patterns are anchored  @param on_bed  where the object's first copy stands
   /// @throws as infill::prepare
   template <class Handed>
-  PreparedInfill(const Handed& handed, const std::vector<ScopeId>& asked, std::span<const infill::ShellLayer> layers,
-                 const Box& box, const std::vector<infill::LayerAreas>& parts, Point origin, Point on_bed) {
+  PreparedInfill(const Handed& handed, const std::vector<ScopeId>& asked, infill::ShellObject object,
+                 const std::vector<infill::LayerAreas>& parts, Point origin, Point on_bed) {
     for (const ScopeId id : asked) {
       const auto& [shells, infill, nozzle, width, overlap] = handed[id];
-      by_scope_.emplace(id, infill::prepare(infill, {layers, box, nozzle}, parts, origin, on_bed));
+      object.nozzle = nozzle;
+      by_scope_.emplace(id, infill::prepare(infill, object, parts, origin, on_bed));
     }
   }
 

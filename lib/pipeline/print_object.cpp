@@ -8,6 +8,7 @@
 #include "pipeline/cached.h"
 #include "pipeline/handed_to.h"
 #include "pipeline/infill_figures.h"
+#include "pipeline/inner_infill.h"
 #include "pipeline/key_bytes.h"
 #include "pipeline/object_scopes.h"
 #include "pipeline/prepared_infill.h"
@@ -21,6 +22,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numbers>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -93,7 +96,9 @@ Regions inside_of(const WallHands& handed, const Areas& areas, const SlicedLayer
   const auto& [walls, nozzle] = handed[areas.front().scope];
   const int lines = walls.wall_line_count + (walls.alternate_extra_wall && index % 2 == 1 ? 1 : 0);
   if (lines == 0) return layer.regions;
-  const auto band = [&](Um width) { return flow::spacing(width, layer.height, walls.overlap_factor); };
+  const auto band = [&layer, overlap = walls.overlap_factor](Um width) {
+    return flow::spacing(width, layer.height, overlap);
+  };
   const Um outer = band(length_or(walls.wall_line_width_0, nozzle, flow::automatic_outer_width(nozzle)));
   const Um inner = band(length_or(walls.wall_line_width_x, nozzle, flow::automatic_width(nozzle, layer.height)));
   return geometry::offset(layer.regions, {.by = -outer - (lines - 1) * inner});
@@ -101,6 +106,8 @@ Regions inside_of(const WallHands& handed, const Areas& areas, const SlicedLayer
 
 Walls build_walls(const WallHands& handed, const Scopes& scopes, const Cuts& cuts, const std::vector<Areas>& areas,
                   const std::vector<Regions>& held, const Sample& sample) {
+  Box box;  // rough walls hang on its corner, so they move with the object
+  for (const auto& cut : cuts) box.add(box_of(cut.layer.regions));
   return tasks::parallel_map(cuts.size(), [&](std::size_t i) {
     if (!sample.has(i)) {
       WallLayer bare;
@@ -118,7 +125,8 @@ Walls build_walls(const WallHands& handed, const Scopes& scopes, const Cuts& cut
                                   .nozzle_diameter = nozzle,
                                   .over_air = &over_air,
                                   .above = above,
-                                  .settings_above = &walls_above});
+                                  .settings_above = &walls_above,
+                                  .origin = box.min});
     };
     auto layer = areas[i].size() == 1 ? build(areas[i].front().scope, cuts[i].layer)
                                       : walls_of_areas(told_apart(handed, areas[i]), cuts[i].layer, build);
@@ -135,6 +143,7 @@ struct Shelled {
   const std::vector<Areas>& areas;
   std::vector<infill::ShellLayer> layers;
   Box box;
+  double turned_rad = 0;  ///< against its file
 
   ScopeId scope_of(ScopeId id) const { return handed.alike(scopes.above_first_layer(id)); }
 };
@@ -172,29 +181,62 @@ std::vector<infill::LayerAreas> find_areas(const Shelled& object, std::size_t fi
   std::vector<infill::LayerAreas> out(count);
   for (const ScopeId id : asked) {
     const auto& [shells, infill, nozzle, width, overlap] = object.handed[id];
-    auto found = infill::find_areas(shells, infill, {object.layers, object.box, nozzle, overlap}, first, count);
+    auto found = infill::find_areas(shells, infill, {object.layers, object.box, nozzle, overlap, object.turned_rad},
+                                    first, count);
     if (asked.size() == 1) return found;
     for (std::size_t i = 0; i < count; ++i) put_back(taken(object, id, first + i, found[i]), out[i]);
   }
   return out;
 }
 
-/// What is decided of sparse parts by looking at all layers: each scope sees its own parts.
+/// What is decided of sparse parts of a scope by looking at all layers.
+void look_at_all_of(const Shelled& object, ScopeId id, std::vector<infill::LayerAreas>& parts) {
+  const auto& [shells, infill, nozzle, width, overlap] = object.handed[id];
+  const infill::ShellObject shelled{object.layers, object.box, nozzle};
+  infill::keep_below_tops(infill, shelled, parts);
+  infill::combine_sparse(infill, shelled, parts);
+}
+
+/// Each scope sees its own parts.
 void look_at_all(const Shelled& object, std::vector<infill::LayerAreas>& areas) {
   const auto asked = scopes_asked(object, 0, areas.size());
+  if (asked.size() == 1) return look_at_all_of(object, asked.front(), areas);
   for (const ScopeId id : asked) {
-    const auto& [shells, infill, nozzle, width, overlap] = object.handed[id];
-    const infill::ShellObject shelled{object.layers, object.box, nozzle};
-    const auto look = [&](std::vector<infill::LayerAreas>& parts) {
-      infill::keep_below_tops(infill, shelled, parts);
-      infill::combine_sparse(infill, shelled, parts);
-    };
-    if (asked.size() == 1) return look(areas);
     std::vector<infill::LayerAreas> own;
     for (std::size_t i = 0; i < areas.size(); ++i) own.push_back(taken(object, id, i, areas[i]));
-    look(own);
+    look_at_all_of(object, id, own);
     for (std::size_t i = 0; i < areas.size(); ++i) put_back(std::move(own[i]), areas[i]);
   }
+}
+
+InnerLayers take_all_inner(const Shelled& object, std::vector<infill::LayerAreas>& areas) {
+  InnerLayers out(areas.size());
+  std::set<ScopeId> scopes;
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    out[i] = take_inner(object.areas[i], object.scopes, areas[i]);
+    for (const auto& inner : out[i]) scopes.insert(object.scope_of(inner.scope));
+  }
+  for (const ScopeId id : scopes) {
+    std::vector<infill::LayerAreas> own(areas.size());
+    for (std::size_t i = 0; i < areas.size(); ++i)
+      for (auto& inner : out[i])
+        if (object.scope_of(inner.scope) == id) own[i] = std::move(inner.parts);
+    look_at_all_of(object, id, own);
+    for (std::size_t i = 0; i < areas.size(); ++i)
+      for (auto& inner : out[i])
+        if (object.scope_of(inner.scope) == id) inner.parts = std::move(own[i]);
+  }
+  return out;
+}
+
+/// The scopes that fill something of the object.
+std::vector<ScopeId> scopes_filling(const Shelled& object, const InnerLayers& inner) {
+  auto out = scopes_asked(object, 0, object.areas.size());
+  for (const auto& layer : inner)
+    for (const auto& each : layer)
+      if (const ScopeId id = object.scope_of(each.scope); std::find(out.begin(), out.end(), id) == out.end())
+        out.push_back(id);
+  return out;
 }
 
 /// Layers are taken in runs, so that the skin's neighbours are looked at once a run.
@@ -207,7 +249,6 @@ std::vector<infill::LayerAreas> find_all_areas(const Shelled& object) {
   std::vector<infill::LayerAreas> areas;
   areas.reserve(count);
   for (auto& part : runs) std::move(part.begin(), part.end(), std::back_inserter(areas));
-  look_at_all(object, areas);
   return areas;
 }
 
@@ -219,22 +260,11 @@ infill::LayerAreas parts_in(const infill::LayerAreas& parts, const std::vector<s
   return out;
 }
 
-/// Of a layer of several areas. Sequences of one are not continued by the next.
+/// Of a layer of several areas.
 template <class Fill>
 FillLayer fill_of_areas(const std::vector<Told>& told, const infill::LayerAreas& parts, const Fill& fill) {
   FillLayer out;
-  std::uint32_t sequences = 0;
-  for (const auto& [scope, regions] : told) {
-    auto filled = fill(scope, parts_in(parts, regions));
-    std::uint32_t most = sequences;
-    for (auto& bead : filled.beads) {
-      if (bead.sequence != 0) bead.sequence += sequences;
-      most = std::max(most, bead.sequence);
-    }
-    sequences = most;
-    std::move(filled.beads.begin(), filled.beads.end(), std::back_inserter(out.beads));
-    std::move(filled.notices.begin(), filled.notices.end(), std::back_inserter(out.notices));
-  }
+  for (const auto& [scope, regions] : told) put_behind(fill(scope, parts_in(parts, regions)), out);
   return out;
 }
 
@@ -270,26 +300,64 @@ void measure(const Running& job, const WallHands& handed, const Cuts& cuts, cons
     (job.sample.has(i) ? job.measure->planned : job.measure->left_out).add(measures[i], static_cast<double>(copies));
 }
 
+/// How an object lies on the bed.
+struct Lying {
+  Point at;               ///< its first copy
+  double turned_rad = 0;  ///< against its file
+};
+
+/// Fills what is of other settings than its areas. @returns how many beads each has @param parts then know of it
+template <class Fill>
+std::vector<std::uint32_t> fill_inner(std::vector<InnerInfill> inner, const Fill& fill, FillLayer& to,
+                                      infill::LayerAreas& parts) {
+  std::vector<std::uint32_t> out;
+  for (auto& [scope, own] : inner) {
+    const std::size_t before = to.beads.size();
+    put_behind(fill(scope, own), to);
+    out.push_back(static_cast<std::uint32_t>(to.beads.size() - before));
+    std::move(own.begin(), own.end(), std::back_inserter(parts));
+  }
+  return out;
+}
+
+/// Beads of a layer, and what later stages are told of its areas.
+FilledLayer told_of(infill::LayerAreas parts, FillLayer filled, std::vector<std::uint32_t> inner_beads) {
+  FilledLayer out{{}, {}, {}, std::move(filled.beads), std::move(inner_beads), std::move(filled.notices)};
+  for (auto& part : parts) {
+    out.skin.insert(out.skin.end(), part.top.begin(), part.top.end());
+    std::move(part.solid.begin(), part.solid.end(), std::back_inserter(out.skin));
+    std::move(part.belted.begin(), part.belted.end(), std::back_inserter(out.skin));
+    std::move(part.top.begin(), part.top.end(), std::back_inserter(out.top));
+    std::move(part.sparse.begin(), part.sparse.end(), std::back_inserter(out.sparse));
+    std::move(part.combined.begin(), part.combined.end(), std::back_inserter(out.sparse));
+  }
+  return out;
+}
+
 /// Shells and infill.
-/// @param at where the object's first copy stands
 /// @param looked_at is told what fills the layers, before it is laid
 template <class LookedAt>
 Fills fill_object(const FillHands& handed, const WallHands& walled, const Scopes& scopes, const ToolScopes& tools,
                   const Cuts& cuts, const std::vector<Areas>& areas, const Walls& walls,
-                  const std::vector<Regions>& held, const Sample& sample, Point at, const LookedAt& looked_at) {
+                  const std::vector<Regions>& held, const Sample& sample, const Lying& lying,
+                  const LookedAt& looked_at) {
   Shelled object{handed, scopes, areas, std::vector<infill::ShellLayer>(cuts.size()), {}};
   for (std::size_t i = 0; i < cuts.size(); ++i)
     object.layers[i] = {cuts[i].layer.z, cuts[i].layer.height, &cuts[i].layer.regions, &walls[i].inside,
                         i < held.size() ? &held[i] : nullptr};
-  object.box = infill::box_of(object.layers);
+  object.box = infill::box_of(object.layers), object.turned_rad = lying.turned_rad;
   auto parts = find_all_areas(object);
+  auto inner = take_all_inner(object, parts);
+  look_at_all(object, parts);
   looked_at(parts);
   Box box;  // patterns hang on its centre, so they move with the object
   for (const auto& cut : cuts) box.add(box_of(cut.layer.regions));
-  const auto asked = scopes_asked(object, 0, cuts.size());
+  const auto asked = scopes_filling(object, inner);
   const bool on_plate = !asked.empty() && std::get<1>(handed[asked.front()]).infill_phase_frame == InfillFrame::plate;
-  const Point origin = box.empty() ? Point{} : on_plate ? Point{} - at : box.centre();
-  const PreparedInfill prepared(handed, asked, object.layers, object.box, parts, origin, at);
+  const Point origin = box.empty() ? Point{} : on_plate ? Point{} - lying.at : box.centre();
+  const auto whole = with_inner(parts, inner);
+  const PreparedInfill prepared(handed, asked, {object.layers, object.box, 0, 1, lying.turned_rad},
+                                whole ? *whole : parts, origin, lying.at);
   const Um reach =
       box.empty() ? 0
                   : std::max({origin.x - box.min.x, box.max.x - origin.x, origin.y - box.min.y, box.max.y - origin.y});
@@ -314,6 +382,7 @@ Fills fill_object(const FillHands& handed, const WallHands& walled, const Scopes
                            .outer_wall_line_width = length_or(own_walls.wall_line_width_0, own_nozzle, 0),
                            .wall_count = own_walls.wall_line_count,
                            .origin = origin,
+                           .turned_rad = lying.turned_rad,
                            .reach = reach,
                            .prepared = prepared.of(object.scope_of(scope)),
                            .topmost = i + 1 == cuts.size(),
@@ -322,29 +391,27 @@ Fills fill_object(const FillHands& handed, const WallHands& walled, const Scopes
     };
     auto filled = areas[i].size() == 1 ? fill(areas[i].front().scope, parts[i])
                                        : fill_of_areas(told_apart(handed, areas[i]), parts[i], fill);
-    FilledLayer out{{}, {}, {}, std::move(filled.beads), std::move(filled.notices)};
-    for (auto& part : std::exchange(parts[i], {})) {
-      out.skin.insert(out.skin.end(), part.top.begin(), part.top.end());
-      std::move(part.solid.begin(), part.solid.end(), std::back_inserter(out.skin));
-      std::move(part.belted.begin(), part.belted.end(), std::back_inserter(out.skin));
-      std::move(part.top.begin(), part.top.end(), std::back_inserter(out.top));
-      std::move(part.sparse.begin(), part.sparse.end(), std::back_inserter(out.sparse));
-      std::move(part.combined.begin(), part.combined.end(), std::back_inserter(out.sparse));
-    }
-    return out;
+    auto inner_beads = fill_inner(std::move(inner[i]), fill, filled, parts[i]);
+    return told_of(std::exchange(parts[i], {}), std::move(filled), std::move(inner_beads));
   });
 }
 
-/// Each bead is told the scope of its part.
-void tell_scopes(const Areas& areas, Beads& beads) {
-  if (areas.size() == 1) {
-    for (auto& bead : beads) bead.scope = areas.front().scope;
-    return;
-  }
+/// Each bead is told the scope of its part, or of the inner area that it is of.
+/// @param inner_beads how many each inner area has: the last ones
+void tell_scopes(const Areas& areas, const std::vector<std::uint32_t>& inner_beads, Beads& beads) {
   std::vector<ScopeId> of_part;
   for (const auto& area : areas) of_part.resize(of_part.size() + area.regions, area.scope);
   for (auto& bead : beads)
-    if (bead.part < of_part.size()) bead.scope = of_part[bead.part];
+    if (areas.size() == 1 || bead.part < of_part.size())
+      bead.scope = areas.size() == 1 ? areas.front().scope : of_part[bead.part];
+  std::vector<ScopeId> of_inner;
+  for (const auto& area : areas)
+    for (const auto& inner : area.inner) of_inner.push_back(inner.scope);
+  auto end = beads.end();
+  for (std::size_t k = std::min(of_inner.size(), inner_beads.size()); k-- > 0;) {
+    const auto begin = end - inner_beads[k];
+    for (; end != begin;) (--end)->scope = of_inner[k];
+  }
 }
 
 /// @param at where the object's first copy stands: places are told as they are on the bed
@@ -365,7 +432,7 @@ PrintedLayers put_together(Cuts cuts, const std::vector<Areas>& areas, Walls wal
               std::move(walls[i].over_air),
               std::move(walls[i].beads)};
     std::move(fill.beads.begin(), fill.beads.end(), std::back_inserter(out[i].beads));
-    tell_scopes(areas[i], out[i].beads);
+    tell_scopes(areas[i], fill.inner_beads, out[i].beads);
     if (i < held.size()) mark_supported(held[i], out[i].beads);
     std::move(fill.notices.begin(), fill.notices.end(), std::back_inserter(notices));
   }
@@ -380,10 +447,10 @@ PrintedLayers print_object(const Running& job, const Scopes& all_scopes, const T
   const Point at = object.copies.front();
   const auto slice_hands = hand<Stage::slice>(all_scopes);
   std::vector<Areas> areas;
-  auto sliced = slice_object(job, object, all_scopes, scopes, slice_hands, areas);
+  auto sliced = slice_object(job, object, scopes, all_scopes, slice_hands, areas);
   append(notices, slice::notices_of(*sliced, object.name), at);
 
-  const auto sliced_by = [&] { return slice_hashes(object, all_scopes, scopes, slice_hands); };
+  const auto sliced_by = [&] { return slice_hashes(object, scopes, all_scopes, slice_hands); };
   support_object(job, all_scopes, scopes, object, *sliced, sliced_by, support);
 
   const auto wall_hands = hand<Stage::walls>(all_scopes);
@@ -403,15 +470,18 @@ PrintedLayers print_object(const Running& job, const Scopes& all_scopes, const T
     if (!job.sample.all()) measure(job, wall_hands, *sliced, areas, parts, object.copies.size());
   };
   const auto filled_by = [&] {
-    auto key = key_of<Stage::infill>(scopes, fill_hands).with(walled_by().hash()).with(files_of_infill(all_scopes, at));
+    auto key = key_of<Stage::infill>(scopes, fill_hands)
+                   .with(walled_by().hash())
+                   .with(files_of_infill(all_scopes, at, object.turned_deg));
     if (tools.several())
       for (const auto& from : scopes)
         for (const ScopeId id : from.of_mix) key.with(fill_hands.bytes_of(tools.infill_of(id, all_scopes)));
     return key;
   };
   auto filled = run_stage<Stage::infill>(kept, filled_by, [&] {
-    return fill_object(fill_hands, wall_hands, all_scopes, tools, *sliced, areas, *walled, support.held, job.sample, at,
-                       looked_at);
+    const Lying lying{at, object.turned_deg * std::numbers::pi / 180};
+    return fill_object(fill_hands, wall_hands, all_scopes, tools, *sliced, areas, *walled, support.held, job.sample,
+                       lying, looked_at);
   });
   auto out = put_together(std::move(sliced).take(), areas, std::move(walled).take(), std::move(filled).take(),
                           support.held, at, notices);

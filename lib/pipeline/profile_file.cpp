@@ -11,16 +11,14 @@ std::string profile_text(const std::filesystem::path& path, const ImportOptions&
   if (!bytes.starts_with("PK\3\4")) return bytes;
   const auto name = path.string();
   try {
-    const mesh::Archive archive(bytes, name);
+    mesh::Archive archive(bytes, name);
     constexpr auto part = "Metadata/Slic3r_PE.config";
     if (!archive.has(part)) {
       const bool orca = archive.has("Metadata/project_settings.config");
       throw Error{Error::Kind::settings, "is a 3MF without a configuration of PrusaSlicer's", name,
                   orca ? "its settings are those of Orca or Bambu, which weft does not read" : "name an ini file"};
     }
-    std::string text;
-    mesh::Archive(bytes, name).read(part, [&](std::string_view piece) { text += piece; });
-    return text;
+    return archive.text(part);
   } catch (const Error& error) {
     if (error.kind() != Error::Kind::model) throw;
     throw Error{Error::Kind::settings, error.what(), {}, {}};

@@ -55,7 +55,7 @@ void apply_changes(Profile& profile, const mesh::Project& project, const std::st
     };
     const auto row = std::find_if(change_rows.begin(), change_rows.end(),
                                   [&](const ChangeRow& r) { return static_cast<int>(r.kind) == change.kind; });
-    if (row == change_rows.end() || !(change.z_mm > 0.001 && change.z_mm < 16000)) {
+    if (row == change_rows.end() || !(change.z_mm >= 0.002 && change.z_mm < 16000)) {  // mark_of is above 0
       left_out(row == change_rows.end() ? fmt::format("weft has nothing of kind {}", change.kind) : "no such height");
       continue;
     }
@@ -80,17 +80,23 @@ bool may_be_project(const std::string& path) {
 
 }  // namespace
 
-void apply_project(Profile& profile, const std::vector<std::string>& models, bool alone, int plate,
+bool apply_project(Profile& profile, const std::vector<std::string>& models, bool alone, int plate,
                    const ImportOptions& options) {
+  bool said = false;
   for (const auto& typed : models)
     for (const auto& part : pipeline::parts_of(typed)) {
       if (!may_be_project(part.file)) continue;
       const auto project = mesh::read_project(part.file);
       if (!project) continue;
       const bool configured = !project->configuration.empty();
+      said = said || (alone && configured) || !project->changes.empty();
       if (alone && configured) {
         ImportOptions inside = options;
+        const auto before = profile.origins.size();
         apply_text(profile, project->configuration, part.file, inside);
+        if (profile.origins.size() == before)
+          throw Error{Error::Kind::settings, "its settings cannot be read: they are damaged, or of another program",
+                      part.file, "name a profile"};
         profile.notices.push_back(
             {"project_settings_taken",
              fmt::format("{}: no profile was named, and the project's own settings hold", part.file)});
@@ -103,6 +109,7 @@ void apply_project(Profile& profile, const std::vector<std::string>& models, boo
       }
       apply_changes(profile, *project, part.file, plate);
     }
+  return said;
 }
 
 }  // namespace weft

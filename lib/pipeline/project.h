@@ -10,8 +10,9 @@ namespace weft {
 /// Lays what projects (3MF) among the models say of the whole plate over the profile: what happens at heights, and
 /// where no profile was named, their configuration. What is left out is told by name.
 /// @param models as typed  @param alone no profile was named  @param plate as Placement::plate
+/// @return did any of them say something?
 /// @throws Error{file}, Error{model}, Error{settings}
-void apply_project(Profile& profile, const std::vector<std::string>& models, bool alone, int plate,
+bool apply_project(Profile& profile, const std::vector<std::string>& models, bool alone, int plate,
                    const ImportOptions& options = {});
 
 }  // namespace weft

@@ -29,6 +29,7 @@ struct Provenance {
   std::string version;
   std::vector<Model> models;
   std::vector<Mark> marks;
+  std::vector<Report::InfillFile> infill_files;  ///< without their folders
   Placement placement;
   ByName by_name{};
   Settings settings;
@@ -39,9 +40,11 @@ struct Provenance {
 /// further part of the same object and `; weft_tool = N` after a file that names one; and `; weft_placement = …` where
 /// it is not the default. Settings stand in a block of their own. Marks are `; weft_support_enforcer = NUMBER SHA256
 /// NAME`, or `NUMBER box:…`; the number is that of the model.
+/// `; weft_infill_file = KEY SHA256 NAME` is a file that a setting names.
 /// `; weft_modifier_set = KEY=VALUE` belongs to the modifier above it; `; weft_objects = JSON` is what is said by name.
 std::string provenance_lines(const std::vector<Report::Model>& models, const std::vector<Report::Mark>& marks,
-                             const Placement& placement, const ByName& by_name = {});
+                             const Placement& placement, const ByName& by_name = {},
+                             const std::vector<Report::InfillFile>& laid_by = {});
 
 /// How a mark is called in options, jobs and files: support_enforcer, support_blocker, support_mesh,
 /// modifier, negative.

@@ -70,6 +70,35 @@ Json walls_of(const Report::Walls& w) {
           {"over_air_mm", std::move(over_air)}};
 }
 
+/// What was asked for beside it, into the report and what it says of walls.
+void tell_figures(const Figures& f, Json& out) {
+  Json seconds = Json::array(), layers = Json::array(), thin = Json::array();
+  for (const double s : f.flow_s) seconds.push_back(rounded3(s));
+  for (const auto& layer : f.layers)
+    layers.push_back({{"z_mm", rounded3(layer.z_mm)},
+                      {"s", rounded3(layer.s)},
+                      {"ratio", rounded3(layer.ratio)},
+                      {"fan_percent", rounded3(layer.fan_percent)},
+                      {"unsupported_mm2", rounded3(layer.unsupported_mm2)},
+                      {"longest_span_mm", rounded3(layer.longest_span_mm)},
+                      {"least_rest_s", rounded3(layer.least_rest_s)}});
+  for (const auto& place : f.thin)
+    thin.push_back({{"at", {rounded3(place.at_mm[0]), rounded3(place.at_mm[1]), rounded3(place.at_mm[2])}},
+                    {"mm", rounded3(place.mm)}});
+  out["flow"] = {{"s_by_mm3_s", std::move(seconds)}, {"at_limit_percent", rounded3(f.at_limit_percent)}};
+  out["per_layer"] = std::move(layers);
+  auto& walls = out["walls"];
+  walls["thin_mm"] = rounded3(f.thin_mm);
+  walls["thin"] = std::move(thin);
+  walls["outer_at_one_speed_percent"] = rounded3(f.even_outer_percent);
+  walls["speed_changes_per_m"] = rounded3(f.speed_changes_per_m);
+  out["surface"] = {
+      {"mean_cusp_um", rounded3(f.mean_cusp_um)}, {"faces", f.faces}, {"faces_missed_um", rounded3(f.faces_missed_um)}};
+  if (f.least_ironing_mm3_s > 0)
+    out["ironing"] = {{"longest_s", rounded3(f.longest_ironing_s)}, {"least_mm3_s", rounded3(f.least_ironing_mm3_s)}};
+  out["time"] = {{"accelerating_percent", rounded3(f.accelerating_percent)}};
+}
+
 Json support_of(const Report& r) {
   const auto& s = r.support;
   double mm3 = 0, seconds = 0;  // with a raft, where there is one
@@ -96,6 +125,7 @@ Json infill_of(const Report::Infill& i) {
       {"pattern", i.pattern},
       {"density_percent", rounded3(i.density_percent)},
       {"density_spread_percent", rounded3(i.density_spread_percent)},
+      {"length_spread_percent", rounded3(i.length_spread_percent)},
       {"fabric", {{"h2", rounded3(i.fabric[0])}, {"h4", rounded3(i.fabric[1])}, {"h6", rounded3(i.fabric[2])}}},
       {"over_air_percent", rounded3(i.over_air_percent)},
       {"locality", rounded3(i.locality)},
@@ -188,6 +218,8 @@ std::string to_json(const Report& r) {
   out["features"] = features_of(r);
   out["walls"] = walls_of(r.walls);
   if (r.infill.mm3 > 0) out["infill"] = infill_of(r.infill);
+  for (const auto& file : r.infill_files)
+    out["infill_files"].push_back({{"key", file.key}, {"file", file.file}, {"sha256", file.sha256}});
   if (r.support.needed_mm2 > 0 || r.support.bridged_mm2 > 0) out["support"] = support_of(r);
   if (r.arcs.count > 0)
     out["arcs"] = {{"count", r.arcs.count}, {"moves", r.arcs.pieces}, {"worst_um", rounded3(r.arcs.worst_um)}};
@@ -195,6 +227,7 @@ std::string to_json(const Report& r) {
                    {"moves", r.travel.moves},
                    {"retractions", r.travel.retractions},
                    {"wall_crossings", r.travel.wall_crossings}};
+  if (r.figures) tell_figures(*r.figures, out);
   out["audit"] = audit_of(r.audit);
   out["warnings"] = warnings_of(r.warnings);
   auto& times = out["timings_ms"];

@@ -2,6 +2,7 @@
 #pragma once
 #include "core/notice.h"
 #include "model/bead.h"
+#include "pipeline/figures.h"
 #include "pipeline/timings.h"
 #include "settings/cost.h"
 
@@ -47,6 +48,10 @@ struct Report {
     std::string source, sha256;  ///< a file and what it held, or `box:…` and nothing
     std::vector<std::pair<std::string, std::string>> settings{};  ///< of a modifier
   };
+  /// A file that infill is laid by.
+  struct InfillFile {
+    std::string key, file, sha256;
+  };
   struct Feature {
     double mm = 0, mm3 = 0, s = 0;
   };
@@ -83,6 +88,7 @@ struct Report {
   struct Infill {
     std::string pattern;
     double mm3 = 0, density_percent = 0, density_spread_percent = 0;  ///< the spread between layers
+    double length_spread_percent = 0;                                 ///< of lines in a layer's room
     std::array<double, 3> fabric{};                                   ///< h₂, h₄, h₆ of directions
     double over_air_percent = 0;                                      ///< of the length
     double locality = 0, box_dimension = 0;
@@ -113,6 +119,7 @@ struct Report {
   std::string error;  ///< why it failed or was rejected, as on standard error
   std::vector<Model> models;
   std::vector<Mark> marks;
+  std::vector<InfillFile> infill_files;
   std::string settings_sha256, gcode_sha256;  ///< of the G-code: "" when not asked for (Job), or there is none
   std::size_t layers = 0;
   double height_mm = 0, print_time_s = 0;
@@ -132,6 +139,7 @@ struct Report {
   struct Tour {
     double mm = 0, least_mm = 0;
   };
+  std::optional<Figures> figures;          ///< where they are asked for: put empty ones there
   std::optional<std::vector<Tour>> tours;  ///< one a layer, where they are asked for: put an empty list there
   Support support;
   Infill infill;

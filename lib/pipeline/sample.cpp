@@ -8,26 +8,24 @@
 namespace weft::pipeline {
 namespace {
 
-/// Nothing for what is planned on every layer.
+/// What the beads of a role grow with; nothing: they are planned on every layer, whatever the sample.
+struct Grows {
+  Role role;
+  std::optional<Growth> with;
+};
+constexpr std::array grows{
+    Grows{Role::outer_wall, Growth::walls},    Grows{Role::inner_wall, Growth::walls},
+    Grows{Role::overhang_wall, Growth::walls}, Grows{Role::infill, Growth::sparse},
+    Grows{Role::solid_infill, Growth::solid},  Grows{Role::top_skin, Growth::top},
+    Grows{Role::bridge, Growth::bridge},       Grows{Role::gap_fill, Growth::walls},
+    Grows{Role::skirt, std::nullopt},          Grows{Role::brim, std::nullopt},
+    Grows{Role::support, std::nullopt},        Grows{Role::support_interface, std::nullopt},
+    Grows{Role::wipe_tower, std::nullopt},     Grows{Role::ironing, Growth::top},
+};
+static_assert(grows.size() == roles.size() && in_order(grows, &Grows::role), "row i of grows is role i");
+
 std::optional<Growth> growth_of(Role role) {
-  switch (role) {
-    case Role::outer_wall:
-    case Role::inner_wall:
-    case Role::overhang_wall:
-    case Role::gap_fill:
-      return Growth::walls;
-    case Role::infill:
-      return Growth::sparse;
-    case Role::solid_infill:
-      return Growth::solid;
-    case Role::top_skin:
-    case Role::ironing:
-      return Growth::top;
-    case Role::bridge:
-      return Growth::bridge;
-    default:  // of the plate
-      return std::nullopt;
-  }
+  return row_of(grows, role).with;
 }
 
 /// How much was left out for each unit that was planned.
@@ -143,7 +141,7 @@ Statistics extrapolated(const Statistics& bottom, const Statistics& above, const
   // What is not in the parts (extra prime, the flow of the material, waiting) grows as they do.
   add_filament(out, above, beads_mm3 > 0 ? more_mm3 / beads_mm3 : 0);
   out.print_time_s += (parts_s > 0 ? more_s / parts_s : 0) * above.print_time_s;
-  out.layer_s.clear();  // not known one by one
+  out.layer_s.clear(), out.silent_layer_s.clear();  // not known one by one
   return out;
 }
 

@@ -2,12 +2,15 @@
 #include "pipeline/slice_object.h"
 
 #include "pipeline/key_bytes.h"
+#include "pipeline/layer_heights.h"
 #include "pipeline/paint_object.h"
 #include "slice/slice.h"
 #include "tasks/parallel.h"
 
 #include <algorithm>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace weft::pipeline {
 namespace {
@@ -20,37 +23,46 @@ Um top_of(const Object& object) {
   return out;
 }
 
-StageKey slice_key(const Mesh& mesh, Um top, const ObjectScopes& scopes, const SliceHands& handed) {
-  return key_of<Stage::slice>(scopes, handed).with(sha256(bytes_of(mesh))).with(top);
+/// The heights of layers hang on all volumes of an object: they are in the key themselves.
+StageKey slice_key(const Mesh& mesh, const std::vector<slice::Plane>& planes, const ObjectScopes& scopes,
+                   const SliceHands& handed) {
+  auto key = key_of<Stage::slice>(scopes, handed).with(sha256(bytes_of(mesh)));
+  for (const auto& plane : planes) key.with(plane.z).with(plane.height).with(plane.below);
+  return key;
 }
 
 slice::PaintReach reach_of(const Scopes& all_scopes, const ObjectScopes& scopes) {
   return paint_reach(all_scopes[scopes.back().of_mix.front()]);
 }
 
-Cuts slice_mesh(const SliceHands& handed, const ObjectScopes& scopes, const Mesh& mesh, Um top) {
-  std::vector<slice::HeightFrom> heights;
-  for (const auto& from : scopes) {
-    const auto& [layers] = handed[from.of_mix.front()];
-    heights.push_back({from.bottom, layers.layer_height});
-  }
-  const slice::Cutter cutter(mesh, slice::planes(heights, top));
-  const auto& [layers] = handed[scopes.front().of_mix.front()];
-  return tasks::parallel_map(cutter.size(), [&](std::size_t i) { return cutter.cut(i, layers); });
+Cuts slice_mesh(const SliceHands& handed, const ObjectScopes& scopes, const Mesh& mesh,
+                const std::vector<slice::Plane>& planes) {
+  const slice::Cutter cutter(mesh, planes);
+  const auto& [layers, nozzle] = handed[scopes.front().of_mix.front()];
+  return tasks::parallel_map(cutter.size(),
+                             [&cutter, &layers = layers](std::size_t i) { return cutter.cut(i, layers); });
 }
 
 }  // namespace
 
-Result<Cuts> slice_object(const Running& job, const Object& object, const Scopes& all_scopes,
-                          const ObjectScopes& scopes, const SliceHands& handed, std::vector<Areas>& areas) {
+Result<Cuts> slice_object(const Running& job, const Object& object, const ObjectScopes& scopes,
+                          const Scopes& all_scopes, const SliceHands& handed, std::vector<Areas>& areas) {
   const Um top = top_of(object);
+  const auto planes = layers_of(object, scopes, handed, top);
+  if (!object.heights.empty() && !follows_profile(object, top))
+    job.report.warnings.push_back(
+        {"layer_heights_left_out",
+         fmt::format(
+             "object '{}': the heights of layers that came with it are for {:g} mm, and it is {:g} mm high: its "
+             "layers are as the settings say",
+             object.name, to_mm(object.heights.back().z), to_mm(top))});
   std::vector<Result<Cuts>> of_volume;
   for (const auto& volume : object.volumes)
     of_volume.push_back(volume.kind == VolumeKind::tint
                             ? Result<Cuts>(Cuts{})
                             : run_stage<Stage::slice>(
-                                  job, [&] { return slice_key(volume.mesh, top, scopes, handed); },
-                                  [&] { return slice_mesh(handed, scopes, volume.mesh, top); }));
+                                  job, [&] { return slice_key(volume.mesh, planes, scopes, handed); },
+                                  [&] { return slice_mesh(handed, scopes, volume.mesh, planes); }));
   if (of_volume.size() == 1) {
     areas = areas_of_one(scopes, *of_volume.front());
     return std::move(of_volume.front());
@@ -64,15 +76,15 @@ Result<Cuts> slice_object(const Running& job, const Object& object, const Scopes
     for (std::size_t v = 0; v < cuts.size(); ++v)
       if (object.volumes[v].kind == VolumeKind::tint) cuts[v] = &painted[v];
   }
-  return Result<Cuts>(united(object, scopes, cuts, areas));
+  return Result<Cuts>(united(object, scopes, all_scopes, cuts, areas));
 }
 
-std::vector<std::string> slice_hashes(const Object& object, const Scopes& all_scopes, const ObjectScopes& scopes,
+std::vector<std::string> slice_hashes(const Object& object, const ObjectScopes& scopes, const Scopes& all_scopes,
                                       const SliceHands& handed) {
-  const Um top = top_of(object);
+  const auto planes = layers_of(object, scopes, handed, top_of(object));
   std::vector<std::string> out;
   for (const auto& volume : object.volumes) {
-    auto key = slice_key(volume.mesh, top, scopes, handed);
+    auto key = slice_key(volume.mesh, planes, scopes, handed);
     if (volume.kind != VolumeKind::model) key.with(std::uint64_t{static_cast<std::uint8_t>(volume.kind)});
     if (volume.kind == VolumeKind::tint) {
       const auto reach = reach_of(all_scopes, scopes);

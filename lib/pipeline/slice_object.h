@@ -14,11 +14,11 @@ using Cuts = ResultOf<Stage::slice>;
 using SliceHands = HandedTo<Stage::slice>;
 
 /// The object's layers, each with its areas: its volumes are cut at the same heights, and put together.
-Result<Cuts> slice_object(const Running& job, const Object& object, const Scopes& all_scopes,
-                          const ObjectScopes& scopes, const SliceHands& handed, std::vector<Areas>& areas);
+Result<Cuts> slice_object(const Running& job, const Object& object, const ObjectScopes& scopes,
+                          const Scopes& all_scopes, const SliceHands& handed, std::vector<Areas>& areas);
 
 /// What the layers are a function of: the keys of the slices of each volume, and what the volume is.
-std::vector<std::string> slice_hashes(const Object& object, const Scopes& all_scopes, const ObjectScopes& scopes,
+std::vector<std::string> slice_hashes(const Object& object, const ObjectScopes& scopes, const Scopes& all_scopes,
                                       const SliceHands& handed);
 
 }  // namespace weft::pipeline

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include "contour/surface.h"
 #include "core/polygon.h"
 #include "gcode/digest.h"
 #include "model/layer.h"
@@ -59,7 +60,8 @@ struct PlannedPlate {
 enum class PlanFor { writing, figures };
 struct PlanOptions {
   PlanFor use = PlanFor::writing;
-  bool annotate = false;  ///< what is wrong with it is told, and does not end the job
+  bool annotate = false;                     ///< what is wrong with it is told, and does not end the job
+  std::vector<contour::Surface> surfaces{};  ///< of each object, where layers follow them; empty: nowhere
 };
 
 /// The whole plate as steps: copies put in their places, adhesion around them, order, seams and travels, speeds and
@@ -70,6 +72,6 @@ struct PlanOptions {
 /// @param scopes 0 is the plate's own; its first layer's is added
 PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, const Sequence& sequence,
                         std::vector<PrintedLayers> layers, std::vector<SupportOf> supports, Report& report,
-                        PlanOptions options = {});
+                        const PlanOptions& options = {});
 
 }  // namespace weft::pipeline

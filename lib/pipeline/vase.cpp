@@ -61,6 +61,11 @@ void check_vase(const Settings& settings, const Plate& plate) {
     refuse("support_enable is on; a spiral is never interrupted", "switch one of the two off");
 }
 
+travel::SpiralStyle spiral_style(const LayerSettings& layers) {
+  return {layers.smooth_spiralized_contours, layers.spiral_smoothing / 100, layers.spiral_start_flow / 100,
+          layers.spiral_finish_flow / 100};
+}
+
 Vase vase_of(const Settings& settings, std::span<travel::LayerInput> layers, Notices& notices) {
   Vase out;
   out.begin = bottom_of(settings.shells, layers);

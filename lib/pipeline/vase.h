@@ -17,6 +17,8 @@ Settings of_vase(Settings settings);
 /// @throws Error{settings} where what is asked for is no vase: several objects, tools, support
 void check_vase(const Settings& settings, const Plate& plate);
 
+travel::SpiralStyle spiral_style(const LayerSettings& layers);
+
 /// The layers [begin, end) that are turns.
 struct Vase {
   std::size_t begin = 0, end = 0;

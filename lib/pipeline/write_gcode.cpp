@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/write_gcode.h"
 
-#include "pipeline/write_file.h"
+#include "core/write_file.h"
 
 namespace weft {
 

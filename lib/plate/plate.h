@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "core/polygon.h"
+#include "mesh/layer_profile.h"
 #include "mesh/mark.h"
 #include "mesh/mesh.h"
 #include "settings/overlay.h"
@@ -47,10 +48,12 @@ struct Object {
   std::vector<Volume> volumes;  ///< where they overlap, the later one wins
   Overlay overlay{};
   std::vector<HeightRange> ranges{};
-  std::vector<Point> copies{{}};    ///< where each stands, against the first, which is usually {0, 0}
-  Ring hull{};                      ///< of what is printed, seen from above
-  std::vector<mesh::Mark> marks{};  ///< what is not printed but says something of it, in its coordinates
-  Overlay said{};                   ///< of it by name: holds over everything but what is said of its volumes
+  std::vector<mesh::HeightAt> heights{};  ///< of its layers, as its file says; z ascending; empty: it says nothing
+  std::vector<Point> copies{{}};          ///< where each stands, against the first, which is usually {0, 0}
+  double turned_deg = 0;                  ///< about Z, counter-clockwise, against its file
+  Ring hull{};                            ///< of what is printed, seen from above
+  std::vector<mesh::Mark> marks{};        ///< what is not printed but says something of it, in its coordinates
+  Overlay said{};                         ///< of it by name: holds over everything but what is said of its volumes
 };
 
 struct Plate {

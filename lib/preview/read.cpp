@@ -134,7 +134,7 @@ class Gatherer {
     const double area_mm2 = motion.e_mm * (motion.volumetric ? 1.0 : filament_mm2_) / length;
     const double height_mm = bead_height_mm(layer);
     stroke.height = from_mm(height_mm);
-    const double band_mm = std::min(area_mm2 / height_mm, 50.0);
+    const double band_mm = std::min(area_mm2 / height_mm, 10.0);  // a blob in one place is none that is wider
     stroke.width = std::max(flow::line_width(from_mm(band_mm), from_mm(height_mm)), 1);
     stroke.flow_mm3_s = static_cast<float>(area_mm2) * stroke.speed_mm_s;
     const bool bridge = out_.features[stroke.feature] == "bridge";

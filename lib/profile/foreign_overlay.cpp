@@ -36,7 +36,10 @@ class Layer {
       : plate_(plate), where_(where), to_(to), notices_(notices) {}
 
   void cura(const std::string& key, const std::string& value) {
-    if (!find_setting(key)) return left_out(key, value, "weft has no such setting");
+    const auto* row = find_setting(key);
+    if (!row) return left_out(key, value, "weft has no such setting");
+    if (std::find(infill_files.begin(), infill_files.end(), row->key) != infill_files.end())
+      return left_out(key, value, "a project does not say which files of this machine are read");
     add(key, value, key);
   }
 

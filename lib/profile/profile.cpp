@@ -8,10 +8,8 @@
 #include "prusaslicer/import.h"
 #include "prusaslicer/keys.h"
 #include "settings/catalogue.h"
-#include "settings/gcode_variables.h"
-#include "settings/head_profile.h"
 #include "settings/ini.h"
-#include "settings/pattern_list.h"
+#include "settings/modifier_list.h"
 #include "settings/tools.h"
 #include "settings/value.h"
 
@@ -199,8 +197,44 @@ std::filesystem::path canonical(const std::filesystem::path& path, const std::st
 
 /// A value that names a file, from the folder of the profile that says it; others as they are.
 std::string beside(const std::filesystem::path& profile, std::string_view key, std::string value) {
+  const auto at = [&](const std::string& file) { return (profile.parent_path() / file).lexically_normal().string(); };
+  if (key == "infill_modifiers") try {
+      auto meshes = parse_modifier_list(value);
+      for (auto& mesh : meshes) mesh.file = at(mesh.file);
+      return text_of(meshes);
+    } catch (const std::invalid_argument&) {
+      return value;  // refused by check_infill
+    }
   if (value.empty() || std::find(infill_files.begin(), infill_files.end(), key) == infill_files.end()) return value;
-  return (profile.parent_path() / value).lexically_normal().string();
+  return at(value);
+}
+
+/// @param chain files that are being read @throws Error{settings} when `parent` is one of them
+void refuse_circle(const std::vector<std::filesystem::path>& chain, const std::filesystem::path& parent,
+                   const std::string& called, const std::string& where) {
+  if (std::find(chain.begin(), chain.end(), canonical(parent, where)) != chain.end())
+    throw Error{Error::Kind::settings, fmt::format("inherits '{}', which inherits this file", called), where,
+                "break the circle"};
+  if (chain.size() > 100) throw Error{Error::Kind::settings, "more than 100 generations of ancestors", where, {}};
+}
+
+/// What a file says of single tools, over what it says of all.
+void apply_tools(Profile& profile, const std::vector<IniEntry>& entries, const std::filesystem::path& path,
+                 ImportOptions options, const std::vector<std::filesystem::path>& chain) {
+  options.within = chain;
+  for (const auto& e : entries) {
+    const auto tool = tool_of_section(e.section);
+    if (!tool) continue;
+    const auto where = fmt::format("{}:{}", path.string(), e.line);
+    if (e.key != "inherits") {
+      apply_value(profile, fmt::format("tool.{}.{}", *tool, e.key), without_comment(e), where);
+      continue;
+    }
+    const auto parent =
+        find_profile(e.value, path.parent_path(), options.folders).value_or(path.parent_path() / e.value);
+    refuse_circle(chain, parent, e.value, where);
+    apply_tool_file(profile, *tool, parent, options);
+  }
 }
 
 void apply_text(Profile& profile, std::string_view text, const std::filesystem::path& path,
@@ -215,18 +249,14 @@ void apply_text(Profile& profile, std::string_view text, const std::filesystem::
     if (options.strict) refuse_losses(translated, name);
     return note_losses(profile, translated, name);
   }
+  refuse_odd_tools(entries, name);
   chain.push_back(canonical(path, name));
   for (const auto& e : entries) {
     if (e.key != "inherits" || tool_of_section(e.section)) continue;
     const auto where = fmt::format("{}:{}", name, e.line);
     const auto found = find_profile(e.value, path.parent_path(), options.folders);
     const auto parent = found.value_or(path.parent_path() / e.value);
-    const auto whole = canonical(parent, where);
-    for (const auto& above : chain)
-      if (above == whole)
-        throw Error{Error::Kind::settings, fmt::format("inherits '{}', which inherits this file", e.value), where,
-                    "break the circle"};
-    if (chain.size() > 100) throw Error{Error::Kind::settings, "more than 100 generations of ancestors", where, {}};
+    refuse_circle(chain, parent, e.value, where);
     if (std::error_code unknown; !std::filesystem::is_regular_file(parent, unknown))
       throw Error{Error::Kind::settings, fmt::format("inherits '{}', which is not there", parent.string()), where,
                   "the path is relative to this file, or a name that `weft profile list` knows"};
@@ -236,16 +266,7 @@ void apply_text(Profile& profile, std::string_view text, const std::filesystem::
   for (const auto& e : entries)
     if (e.key != "inherits" && !tool_of_section(e.section))
       apply_value(profile, e.key, beside(path, e.key, without_comment(e)), fmt::format("{}:{}", name, e.line));
-  for (const auto& e : entries)
-    if (const auto tool = tool_of_section(e.section)) {
-      if (e.key == "inherits")
-        apply_tool_file(
-            profile, *tool,
-            find_profile(e.value, path.parent_path(), options.folders).value_or(path.parent_path() / e.value), options);
-      else
-        apply_value(profile, fmt::format("tool.{}.{}", *tool, e.key), without_comment(e),
-                    fmt::format("{}:{}", name, e.line));
-    }
+  apply_tools(profile, entries, path, options, chain);
   chain.pop_back();
 }
 
@@ -256,29 +277,32 @@ bool is_in(const std::filesystem::path& file, const std::filesystem::path& folde
   return !error && std::mismatch(whole.begin(), whole.end(), file.begin(), file.end()).first == whole.end();
 }
 
+}  // namespace
+
 void refuse_outside(const std::filesystem::path& path, const ImportOptions& options) {
   if (options.root.empty()) return;
   const auto file = canonical(path, path.string());
   if (is_in(file, options.root)) return;
   for (const auto& folder : options.folders)
     if (is_in(file, folder)) return;
-  throw Error{Error::Kind::file, "lies outside the folder that profiles may come from", path.string(),
-              fmt::format("--profile-root is {}", options.root.string())};
+  throw Error{Error::Kind::file, "lies outside the folder that profiles and what they name may come from",
+              path.string(), fmt::format("--profile-root is {}", options.root.string())};
 }
-
-}  // namespace
 
 std::string read_profile(const std::filesystem::path& path, const ImportOptions& options) {
   refuse_outside(path, options);
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
     throw Error{Error::Kind::file, "is a folder, not a profile", path.string(), "name an ini file in it"};
+  constexpr std::uintmax_t most_bytes = std::uintmax_t{2} << 30;  // G-code that holds one may be large
+  if (const auto bytes = std::filesystem::file_size(path, error); !error && bytes > most_bytes)
+    throw Error{Error::Kind::file, fmt::format("of {} MB is no profile", bytes >> 20), path.string(), "check the path"};
   return std::string(FileBytes(path.string()).view());
 }
 
 void apply_text(Profile& profile, std::string_view text, const std::filesystem::path& path,
                 const ImportOptions& options) {
-  std::vector<std::filesystem::path> chain;
+  auto chain = options.within;
   apply_text(profile, text, path, options, chain);
 }
 
@@ -359,104 +383,6 @@ void apply_value(Profile& profile, const std::string& key, const std::string& te
 std::string origin_of(const Profile& profile, const std::string& key) {
   const auto at = profile.origins.find(key);
   return at == profile.origins.end() ? "default" : at->second.back().where;
-}
-
-namespace {
-
-/// The outlines that the boundary audit measures against must enclose something and not cross themselves.
-template <class Refuse>
-void check_areas(const MachineSettings& machine, const Refuse& refuse) {
-  constexpr auto hint = "give at least three corners, in order around the area";
-  const auto sound = [](const Ring& ring) { return ring.size() >= 3 && double_area(ring) != 0 && is_simple(ring); };
-  if (machine.bed_shape == BedShape::polygon && !sound(machine.bed_polygon))
-    refuse("bed_polygon", "the outline crosses itself or encloses nothing", hint);
-  if (machine.bed_shape == BedShape::circle && machine.machine_width != machine.machine_depth)
-    refuse("machine_depth",
-           fmt::format("{} mm is not machine_width {} mm", to_mm(machine.machine_depth), to_mm(machine.machine_width)),
-           "a bed of shape circle is as deep as it is wide");
-  for (std::size_t i = 0; i < machine.bed_exclude_areas.size(); ++i)
-    if (!sound(machine.bed_exclude_areas[i]))
-      refuse("bed_exclude_areas", fmt::format("area {} crosses itself or encloses nothing", i + 1), hint);
-  if (!machine.machine_reach.empty() && !sound(reach_area(machine)))
-    refuse("machine_reach", "the outline crosses itself or encloses nothing",
-           "give two opposite corners of a box, or a polygon");
-  if (machine.machine_reach_z_min >= reach_z_max(machine))
-    refuse("machine_reach_z_min", "is not below the highest Z of the reach", "lower it, or raise machine_reach_z_max");
-  if (machine.home_position && machine.home_position->size() != 1)
-    refuse("home_position", "is not one point", "give it as 0x0, or auto when it is not known");
-  if (machine.macro_position && machine.macro_position->size() != 1)
-    refuse("macro_position", "is not one point", "give it as 0x0, or auto when it is not known");
-}
-
-template <class Refuse>
-void check_branches(const SupportSettings& s, const Refuse& refuse) {
-  if (s.support_tree_tip_diameter.value_or(0) > s.support_tree_branch_diameter.value_or(max_coord))
-    refuse("support_tree_tip_diameter",
-           fmt::format("{} mm is more than support_tree_branch_diameter {} mm", to_mm(*s.support_tree_tip_diameter),
-                       to_mm(*s.support_tree_branch_diameter)),
-           "branches get no thinner downwards");
-  if (s.support_tree_angle_slow.value_or(0) > s.support_tree_angle)
-    refuse("support_tree_angle_slow",
-           fmt::format("{}° is more than support_tree_angle {}°", *s.support_tree_angle_slow, s.support_tree_angle),
-           "it is how far branches lean where nothing is in their way");
-}
-
-/// Files that infill is laid by must be there, and patterns by density be some.
-template <class Refuse>
-void check_infill(const Profile& profile, const Refuse& refuse) {
-  const InfillSettings& s = profile.settings.infill;
-  const std::array files{&s.infill_density_image, &s.infill_density_field, &s.infill_direction_field};
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    std::error_code unknown;
-    if (files[i]->empty() || std::filesystem::exists(*files[i], unknown)) continue;
-    const std::string key(infill_files[i]);
-    const bool by_file = origin_of(profile, key).find(':') != std::string::npos;
-    refuse(key.c_str(), fmt::format("'{}' is not there", *files[i]),
-           by_file ? "the path is relative to this file" : "the path is relative to where weft is started");
-  }
-  try {
-    (void)parse_pattern_list(s.infill_pattern_by_density);
-  } catch (const std::invalid_argument& problem) {
-    refuse("infill_pattern_by_density", problem.what(), "as in: 0:honeycomb, 30:grid, 70:concentric");
-  }
-}
-
-}  // namespace
-
-void check_consistency(const Profile& profile) {
-  const auto& s = profile.settings;
-  const auto refuse = [&](const char* key, std::string what, std::string hint) {
-    throw Error{Error::Kind::settings, fmt::format("{}: {}", key, what), origin_of(profile, key), std::move(hint)};
-  };
-  const auto nozzle = s.machine.nozzle_diameter;
-  if (s.layers.layer_height > nozzle)
-    refuse("layer_height",
-           fmt::format("{} mm is more than nozzle_diameter {} mm", to_mm(s.layers.layer_height), to_mm(nozzle)),
-           "a bead cannot be higher than the nozzle is wide");
-  if (s.layers.initial_layer_height.value_or(0) > nozzle)
-    refuse(
-        "initial_layer_height",
-        fmt::format("{} mm is more than nozzle_diameter {} mm", to_mm(*s.layers.initial_layer_height), to_mm(nozzle)),
-        "a bead cannot be higher than the nozzle is wide");
-  if (s.machine.bed_shape == BedShape::polygon && s.machine.bed_polygon.size() < 3)
-    refuse(profile.origins.count("bed_polygon") != 0 ? "bed_polygon" : "bed_shape",
-           "a bed of shape polygon needs at least three corners in bed_polygon",
-           "give them as 0x0, 220x0, 220x220, 0x220");
-  check_areas(s.machine, refuse);
-  check_tools(profile);
-  check_branches(s.support, refuse);
-  check_infill(profile, refuse);
-  try {
-    (void)parse_head_profile(s.plate.machine_head_profile);
-  } catch (const std::invalid_argument& problem) {
-    refuse("machine_head_profile", problem.what(),
-           "as in: 0: -10x-10, 10x-10, 10x10, -10x10; 12: -30x-25, 45x-25, 45x60, -30x60");
-  }
-  try {
-    (void)parse_gcode_variables(s.gcode.gcode_variables);
-  } catch (const std::invalid_argument& problem) {
-    refuse("gcode_variables", problem.what(), "as in: purge_length = 30");
-  }
 }
 
 }  // namespace weft

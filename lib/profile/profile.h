@@ -30,6 +30,7 @@ struct ImportOptions {
   ProfileFolders folders{};             ///< where profiles are looked for by name
   std::filesystem::path root{};  ///< when not empty, no file is read that is neither in it nor in one of the folders
   std::vector<std::pair<std::string, std::string>> options{};  ///< PrusaSlicer's keys said beside profiles; they hold
+  std::vector<std::filesystem::path> within{};  ///< files that are being read, outermost first: none is read in itself
 };
 
 /// Lays an ini file over `profile`. `inherits = other.ini` (relative to the file, else by name) is laid down before the
@@ -54,6 +55,9 @@ prusaslicer::Translation import_prusaslicer(Profile& profile, std::string_view t
 /// them in: shares are of the profile's own layer height and nozzle.
 /// @throws Error{settings} naming the option
 void apply_options(Profile& profile, const ImportOptions& options);
+
+/// Does the options' root let that file be read? @throws Error{file}
+void refuse_outside(const std::filesystem::path& path, const ImportOptions& options);
 
 /// The bytes of a profile. @throws Error{file}, also where the options' root bounds what may be read
 std::string read_profile(const std::filesystem::path& path, const ImportOptions& options);

@@ -51,6 +51,8 @@ class Doubts {
     cooling();
     reach();
     custom();
+    firmware();
+    flow();
     surfaces();
     return std::move(out_);
   }
@@ -203,12 +205,37 @@ class Doubts {
             "has no G28: the printer is not homed, unless a macro does it");
   }
 
-  void surfaces() {
-    if (s_.gcode.arc_fitting && s_.machine.firmware == Firmware::klipper)
+  /// What firmware makes of curves, and what it knows of pressure.
+  void firmware() {
+    if (s_.gcode.arc_fitting && s_.machine.firmware == Firmware::klipper) {
+      const double piece_mm = to_mm(s_.gcode.arc_segment_length.value_or(1000));
       doubt("profile_arcs", "arc_fitting",
-            "klipper needs [gcode_arcs]; its pieces of 1 mm leave arcs below 10 mm radius as lines");
+            fmt::format("klipper needs [gcode_arcs]; its pieces of {:g} mm leave arcs below {:.3g} mm radius as lines",
+                        piece_mm, piece_mm * piece_mm / (8 * to_mm(s_.gcode.arc_tolerance))));
+    }
     if (s_.gcode.arc_fitting && s_.machine.firmware == Firmware::repetier)
       doubt("profile_arcs", "arc_fitting", "many builds of Repetier read no arcs");
+    const bool knows_advance = s_.machine.firmware != Firmware::repetier && s_.machine.firmware != Firmware::smoothie;
+    if (!s_.material.pressure_advance_model.empty() && !knows_advance)
+      doubt("profile_pressure_advance", "pressure_advance_model",
+            "this firmware has no command for it: nothing is written");
+  }
+
+  /// A slope of flow that acceleration alone does not reach asks for nothing.
+  void flow() {
+    const auto& v = s_.speeds;
+    const Um nozzle = s_.machine.nozzle_diameter, height = s_.layers.layer_height;
+    const Um width = length_or(s_.walls.wall_line_width_0, nozzle, rounded(1.05 * nozzle));
+    const double mm2 = to_mm(width) * to_mm(height), mm_s2 = v.acceleration_print;
+    for (const auto& [key, slope] : {std::pair{"max_extrusion_rate_slope", v.max_extrusion_rate_slope},
+                                     {"max_extrusion_rate_slope_down", v.max_extrusion_rate_slope_down}})
+      if (slope && *slope >= mm2 * mm_s2 && *slope < 100000)
+        doubt("profile_slope", key,
+              fmt::format("{} mm³/s² is more than {} mm/s² asks for ({:.0f}): no effect", value::number(*slope),
+                          value::number(mm_s2), mm2 * mm_s2));
+  }
+
+  void surfaces() {
     const auto& w = s_.walls;
     if (w.magic_fuzzy_skin_enabled && w.magic_fuzzy_skin_thickness > s_.machine.nozzle_diameter)
       doubt("profile_fuzzy_skin", "magic_fuzzy_skin_thickness",
@@ -218,6 +245,8 @@ class Doubts {
       doubt("profile_ironing", "ironing_line_spacing",
             fmt::format("{} mm is more than nozzle_diameter, {} mm: what lies between the lines stays rough",
                         to_mm(s_.shells.ironing_line_spacing), to_mm(s_.machine.nozzle_diameter)));
+    if (s_.adhesion.brim_ears && s_.adhesion.brim_width == 0)
+      doubt("profile_brim", "brim_ears", "brim_width is 0: there is no brim");
   }
 
   const Profile& profile_;

@@ -8,6 +8,7 @@
 #include "settings/value.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <stdexcept>
 #include <tuple>
@@ -22,6 +23,18 @@ std::optional<int> tool_of_section(std::string_view section) {
   const auto digits = value::trimmed(section.substr(word.size()));
   const auto tool = as_number<int>(digits);
   return tool && *tool >= 0 && *tool <= 31 ? tool : std::nullopt;
+}
+
+void refuse_odd_tools(const std::vector<IniEntry>& entries, const std::string& name) {
+  for (const auto& e : entries) {
+    if (e.section.size() < 5 || tool_of_section(e.section)) continue;
+    std::string word = e.section.substr(0, 4);
+    std::transform(word.begin(), word.end(), word.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (word == "tool" && (std::isalpha(static_cast<unsigned char>(e.section[4])) == 0 && e.section[4] != '_'))
+      throw Error{Error::Kind::settings, fmt::format("[{}]: no tool is called so", e.section.substr(0, 40)),
+                  fmt::format("{}:{}", name, e.line), "tools are [tool 0] … [tool 31]"};
+  }
 }
 
 std::optional<std::pair<int, std::string>> tool_key(const std::string& key) {
@@ -66,6 +79,7 @@ void apply_list(Profile& profile, const CatalogueEntry& entry, const std::string
 }
 
 void apply_tool_file(Profile& profile, int tool, const std::filesystem::path& path, const ImportOptions& options) {
+  profile.parents.push_back(path);
   if (tool == 0) return apply_file(profile, path, options);
   Profile own;
   own.settings = profile.settings;

@@ -2,6 +2,7 @@
 #pragma once
 #include "profile/profile.h"
 #include "settings/catalogue.h"
+#include "settings/ini.h"
 
 #include <filesystem>
 #include <optional>
@@ -15,6 +16,10 @@ namespace weft {
 /// The tool that a section `tool 1` is of; none: it is another section.
 std::optional<int> tool_of_section(std::string_view section);
 
+/// `[tool 99]`, `[Tool 1]`: meant for one tool, and not to be taken for a section that holds for the whole machine.
+/// @param name of the file, for messages  @throws Error{settings} for such a section
+void refuse_odd_tools(const std::vector<IniEntry>& entries, const std::string& name);
+
 /// The tool and the key of `tool.1.material_flow`; none: it is another key.
 std::optional<std::pair<int, std::string>> tool_key(const std::string& key);
 
@@ -27,7 +32,7 @@ void apply_tool_value(Profile& profile, int tool, const std::string& key, const 
 void apply_list(Profile& profile, const CatalogueEntry& entry, const std::string& text, const std::string& where);
 
 /// Lays an ini file over what one tool has otherwise: its filament. What holds for the whole plate stays as it is, with
-/// a notice. Tool 0 is the profile itself.
+/// a notice. Tool 0 is the profile itself. The file counts as one that is inherited.
 /// @throws as apply_file
 void apply_tool_file(Profile& profile, int tool, const std::filesystem::path& path, const ImportOptions& options = {});
 

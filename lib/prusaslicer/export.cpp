@@ -222,6 +222,11 @@ class Exporter {
     say("support_material_interface_speed", number(v.speed_support_interface), "speed_support_interface");
     const auto slope = print("max_extrusion_rate_slope");
     say("max_volumetric_extrusion_rate_slope_positive", slope == "auto" ? "0" : slope, "max_extrusion_rate_slope");
+    const auto own = print("max_extrusion_rate_slope_down"), down = own == "auto" ? slope : own;
+    say("max_volumetric_extrusion_rate_slope_negative", down == "auto" ? "0" : down, "max_extrusion_rate_slope_down");
+    const auto most = print("adaptive_layer_height_max");
+    say("min_layer_height", print("adaptive_layer_height_min"), "adaptive_layer_height_min");
+    say("max_layer_height", most == "auto" ? "0" : most, "adaptive_layer_height_max");
     for_each_reckoned(Form::acceleration, [&](const Key& row) {
       const auto text = print(row.ours);
       say(row.name, !v.acceleration_enabled || text == "auto" ? "0" : text, row.ours);
@@ -236,7 +241,14 @@ class Exporter {
     say("thick_bridges", "1");
     say("elefant_foot_compensation", number(std::max(0.0, -to_mm(s_.walls.xy_offset_layer_0))), "xy_offset_layer_0");
     say("seam_gap_distance", print("seam_gap_distance"), "seam_gap_distance");
-    say("infill_anchor_max", s_.infill.infill_connect_lines ? "50" : "0", "infill_connect_lines");
+    const auto longest = print("infill_anchor_max");
+    say("infill_anchor_max",
+        !s_.infill.infill_connect_lines ? "0"
+        : longest == "auto"             ? "50"
+                                        : longest,
+        "infill_connect_lines");
+    said_.insert("infill_anchor_max");
+    say("infill_anchor", print("infill_anchor_length"), "infill_anchor_length");
     if (!s_.retraction.retraction_enable) say("retract_length", "0");
     said_.insert("retraction_enable");
     std::string sizes;

@@ -264,6 +264,20 @@ class Translator {
     if (general) set("acceleration_enabled", otherwise > 0 ? "true" : "false", *general);
   }
 
+  /// Joints along walls, and ends that are bent along them. What a profile does not say is left to weft.
+  void anchors() {
+    const auto* own = lines_.look("infill_extrusion_width");
+    const double own_mm = own ? lines_.figure(*own).of(height_) : 0, width = own_mm > 0 ? own_mm : 1.125 * nozzle_;
+    const auto mm = [&](const IniEntry& e) { return std::clamp(lines_.figure(e).of(width), 0.0, 1000.0); };
+    const auto* longest = lines_.find("infill_anchor_max");
+    if (longest) {
+      set("infill_connect_lines", mm(*longest) > 0 ? "true" : "false", *longest);
+      if (longest->line != 0 && mm(*longest) > 0) set("infill_anchor_max", number(mm(*longest), 3), *longest);
+    }
+    if (const auto* e = lines_.find("infill_anchor"); e && e->line != 0)
+      set("infill_anchor_length", number(longest ? std::min(mm(*e), mm(*longest)) : mm(*e), 3), *e);
+  }
+
   void fills() {
     if (const auto* e = lines_.find("fill_density")) {
       const auto f = lines_.figure(*e);
@@ -293,9 +307,7 @@ class Translator {
       lines_.find("brim_width");
       done_.insert("brim_width");
     }
-    lines_.find("infill_anchor");
-    if (const auto* e = lines_.find("infill_anchor_max"))
-      set("infill_connect_lines", lines_.figure(*e).v > 0 ? "true" : "false", *e);
+    anchors();
     if (const auto* e = lines_.look("bridge_flow_ratio")) {
       const auto* thick = lines_.find("thick_bridges");
       if (thick && !lines_.flag(*thick)) {  // the cross-section of solid infill, as a share of the round strand

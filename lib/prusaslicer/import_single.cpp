@@ -2,11 +2,13 @@
 #include "prusaslicer/import_single.h"
 
 #include "core/error.h"
+#include "core/parts.h"
 #include "prusaslicer/text.h"
 #include "settings/value.h"
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -163,17 +165,56 @@ void shrinkage(Lines& lines, const Outlet& out) {
               *e);
 }
 
-/// How fast flow may grow, and how fast it may fall: weft has one limit for both, the lower one.
+/// How fast flow may grow, and how fast it may fall; 0 is no limit.
 void flow_slopes(Lines& lines, const Outlet& out) {
-  const IniEntry* from = nullptr;
-  double least = 0;
-  for (const auto* way : {"positive", "negative"})
-    if (const auto* e = lines.find(fmt::format("max_volumetric_extrusion_rate_slope_{}", way))) {
-      const double slope = lines.figure(*e).v;
-      if (from == nullptr || (slope > 0 && (least == 0 || slope < least))) from = e;
-      if (slope > 0) least = least > 0 ? std::min(least, slope) : slope;
+  constexpr double no_limit = 100000;  // the most that weft takes, and more than any extruder does
+  const auto *up = lines.find("max_volumetric_extrusion_rate_slope_positive"),
+             *down = lines.find("max_volumetric_extrusion_rate_slope_negative");
+  const double most_up = up ? lines.figure(*up).v : 0, most_down = down ? lines.figure(*down).v : 0;
+  if (up) out.set("max_extrusion_rate_slope", most_up > 0 ? number(most_up) : "auto", *up);
+  const auto* from = down ? down : up;
+  if (from == nullptr) return;
+  out.set("max_extrusion_rate_slope_down",
+          most_down > 0 ? number(most_down)
+          : most_up > 0 ? number(no_limit)
+                        : "auto",
+          *from);
+}
+
+/// What layers of varying height may be; 0 is PrusaSlicer's own.
+void layer_heights(Lines& lines, const Outlet& out) {
+  constexpr double least_mm = 0.02, most_mm = 2;
+  if (const auto* e = lines.find("min_layer_height"))
+    out.set("adaptive_layer_height_min", number(std::clamp(lines.figure(*e).v, least_mm, most_mm), 3), *e);
+  if (const auto* e = lines.find("max_layer_height")) {
+    const double mm = lines.figure(*e).v;
+    out.set("adaptive_layer_height_max", mm == 0 ? "auto" : number(std::clamp(mm, least_mm, most_mm), 3), *e);
+  }
+}
+
+/// Limits of silent mode: the second values of each limit, where all of them have one.
+void silent_limits(Lines& lines, const Outlet& out) {
+  const auto* wanted = lines.look("silent_mode");  // custom G-code may ask for it, too
+  const auto* flavor = lines.look("gcode_flavor");
+  if (!wanted || !lines.flag(*wanted) || !flavor || flavor->value != "marlin") return;
+  std::string all;
+  for (const auto* key :
+       {"machine_max_feedrate_x", "machine_max_feedrate_y", "machine_max_feedrate_z", "machine_max_feedrate_e",
+        "machine_max_acceleration_x", "machine_max_acceleration_y", "machine_max_acceleration_z",
+        "machine_max_acceleration_e", "machine_max_jerk_x", "machine_max_jerk_z", "machine_max_jerk_e"}) {
+    const auto* e = lines.look(key);
+    const auto values = e ? parts(e->value, ',') : std::vector<std::string_view>{};
+    if (values.size() < 2) return;
+    double v = 0;
+    try {
+      value::parse(values[1], Unit::none, v);
+    } catch (const std::invalid_argument&) {
+      return;
     }
-  if (from != nullptr) out.set("max_extrusion_rate_slope", least > 0 ? number(least) : "auto", *from);
+    if (!(v > 0)) return;
+    all += (all.empty() ? "" : ", ") + number(std::clamp(v, 0.01, 100000.0));
+  }
+  out.set("machine_silent_limits", all, *wanted);
 }
 
 /// Which walls are rough.
@@ -233,6 +274,8 @@ void import_single_keys(Lines& lines, double infill_mm_s, double solid_mm_s, con
   shrinkage(lines, out);
   flow_slopes(lines, out);
   at_heights(lines, out);
+  layer_heights(lines, out);
+  silent_limits(lines, out);
   for (const auto& row : remarked)
     if (const auto* e = lines.find(row.key); e && !says_one_of(row.neutral, e->key, e->value))
       out.approximate(*e, std::string(row.why));

@@ -96,6 +96,10 @@ std::string_view type_name(Unit unit) {
     return "colour";
   else if constexpr (std::is_same_v<T, HeightMarks>)
     return "heights";
+  else if constexpr (std::is_same_v<T, HeightBands>)
+    return "ranges";
+  else if constexpr (std::is_same_v<T, PressureRows>)
+    return "rows";
   else if constexpr (std::is_same_v<T, ToolValues>)
     return "settings of tools";
   else
@@ -200,15 +204,21 @@ const CatalogueEntry* find_setting(std::string_view key) {
   return at != by_key.end() && at->first == wanted ? at->second : nullptr;
 }
 
+namespace {
+
+std::string range_of(const CatalogueEntry& entry) {
+  if (entry.least.empty()) return entry.default_text.empty() ? "" : fmt::format("default: {}", entry.default_text);
+  return fmt::format("range {} … {}{}{}, default {}{}", entry.least, entry.most, entry.unit.empty() ? "" : " ",
+                     entry.unit, entry.default_text, entry.automatic ? ", or auto" : "");
+}
+
+}  // namespace
+
 std::any read_value(const CatalogueEntry& entry, const std::string& text, const std::string& where) {
   try {
     return entry.read(text);
   } catch (const std::invalid_argument& problem) {
-    throw Error{Error::Kind::settings, fmt::format("{}: {}", entry.key, problem.what()), where,
-                entry.least.empty() ? fmt::format("default: {}", entry.default_text)
-                                    : fmt::format("range {} … {}{}{}, default {}{}", entry.least, entry.most,
-                                                  entry.unit.empty() ? "" : " ", entry.unit, entry.default_text,
-                                                  entry.automatic ? ", or auto" : "")};
+    throw Error{Error::Kind::settings, fmt::format("{}: {}", entry.key, problem.what()), where, range_of(entry)};
   }
 }
 

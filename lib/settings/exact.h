@@ -28,6 +28,11 @@ inline constexpr auto fields<Rgb> = listed(&Rgb::r, &Rgb::g, &Rgb::b);
 template <>
 inline constexpr auto fields<HeightMark> = listed(&HeightMark::z, &HeightMark::text);
 template <>
+inline constexpr auto fields<HeightBand> = listed(&HeightBand::from, &HeightBand::to, &HeightBand::height);
+template <>
+inline constexpr auto fields<PressureRow> = listed(&PressureRow::advance_s, &PressureRow::mm3_s, &PressureRow::mm_s2,
+                                                   &PressureRow::height);
+template <>
 inline constexpr auto fields<ToolValue> = listed(&ToolValue::tool, &ToolValue::key, &ToolValue::text);
 
 }  // namespace weft

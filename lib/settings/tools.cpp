@@ -15,7 +15,7 @@
 namespace weft {
 
 bool listed_by_tool(const CatalogueEntry& entry) {
-  return entry.scope == Scope::tool && entry.type != "text" && entry.type != "points";
+  return entry.scope == Scope::tool && entry.type != "text" && entry.type != "points" && entry.type != "rows";
 }
 
 std::vector<std::string> values_by_tool(std::string_view text) {

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "settings/value.h"
-
 #include "core/escape.h"
 #include "core/join.h"
 #include "core/number.h"
-#include "core/parts.h"
+#include "settings/value_text.h"
 
 #include <algorithm>
 #include <charconv>
@@ -14,11 +12,12 @@
 #include <fmt/format.h>
 
 namespace weft::value {
-namespace {
 
-[[noreturn]] void refuse(std::string_view text, std::string_view what) {
+void refuse(std::string_view text, std::string_view what) {
   throw std::invalid_argument(fmt::format("'{}' is not {}", text, what));
 }
+
+namespace {
 
 bool is_space(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\n';
@@ -34,7 +33,8 @@ bool same_word(std::string_view a, std::string_view b) {
   return true;
 }
 
-/// The number at the front of `text`, which is advanced past it and the white space behind it.
+}  // namespace
+
 double take_number(std::string_view& text, std::string_view whole, std::string_view what) {
   if (!text.empty() && text.front() == '+') text.remove_prefix(1);
   double v = 0;
@@ -44,7 +44,6 @@ double take_number(std::string_view& text, std::string_view whole, std::string_v
   return v;
 }
 
-/// Is `suffix` a way to write the unit? The plain-ASCII spellings of the symbols count too.
 bool names_unit(std::string_view suffix, Unit unit) {
   if (suffix.empty() || suffix == symbol_of(unit)) return true;
   switch (unit) {
@@ -73,6 +72,8 @@ bool names_unit(std::string_view suffix, Unit unit) {
   }
 }
 
+namespace {
+
 std::string what_of(std::string_view noun, Unit unit) {
   return unit == Unit::none ? std::string(noun) : fmt::format("{} in {}", noun, symbol_of(unit));
 }
@@ -84,6 +85,8 @@ double quantity(std::string_view text, Unit unit, std::string_view noun) {
   return v;
 }
 
+}  // namespace
+
 Um length_from(double mm, std::string_view whole) {
   const double um = mm * 1000.0;
   if (std::abs(um) > max_coord) refuse(whole, "a length within 16 m");
@@ -92,10 +95,7 @@ Um length_from(double mm, std::string_view whole) {
   return static_cast<Um>(std::lround(um));
 }
 
-template <class F>
-void for_each_part(std::string_view text, char separator, F f) {
-  for (const auto part : parts(text, separator)) f(trimmed(part));
-}
+namespace {
 
 /// A text within a list: `;` parts its items, and stands in a text as `\s`, beside the escapes that texts have anyway.
 std::string without_semicolons(std::string_view text) {

@@ -77,6 +77,21 @@ struct HeightMark {
 };
 using HeightMarks = std::vector<HeightMark>;
 
+/// Layers of a height of their own between two heights: `0-5:0.1`.
+struct HeightBand {
+  Um from = 0, to = 0, height = 0;
+  friend bool operator==(HeightBand, HeightBand) = default;
+};
+using HeightBands = std::vector<HeightBand>;  ///< `0-5:0.1; 5-20:0.3`, ascending, none over another
+
+/// A measured advance of the extruder: `0.04, 3.96, 3000`.
+struct PressureRow {
+  double advance_s = 0, mm3_s = 0, mm_s2 = 0;
+  std::optional<Um> height;  ///< of the layer it was measured at
+  friend bool operator==(const PressureRow&, const PressureRow&) = default;
+};
+using PressureRows = std::vector<PressureRow>;  ///< rows separated by `;`
+
 /// A setting of another tool than T0: `1.material_flow = 97`.
 struct ToolValue {
   int tool = 0;
@@ -108,7 +123,9 @@ void parse(std::string_view text, Unit unit, ValuesAt& out);
 void parse(std::string_view text, Unit unit, TransferCurve& out);  ///< `linear`, `simp:3`, `heaviside:16:0.5`
 void parse(std::string_view text, Unit unit, Rgb& out);            ///< `#RRGGBB`, or `#RRGGBBAA` without its A
 void parse(std::string_view text, Unit unit, HeightMarks& out);    ///< `5.2 = text; 10`, mm, above 0; sorted
-void parse(std::string_view text, Unit unit, ToolValues& out);  ///< `1.key = text; 2.key = text`; in texts `\s` is `;`
+void parse(std::string_view text, Unit unit, ToolValues& out);   ///< `1.key = text; 2.key = text`; in texts `\s` is `;`
+void parse(std::string_view text, Unit unit, HeightBands& out);  ///< `0-5:0.1; 5-20:0.3`, mm; sorted, apart
+void parse(std::string_view text, Unit unit, PressureRows& out);  ///< `0.04, 3, 1000; …`: s, mm³/s, mm/s², or and mm
 /// Index of the choice, without regard to case.
 std::size_t parse_choice(std::string_view text, const std::vector<std::string_view>& names);
 
@@ -127,6 +144,8 @@ std::string print(Rgb v, Unit unit);
 std::string print(const Numbers& v, Unit unit);
 std::string print(const HeightMarks& v, Unit unit);
 std::string print(const ToolValues& v, Unit unit);
+std::string print(const HeightBands& v, Unit unit);
+std::string print(const PressureRows& v, Unit unit);
 
 /// A number as short as it can be, without locale: 0.45, 220, -1.5.
 std::string number(double v, int decimals = 6);

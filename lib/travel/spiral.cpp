@@ -13,8 +13,6 @@ constexpr double close_um = 5;
 constexpr double shortest_um = 200;
 /// Plastic that grows or falls does so in steps along pieces of this length.
 constexpr double ramp_um = 1000;
-/// Loops further apart than so many widths do not pass over into each other: they are steps of the model.
-constexpr double apart_widths = 2;
 
 struct Nearest {
   std::size_t piece = 0;  ///< from junction `piece` to the next
@@ -63,8 +61,12 @@ std::vector<Junction> from_nearest(std::vector<Junction> loop, Point start) {
 /// A turn in the making: where share s of the way lies.
 class Way {
  public:
-  Way(const std::vector<Junction>& path, const std::vector<Junction>& below, bool smooth)
-      : path_(path), below_(below), smooth_(smooth && !below.empty()), along_(path.size(), 0.0) {
+  Way(const std::vector<Junction>& path, const std::vector<Junction>& below, const SpiralStyle& style)
+      : path_(path),
+        below_(below),
+        smooth_(style.smooth && !below.empty()),
+        apart_widths_(style.apart_widths),
+        along_(path.size(), 0.0) {
     for (std::size_t i = 1; i < path.size(); ++i) along_[i] = along_[i - 1] + distance(path[i - 1].at, path[i].at);
   }
 
@@ -77,7 +79,7 @@ class Way {
     if (!smooth_) return j;
     const double x = exact(i, t, &Point::x), y = exact(i, t, &Point::y);
     const auto near = nearest(below_, x, y);
-    const double most = apart_widths * std::max(j.width, below_[near.piece].width);
+    const double most = apart_widths_ * std::max(j.width, below_[near.piece].width);
     if (near.distance2 > most * most) return j;
     j.at = {rounded(near.x + share * (x - near.x)), rounded(near.y + share * (y - near.y))};
     return j;
@@ -92,6 +94,7 @@ class Way {
   const std::vector<Junction>& path_;
   const std::vector<Junction>& below_;
   bool smooth_;
+  double apart_widths_;
   std::vector<double> along_;
 };
 
@@ -162,7 +165,7 @@ std::vector<Extrude> Spiral::turn(const std::vector<Junction>& loop, Um height, 
   const auto path = from_nearest(loop, start ? *start : below_.back().at);
   const auto laid = [&](double longest_um, const std::vector<Junction>& below) {
     Extrude out{.path = {}, .role = Role::outer_wall, .height = height};
-    const Way way(path, below, smooth_);
+    const Way way(path, below, style_);
     Cutter(way, path, longest_um, out, height).run();
     return out;
   };
@@ -174,11 +177,11 @@ std::vector<Extrude> Spiral::turn(const std::vector<Junction>& loop, Um height, 
     turn.path.front().at = below_.back().at;
     turn.below.insert(turn.below.begin(), height);
   }
-  if (place.first) ramp(0, 1, turn);
+  if (place.first) ramp(style_.start_flow, 1, turn);
   if (place.last) {
     out.push_back(laid(ramp_um, {}));
     std::fill(out.back().below.begin(), out.back().below.end(), 0);
-    ramp(1, 0, out.back());
+    ramp(1, style_.finish_flow, out.back());
   }
   below_ = path;
   return out;

@@ -19,15 +19,19 @@ double length_from(Point p, const Polyline& way) {
 
 Way Router::way(Point p, Point q) const {
   auto inside = combed(layer_.comb, p, q);
+  bool along_outer_walls = false;
   if (!inside && !layer_.narrows.empty()) {
     inside = combed(half_a_bead_in(), p, q);
+    along_outer_walls = !inside;
     if (!inside) inside = combed(layer_.narrows, p, q);
   }
   if (!inside || leaves_room(p, *inside)) return direct(p, q);
   const double length = length_from(p, *inside);
   if (too_long(length, distance(p, q))) return direct(p, q);
   const bool far = settings_.retraction_combing_max_distance && length > *settings_.retraction_combing_max_distance;
-  const bool strict = !retraction_.retract_only_when_crossing && length >= retraction_.retraction_min_travel;
+  // What oozes on an outer wall is a scar as long as the way.
+  const bool strict =
+      (along_outer_walls || !retraction_.retract_only_when_crossing) && length >= retraction_.retraction_min_travel;
   // Checked all the same: the boundary may be moved outwards, and an outer wall may leave the outline where it is thin.
   const bool crosses = leaves_outline(p, *inside);
   return {std::move(*inside), far || strict || crosses, crosses, false};

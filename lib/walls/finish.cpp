@@ -12,10 +12,6 @@ namespace {
 
 using Vertex = Line::Vertex;
 
-constexpr double reach_um = 50;      // within which a width becomes its mean: plastic flows as far as a nozzle is wide
-constexpr double even_inside = 0.5;  // of the width: an end inside that tapers more keeps its steps
-constexpr double any_taper = 1.0;    // … no end tapers more
-
 /// Widths that plastic can follow, along a path with as few vertices as it needs.
 void simplify(std::vector<Vertex>& path, bool closed, double reach) {
   VertexPath simple;
@@ -28,34 +24,6 @@ void simplify(std::vector<Vertex>& path, bool closed, double reach) {
   cut_ramps(simple, closed);
   path.clear();
   for (const PathVertex& v : simple) path.push_back({{v.x, v.y}, v.band});
-}
-
-/// The first segment of an open bead reaches as far as any later bend may swell back: half the width there.
-/// An end that tapers by more than `most_uneven` of its width or `most_um` stays as it is.
-void steady_start(std::vector<Vertex>& path, double most_uneven, double most_um) {
-  std::size_t last = 0;
-  double along = 0, there = 0;  // to where the loop is; to `last`
-  double area = 0, area_there = 0;
-  for (std::size_t i = 1; i + 1 < path.size() && along < 2000; ++i) {
-    const double d = distance(path[i - 1].at, path[i].at);
-    along += d;
-    area += d * (path[i - 1].width + path[i].width) / 2;
-    if (along < 0.98 * path[i].width / 2) last = i, there = along, area_there = area;
-  }
-  if (last == 0) return;
-  const auto [thin, thick] = std::minmax_element(path.begin(), path.begin() + static_cast<long>(last) + 2,
-                                                 [](const Vertex& a, const Vertex& b) { return a.width < b.width; });
-  if (thick->width - thin->width > std::min(most_uneven * thick->width, most_um)) return;
-  const Vertex from = path[last], next = path[last + 1];
-  const double length = distance(from.at, next.at), reach = std::max(from.width, next.width) / 2;
-  const double t = std::clamp((reach - there) / std::max(1.0, length), 0.0, 1.0);
-  const Vertex second = lerp(from, next, t);
-  const double whole = distance(path[0].at, second.at);
-  if (whole < 1) return;
-  area_there += t * length * (from.width + second.width) / 2;
-  path[0].width = std::max(1.0, 2 * area_there / whole - second.width);
-  path.erase(path.begin() + 1, path.begin() + static_cast<long>(last));
-  path[1] = second;
 }
 
 /// What a bead may not be wide it is elsewhere, within limits.
@@ -144,15 +112,6 @@ void finish(Line line, const FinishOptions& o, std::vector<Line>& out, double& d
     }
     keep_within(stretch, o.most_width);
     simplify(stretch, false, o.reach);
-    const auto most_um = [&](bool meets) { return line.inset == 0 && !meets ? o.even_taper : 1e9; };
-    steady_start(stretch, any_taper, most_um(first_meets));
-    // Travel may begin there, too. A single bead that goes on into a thicker part keeps its steps: evened, they would
-    // reach beyond the outline.
-    if (line.inset > 0 || !last_meets) {
-      std::reverse(stretch.begin(), stretch.end());
-      steady_start(stretch, line.inset == 0 ? any_taper : even_inside, most_um(last_meets));
-      std::reverse(stretch.begin(), stretch.end());
-    }
     out.push_back({std::move(stretch), false, line.inset, first_meets, last_meets});
   }
   dropped_mm += (whole - kept) / 1000;

@@ -17,8 +17,7 @@ struct FinishOptions {
   double stable_outer = 200, stable_inner = 200;  ///< narrowest planned width, µm
   double most_width = 1e9;                        ///< no bead is wider, µm
   double least_flow = 0.05, most_flow = 1;
-  double reach = 50;       ///< along a bead its width is the mean of what lies so near (model/simplify), µm
-  double even_taper = 20;  ///< an end of inset 0 that meets no wall keeps its steps if it tapers by more, µm
+  double reach = 50;  ///< along a bead its width is the mean of what lies so near (model/simplify), µm
 };
 
 /// Whether an open bead of that length and area is worth its two travels: what is too short is not, nor what is thinner

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "walls/fuzzy.h"
 
+#include "core/noise.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -51,6 +53,26 @@ Junction moved(const WallSettings& settings, const Junction& a, const Junction& 
   return out;
 }
 
+/// What stands off there, −1 … 1.
+double noise_at(const WallSettings& settings, const FuzzyPlace& place, Point at) {
+  const double scale = settings.fuzzy_skin_scale;
+  const noise::Place in_scale{(at.x - place.origin.x) / scale, (at.y - place.origin.y) / scale, place.z / scale};
+  const auto seed = static_cast<std::uint64_t>(settings.fuzzy_skin_seed);
+  switch (settings.fuzzy_skin_noise) {
+    case FuzzyNoise::perlin:
+      return noise::perlin(seed, in_scale, settings.fuzzy_skin_octaves);
+    case FuzzyNoise::billow:
+      return noise::billow(seed, in_scale, settings.fuzzy_skin_octaves);
+    case FuzzyNoise::ridged:
+      return noise::ridged(seed, in_scale, settings.fuzzy_skin_octaves);
+    case FuzzyNoise::voronoi:
+      return noise::voronoi(seed, in_scale);
+    case FuzzyNoise::classic:
+      break;
+  }
+  return 0;
+}
+
 }  // namespace
 
 bool runs_outside(const Bead& bead) {
@@ -60,11 +82,11 @@ bool runs_outside(const Bead& bead) {
   return area > 0;
 }
 
-void roughen(const WallSettings& settings, std::size_t index, std::size_t number,
-             const std::function<bool(Point)>& keeps, Bead& bead) {
+void roughen(const WallSettings& settings, const FuzzyPlace& place, const std::function<bool(Point)>& keeps,
+             Bead& bead) {
   const double apart = settings.magic_fuzzy_skin_point_dist, most = settings.magic_fuzzy_skin_thickness;
   if (1000 * length_mm(bead) < 3 * apart || bead.path.size() < 3) return;
-  Chance chance(settings.fuzzy_skin_seed, index, number);
+  Chance chance(settings.fuzzy_skin_seed, place.index, place.number);
   const auto& path = bead.path;
   const std::size_t n = path.size();
   std::vector<Junction> out;
@@ -74,8 +96,10 @@ void roughen(const WallSettings& settings, std::size_t index, std::size_t number
     if (turn_at(before.at, a.at, b.at) > corner_turn || keeps(a.at)) out.push_back(a);
     const double length = distance(a.at, b.at);
     for (; next < length; next += apart * (nearest + 2 * (1 - nearest) * chance.next())) {
-      const double by = most * (2 * chance.next() - 1);
-      const bool stays = keeps(lerp(a.at, b.at, next / length));
+      const Point at = lerp(a.at, b.at, next / length);
+      const double by = most * (settings.fuzzy_skin_noise == FuzzyNoise::classic ? 2 * chance.next() - 1
+                                                                                 : noise_at(settings, place, at));
+      const bool stays = keeps(at);
       out.push_back(moved(settings, a, b, next / length, stays ? 0 : by));
     }
     next -= length;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "walls/keep_inside.h"
 
-#include "walls/pockets.h"
-#include "walls/stub.h"
+#include "walls/room.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,19 +14,16 @@ using Path = std::vector<Vertex>;
 
 constexpr double noticed_um = 8;  // a band may reach over the outline by so much
 constexpr double outside_um = 4;  // … and is made to by no more: the lattice and the part's volume want their share
-constexpr double outside_thin_um = 3.5;  // … where all beads are single: a corner gets one sooner than all grow so far
-constexpr double least_piece_um = 20;    // no shorter pieces are cut
+constexpr double least_piece_um = 20;  // no shorter pieces are cut
 constexpr double least_piece = 0.06;  // … nor than so much of the width: on the lattice their directions would jitter
 constexpr double long_piece = 8;      // times the least: longer ones are cut whatever that brings
 constexpr double worth_um = 4;        // … others if it makes them so much wider, together
-constexpr double tolerated = 0.002;   // of the part's area may be missing
-constexpr double forgiven = 0.004;    // … when pockets are too small for beads: else the part's volume comes first
+constexpr double tolerated = 0.004;   // of the part's area may be missing: else its volume comes first
 constexpr double most_outside_um = 200;  // … at the cost of so much at most
-constexpr double least_pocket = 0.002;   // of the part's area: what is smaller gets no bead
 constexpr double tip_um = 100;           // an end so narrow meets nothing
 constexpr double trim_step_um = 5;       // an end gives way in such steps
 constexpr double most_trim = 0.1;        // … up to so much of its width
-constexpr int most_rounds = 3;           // so often what beads leave is looked for
+constexpr int most_rounds = 3;           // so often what is missing is spread
 
 double half_width(const Vertex& a, const Vertex& b) {
   return (a.width + b.width) / 4;
@@ -46,12 +42,11 @@ bool is_arm(const Line& line) {
 /// The lines of one part.
 class Keeper {
  public:
-  Keeper(const Region& region, Room& room, const FinishOptions& options, std::vector<Line>& lines)
-      : region_(region), o_(options), lines_(lines), room_(room) {}
+  Keeper(const Region& region, const FinishOptions& options, std::vector<Line>& lines)
+      : region_(region), o_(options), lines_(lines), room_(region, options.origin) {}
 
   /// `thin`: all lines are single beads.
   void run(bool thin) {
-    if (thin) outside_ = outside_thin_um;
     bool any = false;
     for (Line& line : lines_) {
       if (!(thin || is_arm(line)) || fits(line.path)) continue;
@@ -63,10 +58,8 @@ class Keeper {
     const double whole = 1e6 * area_mm2(region_);
     missing_ = whole;
     for (const Line& line : lines_) missing_ -= area_of(line.path);
-    for (int round = 0; round < most_rounds && missing_ - spare() > tolerated * whole; ++round)
-      if (!fill_pockets(whole)) break;
     spread();
-    for (; missing_ > forgiven * whole && outside_ < most_outside_um; outside_ *= 2) spread();
+    for (; missing_ > tolerated * whole && outside_ < most_outside_um; outside_ *= 2) spread();
   }
 
  private:
@@ -188,39 +181,20 @@ class Keeper {
     }
   }
 
-  /// Whether there were any.
-  bool fill_pockets(double whole) {
-    const double room = spare();
-    bool any = false;
-    for (const Pocket& pocket : pockets_of(region_, o_.origin, lines_)) {
-      if (missing_ - room < tolerated * whole || pocket.area < least_pocket * whole) break;
-      Line line;
-      line.path = stub_bead(pocket.ring);
-      if (line.path.size() < 2) continue;
-      keep(line.path);
-      const double length = length_of(line.path), area = area_of(line.path);
-      if (length < o_.least_length || area < o_.least_feature * length) continue;
-      missing_ -= area;
-      lines_.push_back(std::move(line));
-      any = true;
-    }
-    return any;
-  }
-
   const Region& region_;
   const FinishOptions& o_;
   std::vector<Line>& lines_;
-  Room& room_;
+  Room room_;
   double outside_ = outside_um;
   double missing_ = 0;
 };
 
 }  // namespace
 
-void keep_inside(const Region& region, Room& room, const FinishOptions& options, std::vector<Line>& lines) {
+void keep_inside(const Region& region, const FinishOptions& options, std::vector<Line>& lines) {
   const bool thin = std::all_of(lines.begin(), lines.end(), single);
   if (lines.empty() || (!thin && std::none_of(lines.begin(), lines.end(), is_arm))) return;
-  Keeper(region, room, options, lines).run(thin);
+  Keeper(region, options, lines).run(thin);
 }
 
 }  // namespace weft::walls

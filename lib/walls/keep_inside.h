@@ -2,7 +2,6 @@
 #pragma once
 #include "core/polygon.h"
 #include "walls/finish.h"
-#include "walls/room.h"
 
 #include <vector>
 
@@ -11,9 +10,9 @@ namespace weft::walls {
 
 /// A single bead that reaches over the outline on one side gets as wide as there is room for on both, in a part that
 /// has no other walls and in arms of one that has. (What lies between walls with both ends is left as it is.) In a part
-/// of single beads what that leaves out is taken up by beads that have room for it; what is left of the part beyond
-/// that gets short beads of its own. Where they would be too thin or too short to be laid the beads there are keep the
-/// part's volume, over its outline if need be. Pre: finished lines, all there are of the part.
-void keep_inside(const Region& region, Room& room, const FinishOptions& options, std::vector<Line>& lines);
+/// of single beads what that leaves out is taken up by beads that have room for it, or else by all of them, over the
+/// outline if need be: corners that are left get no beads of their own, which would be dabs with two travels each. Pre:
+/// finished lines, all there are of the part.
+void keep_inside(const Region& region, const FinishOptions& options, std::vector<Line>& lines);
 
 }  // namespace weft::walls

@@ -28,6 +28,13 @@ std::vector<Um> widest_of(const Beads& beads, Um widest, bool dab) {
   return out;
 }
 
+/// What beads cover: their volume at a height of 1 mm.
+double laid_mm2(const Beads& beads) {
+  double sum = 0;
+  for (const Bead& bead : beads) sum += volume_mm3(bead, 1_mm);
+  return sum;
+}
+
 void scale(double by, const std::vector<Um>& widest, Beads& beads) {
   std::size_t i = 0;
   for (Bead& bead : beads)
@@ -42,26 +49,18 @@ void scale(double by, const std::vector<Um>& widest, Beads& beads) {
 
 }  // namespace
 
-double laid_mm2(const Beads& beads) {
-  double sum = 0;
-  for (const Bead& bead : beads) sum += volume_mm3(bead, 1_mm);
-  return sum;
-}
-
-double keep_volume(double wanted, Um widest, bool dab, Beads& beads) {
+void keep_volume(double wanted, Um widest, bool dab, Beads& beads) {
   const double tolerance = std::all_of(beads.begin(), beads.end(), is_single) ? tolerated_alone : tolerated;
   const auto right = [&](double laid) { return laid <= 0 || std::abs(wanted / laid - 1) <= tolerance; };
-  double laid = laid_mm2(beads), all = 1;
-  if (right(laid)) return all;
+  double laid = laid_mm2(beads);
+  if (right(laid)) return;
   const auto limits = widest_of(beads, widest, dab);
   // Again, for beads that are as wide as they may be do not take their share.
   for (int round = 0; round < most_rounds && !right(laid); ++round, laid = laid_mm2(beads)) {
     const double ratio = wanted / laid;
     const double by = std::clamp(ratio > 1 ? ratio - tolerance : ratio + tolerance, 1 - most, 1 + most);
     scale(by, limits, beads);
-    all *= by;
   }
-  return all;
 }
 
 }  // namespace weft::walls

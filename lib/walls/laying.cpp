@@ -15,8 +15,6 @@ Laying Planner::run() {
   stop_if_asked();
   filter();
   stop_if_asked();
-  open_needless_mouths();
-  stop_if_asked();
   pass_junctions();
   stop_if_asked();
   ramps();

@@ -7,7 +7,6 @@
 #include "geometry/offset.h"
 #include "walls/finish.h"
 #include "walls/fit_ends.h"
-#include "walls/footprints.h"
 #include "walls/keep_inside.h"
 #include "walls/keep_volume.h"
 
@@ -80,32 +79,6 @@ geometry::MedialAxis axis_of(const Region& region) {
   }
 }
 
-/// Beads lay what their part asks for, and not over its outline. What loops that give way lose all make up for, which
-/// may push others out.
-void fit(Room& room, const FinishOptions& options, const Widths& widths, double wanted, bool dab, Beads& beads) {
-  constexpr int most_rounds = 6;
-  constexpr double near_enough = 0.9955;  // of what is wanted: half a percent may lack, and the lattice has its share
-  // … or less at first, where there are loops: they can make up for it.
-  const double least =
-      std::any_of(beads.begin(), beads.end(), [](const Bead& bead) { return bead.closed; }) ? 0.97 : near_enough;
-  const auto keep_all = [&] { return keep_volume(wanted, rounded(widths.most), dab, beads); };
-  if (dab) {
-    keep_all();
-    return;
-  }
-  const Um nominal = rounded(widths.outer), narrowest = options.compensate ? rounded(options.stable_outer) : 1;
-  std::optional<Footprints> footprints(std::in_place, room, options.origin, nominal, narrowest, beads);
-  double wider = 1;
-  for (int round = 0; round < most_rounds; ++round) {
-    if (!footprints->keep(least * wanted, beads) && round > 0) break;
-    wider *= keep_all();
-    if (wider <= 1 + Footprints::most_change) continue;
-    footprints.emplace(room, options.origin, nominal, narrowest, beads);
-    wider = 1;
-  }
-  footprints->keep(near_enough * wanted, beads);
-}
-
 }  // namespace
 
 Part part_of(const WallSettings& settings, const Widths& widths, const Region& region, Um nozzle, std::uint32_t index) {
@@ -138,7 +111,6 @@ Part part_of(const WallSettings& settings, const Widths& widths, const Region& r
   const Laying laying = lay(skeleton, widths, options);
   // So small a part gets an even bead: what pieces of it would gain they would swell over each other.
   const bool dab = 1e6 * area_mm2(region) < dab_share * widths.outer * widths.outer;
-  if (dab) finishing.even_taper = 1e9;
   finishing.least_flow = settings.min_flow_ratio / 100;
   finishing.most_flow = settings.max_flow_ratio / 100;
   auto pairs = trace_pairs(skeleton, laying), middles = trace_middles(skeleton, laying);
@@ -152,12 +124,11 @@ Part part_of(const WallSettings& settings, const Widths& widths, const Region& r
   stop_if_asked();
   out.inside = rest_of(skeleton, laying, axis.origin);
   stop_if_asked();
-  Room room(region, axis.origin);
-  if (!dab) keep_inside(region, room, finishing, finished);
+  if (!dab) keep_inside(region, finishing, finished);
   for (const Line& line : finished) append_bead(line, finishing, out.beads);
   const double wanted = area_mm2(region) - area_mm2(out.inside);
   stop_if_asked();
-  fit(room, finishing, widths, wanted, dab, out.beads);
+  keep_volume(wanted, rounded(widths.most), dab, out.beads);
   return out;
 }
 

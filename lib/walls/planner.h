@@ -130,8 +130,6 @@ class Planner {
   /// Either way round, the shortest regions first; counts their ends.
   std::vector<Border> borders_of(CountRegions& regions) const;
   bool gives_way(const CountRegions& regions, const Border& border);
-  /// A mouth between parts of the same number of beads is none: the beads go through.
-  void open_needless_mouths();
   /// How wide a bead may grow for a short way, rather than be joined by another.
   double wide_bead() const { return std::min(w_.most, 1.7 * std::min(w_.inner, w_.outer)); }
 

@@ -176,23 +176,4 @@ void Planner::filter() {
   }
 }
 
-void Planner::open_needless_mouths() {
-  for (const auto& run : runs_) {
-    Count below, above;
-    int ways_below = 0, ways_above = 0;
-    for_each_leaving(run.front(), [&](std::uint32_t h) {
-      if (edges_[h / 2].core) below = edges_[h / 2].count, ++ways_below;
-    });
-    for_each_leaving(Skeleton::twin(run.back()), [&](std::uint32_t h) {
-      if (edges_[h / 2].core) above = edges_[h / 2].count, ++ways_above;
-    });
-    if (ways_below != 1 || ways_above == 0 || below != above) continue;
-    for (const std::uint32_t h : run) {
-      edges_[h / 2].core = true;
-      edges_[h / 2].mouth = false;
-      edges_[h / 2].count = below;
-    }
-  }
-}
-
 }  // namespace weft::walls

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "walls/room.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -25,7 +26,7 @@ Place Room::on_piece(Point p, Place a, Place way) const {
   return {x * way.x + y * way.y, y * way.x - x * way.y};
 }
 
-Room::Sides Room::sides(Place a, Place b, double most, bool first, bool last) {
+double Room::beside(Place a, Place b, double most, bool first, bool last) {
   stop_.step();
   const Place way = unit(a, b), middle = lerp(a, b, 0.5);
   const double length = distance(a, b), reach = std::sqrt(most * most + length * length / 4) + 2;
@@ -34,7 +35,7 @@ Room::Sides Room::sides(Place a, Place b, double most, bool first, bool last) {
   if (segments.size() > few)
     index_->near({lattice(middle.x - reach, middle.y - reach), lattice(middle.x + reach, middle.y + reach)}, near_);
   const double end = std::min(end_um, length / 4), from = first ? end : 0, to = last ? length - end : length;
-  Sides room{most, most};
+  double room = most;
   for (const std::uint32_t i : near_) {
     const auto& s = segments[i];
     Place p = on_piece(s.a, a, way), q = on_piece(s.b, a, way);
@@ -43,18 +44,9 @@ Room::Sides Room::sides(Place a, Place b, double most, bool first, bool last) {
     const auto at = [&](double x) { return p.y + (x - p.x) / (q.x - p.x) * (q.y - p.y); };
     const double y = p.x < from ? at(from) : p.y, z = q.x > to ? at(to) : q.y;
     const bool crosses = (y < 0) != (z < 0);
-    const double off = crosses ? 0 : std::min(std::abs(y), std::abs(z));
-    if (crosses || y > 0) room.left = std::min(room.left, off);
-    if (crosses || y <= 0) room.right = std::min(room.right, off);
+    room = std::min(room, crosses ? 0 : std::min(std::abs(y), std::abs(z)));
   }
   return room;
-}
-
-double Room::beyond(Place p) {
-  const Point at{origin_.x + rounded(p.x), origin_.y + rounded(p.y)};
-  if (index().winding(at).value_or(1) > 0) return 0;
-  const auto nearest = index_->nearest(at);
-  return nearest ? nearest->distance_um : 0;
 }
 
 }  // namespace weft::walls

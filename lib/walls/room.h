@@ -5,7 +5,6 @@
 #include "geometry/spatial_index.h"
 #include "walls/place.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -19,21 +18,9 @@ class Room {
   /// `origin` is that of the places asked about. `region` must outlive this.
   Room(const Region& region, Point origin) : region_(region), origin_(origin) {}
 
-  /// How far it is to the outline on each side of a piece, µm.
-  struct Sides {
-    double left = 0, right = 0;
-  };
   /// Half the width at which the band of a piece from a to b reaches the outline; no more than `most`, µm. At a piece's
   /// first (last) end, if it is an end of the bead, what is not quite square is no lack of room.
-  Sides sides(Place a, Place b, double most, bool first = false, bool last = false);
-  /// The same on the narrower side.
-  double beside(Place a, Place b, double most, bool first = false, bool last = false) {
-    const Sides s = sides(a, b, most, first, last);
-    return std::min(s.left, s.right);
-  }
-
-  /// How far p lies outside the region, µm; 0 inside.
-  double beyond(Place p);
+  double beside(Place a, Place b, double most, bool first, bool last);
 
  private:
   const geometry::SegmentIndex& index();

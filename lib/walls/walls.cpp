@@ -117,7 +117,7 @@ void make_fuzzy(const WallSettings& settings, const WallInput& input, Beads& bea
   const InAnyOf over(input.over_air != nullptr ? *input.over_air : nothing);
   for (std::size_t i = 0; i < beads.size(); ++i)
     if (beads[i].inset == 0 && beads[i].closed && (!settings.magic_fuzzy_skin_outside_only || runs_outside(beads[i])))
-      roughen(settings, input.index, i, over, beads[i]);
+      roughen(settings, {input.index, i, input.layer.z, input.origin}, over, beads[i]);
 }
 
 /// Does all of the layer get a single wall?

@@ -16,6 +16,7 @@ struct WallInput {
       nullptr;  ///< where nothing lies below, if the caller knows; there beads keep the nozzle's own strand
   const Regions* above = nullptr;                ///< outlines of the layer above; null: it is the last one
   const WallSettings* settings_above = nullptr;  ///< that hold there; absent: the same
+  Point origin{};                                ///< of the object, with which the noise of rough walls moves
 };
 
 /// Lays beads along the outlines of one layer, widening or narrowing them so that no gap is left.

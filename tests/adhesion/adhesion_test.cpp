@@ -3,6 +3,7 @@
 
 #include "adhesion/loops.h"
 #include "model/flow.h"
+#include "picture.h"
 #include "rectangle.h"
 
 #include <algorithm>
@@ -35,7 +36,10 @@ AdhesionSettings none() {
 adhesion::Adhesion build(const AdhesionSettings& settings, const Regions& outlines, std::size_t layers = 1,
                          const Ring* surface = nullptr) {
   const std::vector<PlateLayer> plate(layers, {outlines, 200});
-  return adhesion::build(settings, {plate, 400, surface});
+  tests::look_at(outlines);
+  auto out = adhesion::build(settings, {plate, 400, surface});
+  for (const Beads& beads : out.layers) tests::show_beads(beads);
+  return out;
 }
 
 /// Distance of a point from the edges of a region, µm.

@@ -11,6 +11,7 @@
 #include <ctime>
 #include <functional>
 #include <memory>
+#include <random>
 #include <thread>
 #include <vector>
 
@@ -41,6 +42,15 @@ bool gets(int wanted) {
   } catch (const std::bad_alloc&) {
     return false;
   }
+}
+
+/// Corners at random: every edge crosses a third of the others, at all heights.
+std::vector<Ring> scribble(int corners) {
+  std::mt19937 random(1);
+  Ring out;
+  for (int i = 0; i < corners; ++i)
+    out.push_back({static_cast<Um>(random() % 100'000), static_cast<Um>(random() % 100'000)});
+  return {out};
 }
 
 /// Of processor time, by this thread: what others do must not matter.
@@ -103,4 +113,40 @@ TEST_CASE("stop inside: outlines that cross each other a million times are left 
   }
   CHECK(latest_s < 1);
   CHECK(jobs::resident_bytes() < before + (std::uint64_t{100} << 20));  // each took 20 MB and more: nothing is lost
+}
+
+TEST_CASE("stop inside: who gives back between the pieces he takes is let go on until he only takes", "[app]") {
+  if (sanitized) return;
+  const std::function<bool()> whether = [] { return true; };
+  const StopWhen stop_when(&whether);
+  const StopInside here;
+  std::unique_ptr<int> held;
+  const auto exchange = [&] {
+    for (int i = 0; i < 10'000; ++i) held = std::make_unique<int>(i);
+  };
+  CHECK_NOTHROW(exchange());
+  CHECK(*held == 9'999);
+  CHECK_FALSE(gets(100));
+}
+
+TEST_CASE("stop inside: a sweep that is left anywhere leaves memory as it was", "[app]") {
+  if (sanitized) return;
+  const auto tangle = scribble(2500);
+  double due_s = 0;
+  const std::function<bool()> whether = [&] { return spent_s() > due_s; };
+  const StopWhen stop_when(&whether);
+  int left = 0;
+  for (int ms = 4; ms < 300; ms += 7) {
+    due_s = spent_s() + 0.001 * ms;
+    try {
+      static_cast<void>(geometry::regions_from_rings(tangle, geometry::WindingRule::nonzero));
+    } catch (const Stopped&) {
+      ++left;
+    }
+    due_s = 1e9;  // what is made after that, in the same memory, is what it would have been
+    const auto square = geometry::regions_from_rings(scribble(4), geometry::WindingRule::nonzero);
+    static const auto first = square;
+    REQUIRE(square == first);
+  }
+  CHECK(left > 10);
 }

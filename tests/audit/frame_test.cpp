@@ -68,17 +68,36 @@ TEST_CASE("audit: what shifts, turns or scales the coordinates is never a pass",
                             "G90 G92 X-300",
                             "X300 Y20",
                             "G 92 X-300",
-                            "M218 T0 X50"}) {
+                            "M218 T0 X50",
+                            "M502",
+                            "M585 X100 P1",
+                            "M810 G92 X500|G1 X5",
+                            "G10 X50",
+                            "SET_TMC_FIELD STEPPER=stepper_x FIELD=shaft VALUE=1",
+                            "SET_TMC_FIELD STEPPER=stepper_x FIELD=MRES VALUE=0",
+                            "TUNING_TOWER COMMAND=SET_GCODE_OFFSET PARAMETER=X START=500 FACTOR=0",
+                            "TUNING_TOWER COMMAND=\"G92 X500\" PARAMETER=E START=0 FACTOR=0"}) {
     CAPTURE(start);
     CHECK_FALSE(bench(plain_print(start)).clean());
   }
+  // What RepRapFirmware alone obeys: restore points, ends at switches, motors, where homing leads.
+  for (const std::string start :
+       {"G1 X20 Y20\nG60 S0\nG1 R0 X150", "G1 H1 X20\nG91\nG1 X5\nG90", "M569 P0 S0", "M208 X500 S0\nG28"}) {
+    CAPTURE(start);
+    bench.machine.firmware = Firmware::marlin2;
+    CHECK(bench(plain_print(start)).clean());
+    bench.machine.firmware = Firmware::reprapfirmware;
+    CHECK_FALSE(bench(plain_print(start)).clean());
+  }
+  bench.machine.firmware = MachineSettings{}.firmware;
   // Before homing nothing is known that G92 could refer to; homing takes it back.
   CHECK_FALSE(bench("G92 X500\n;LAYER_CHANGE\n" + std::string(square)).clean());
   CHECK(bench("G92 X500\n" + plain_print("M117 ready")).clean());
   // What comes back is known again.
-  for (const auto* start :
-       {"G68 R45\nG69", "G51 X2\nG50", "G43 H1\nG49", "G16\nG15", "G7\nG8", "G54", "M92 E93", "G91.1\nG90", "M206",
-        "SET_SKEW CLEAR=1", "M218 T1 X5", "G92 E0", "M605 S1", "M290 Z0.02", "G92.1"}) {
+  for (const auto* start : {"G68 R45\nG69", "G51 X2\nG50", "G43 H1\nG49", "G16\nG15", "G7\nG8", "G54", "M92 E93",
+                            "G91.1\nG90", "M206", "SET_SKEW CLEAR=1", "M218 T1 X5", "G92 E0", "M605 S1", "M290 Z0.02",
+                            "G92.1", "SET_TMC_FIELD STEPPER=stepper_x FIELD=tpfd VALUE=3",
+                            "TUNING_TOWER COMMAND=SET_PRESSURE_ADVANCE FACTOR=.005", "M569 P0 S1"}) {
     CAPTURE(start);
     CHECK(bench(plain_print(start)).clean());
   }

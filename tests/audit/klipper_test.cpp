@@ -72,6 +72,21 @@ TEST_CASE("audit: Klipper's offset outlives homing, and zero is zero", "[audit][
   CHECK(bench.moves("SET_GCODE_OFFSET X=5 X_ADJUST=300\nG1 X190\n").clean());
 }
 
+TEST_CASE("audit: G92 without an axis sets all of them to zero in Klipper, whatever else stands there",
+          "[audit][klipper]") {
+  Bench bench;
+  bench.machine.firmware = Firmware::klipper;
+  for (const std::string line : {"G92", "G92 S1", "G92 F600", "N3 G92 A0"}) {
+    CAPTURE(line);
+    CHECK(bench.moves(line + "\nG1 X99 Y-99\n").clean());
+    CHECK(bench.moves(line + "\nG1 X101\n").findings.at(0).outside == 1000);
+  }
+  CHECK(bench.moves("G92 E0\nG1 X199 Y10\n").clean());
+  bench.machine.firmware = Firmware::marlin2;
+  CHECK(bench.moves("G92 S1\nG1 X199 Y10\n").clean());
+  CHECK_FALSE(bench.moves("G92\nG1 X99\n").clean());
+}
+
 TEST_CASE("audit: a command that moves the nozzle besides is judged as a move", "[audit][klipper]") {
   const Bench bench;
   const auto offset = bench.moves("SET_GCODE_OFFSET Y=101 MOVE=1\n");
@@ -85,6 +100,34 @@ TEST_CASE("audit: a command that moves the nozzle besides is judged as a move", 
             .findings.at(0)
             .line == 11);
   CHECK(bench.moves("SAVE_GCODE_STATE NAME=s\nG1 X20\nRESTORE_GCODE_STATE NAME=s\nG1 X30\n").checked_moves == 3);
+}
+
+TEST_CASE("audit: what Klipper does not know as it is written is no command", "[audit][klipper]") {
+  Bench bench;
+  bench.machine.firmware = Firmware::klipper;
+  for (const std::string line :
+       {"G91 (X1)", "G91 5", "G090", "G092 X5", "G028", "M083 -", "T01", "G X5 Y5", "N G1 X5", "M", "G"}) {
+    CAPTURE(line);
+    CHECK_FALSE(bench.moves(line + "\nG1 X20 Y20\n").clean());
+  }
+  for (const std::string line :
+       {"G91\nG90", "G91 ; (X1)\nG90", "N5 G90*21", "M117 (5%) 100", "M104 (hot) S200", "G28 X (left)", "M83\t"}) {
+    CAPTURE(line);
+    CHECK(bench.moves(line + "\nG1 X20 Y20\n").clean());
+  }
+}
+
+TEST_CASE("audit: a step from where a macro left the nozzle is not audited", "[audit][klipper]") {
+  const Bench bench;
+  for (const std::string step :
+       {"SET_GCODE_OFFSET Z=-1.5 MOVE=1", "SET_GCODE_OFFSET X_ADJUST=5 MOVE=1", "M290 Z-1.5", "M290 Y0.1"}) {
+    CAPTURE(step);
+    CHECK(bench("G28\nPRINT_START\n" + step + "\nG1 X50 Y50 Z5\n").unaudited_moves >= 1);
+    CHECK(bench("G28\nPRINT_START\nG1 X50 Y50 Z5\n" + step + "\nG1 X60\n").clean());
+  }
+  CHECK(bench("G28\nPRINT_START\nSET_GCODE_OFFSET Z=-5\nG1 X50 Y50 Z5\n").clean());
+  CHECK(bench("G28\nPRINT_START\nSET_GCODE_OFFSET Z=-0.05 MOVE=1\nG1 X50 Y50 Z5\n").clean());  // a trim
+  CHECK(bench("G28\nPRINT_START\nM290 Z0.02\nG1 X50 Y50 Z5\n").clean());
 }
 
 TEST_CASE("audit: extended arguments are split as Klipper's host splits them", "[audit][klipper]") {

@@ -269,6 +269,7 @@ TEST_CASE("audit: a job whose frame is moved is refused with the line, the reaso
   const auto s = slice(scratch, "part.stl", {"-s", "machine_start_gcode=PRINT_START\\nG28\\nG29"});
   CHECK(s.rejected.status == 0);
   CHECK_THAT(s.gcode, Contains(" moves checked; opaque: PRINT_START, G29\n"));
+  CHECK_THAT(s.rejected.err, Contains("audit: pass, ") && Contains(" moves checked; opaque: PRINT_START, G29\n"));
   CHECK(s.report["audit"]["opaque"] == json{"PRINT_START", "G29"});
 }
 

@@ -51,6 +51,13 @@ TEST_CASE("hostile: pipes, devices and folders are refused as inputs by their na
   CHECK(!desk.scratch.has("a.gcode"));
 }
 
+TEST_CASE("hostile: what is larger than any profile or list is refused before it is read") {
+  const Desk desk;
+  REQUIRE(shell("truncate -s 3G p.ini l.jsonl", desk.scratch.path()).status == 0);  // of which nothing is there
+  desk.fails("$WEFT slice part.stl -p p.ini -o a.gcode", 6, "p.ini: of 3072 MB is no profile");
+  desk.fails("$WEFT batch l.jsonl -o out", 6, "l.jsonl: of 3072 MB is no list of jobs");
+}
+
 TEST_CASE("hostile: profiles that lead in circles or nowhere are told by file and line") {
   const Desk desk;
   REQUIRE(shell("ln -s loop.ini loop.ini", desk.scratch.path()).status == 0);
@@ -125,6 +132,14 @@ TEST_CASE("hostile: no result leaves the folder through a link") {
                                    "\n");
   desk.fails("$WEFT batch list.jsonl -o out", 2, "list.jsonl:1: output sub/a.gcode leads out of the folder");
   CHECK(!desk.scratch.has("away/a.gcode"));
+  for (const std::string name : {"report.jsonl", "junit.xml", ".weft"}) {
+    CAPTURE(name);
+    REQUIRE(shell("rm -rf in; mkdir in; ln -s ../away in/" + name, desk.scratch.path()).status == 0);
+    desk.fails("$WEFT batch part.stl -o in", 2, "leads out of the folder of the results");
+  }
+  REQUIRE(shell("rm -rf in; mkdir in; touch away/r; ln -s ../away/r in/summary.csv", desk.scratch.path()).status == 0);
+  desk.fails("$WEFT batch part.stl -o in", 2, "-o: summary.csv leads out of the folder of the results");
+  CHECK(desk.scratch.read("away/r").empty());
 }
 
 TEST_CASE("hostile: a cache entry that cannot be read is made again") {
@@ -199,7 +214,7 @@ TEST_CASE("hostile: profiles may be bounded to a folder, links and inheritance i
         0);  // found by name: installed for all
   REQUIRE(shell("rm a.gcode", desk.scratch.path()).status == 0);
   for (const std::string outside : {"secrets/s.ini", "root/own/bad.ini", "root/own/link.ini", "root/../secrets/s.ini"})
-    desk.fails(slice + outside, 6, "lies outside the folder that profiles may come from");
+    desk.fails(slice + outside, 6, "lies outside the folder that profiles and what they name may come from");
   desk.scratch.write("list.jsonl", R"({"models": ["part.stl"], "profiles": ["secrets/s.ini"]})"
                                    "\n");
   CHECK(shell("$WEFT batch list.jsonl --profile-root root -o out", desk.scratch.path()).status != 0);

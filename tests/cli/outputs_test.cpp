@@ -59,6 +59,9 @@ TEST_CASE("outputs: what a slice reads it never writes") {
   desk.refuses({"slice", "part.stl", "-p", "plain", "-o", "plain"}, "-o: plain is read, and would be lost");
   desk.scratch.write("child.ini", "inherits = plain\n");
   desk.refuses({"slice", "part.stl", "-p", "child.ini", "-o", "plain"}, "-o: plain is read, and would be lost");
+  desk.scratch.write("tool.ini", "extruders_enabled_count = 2\n[tool 1]\ninherits = plain\n");
+  desk.refuses({"slice", "part.stl", "-p", "tool.ini", "-o", "plain"}, "-o: plain is read, and would be lost");
+  desk.refuses({"slice", "part.stl", "--tool", "0=plain", "-o", "plain"}, "-o: plain is read, and would be lost");
   desk.refuses({"slice", "part.stl", "-o", "out.gcode", "--report", "link.gcode"},
                "--report: link.gcode is the file part.stl");
   desk.refuses({"slice", "part.stl", "-o", "out.gcode", "--preview", "part.stl"},
@@ -114,6 +117,56 @@ TEST_CASE("outputs: a batch writes no file that one of its jobs reads") {
                              "\n");
   desk.refuses({"batch", "jobs", "-o", "."}, "jobs:1: output ./hard.gcode is the file part.stl, which is read");
   desk.refuses({"batch", "jobs", "-o", "results", "--report", "jobs"}, "--report: jobs is read");
+}
+
+TEST_CASE("outputs: what cannot be resolved leaves a report over no file that might have been read") {
+  const Scratch scratch;
+  scratch.write("part.stl", box_stl(10, 10, 0.4F));
+  scratch.write("child.ini", "inherits = base\n");
+  scratch.write("base", "no_such_key = 1\n");
+  for (const std::string verb : {"slice", "estimate"}) {
+    CAPTURE(verb);
+    CHECK(weft({verb, "part.stl", "-p", "child.ini", "--report", "base"}, scratch.path()).status == 3);
+    CHECK(scratch.read("base") == "no_such_key = 1\n");
+    scratch.write("old.json", "{\"status\": \"ok\"}\n");  // an earlier report
+    for (const std::string report : {"old.json", "new.json"}) {
+      CHECK(weft({verb, "part.stl", "-p", "child.ini", "--report", report}, scratch.path()).status == 3);
+      CHECK_THAT(scratch.read(report), Contains("no_such_key"));
+    }
+    std::filesystem::remove(scratch.path() / "new.json");
+  }
+}
+
+TEST_CASE("outputs: the reports of a run are written over none of its files, its list included") {
+  Scratch scratch;
+  scratch.write("part.stl", box_stl(10, 10, 0.4F));
+  const std::string list = R"({"models": ["part.stl"]})"
+                           "\n";
+  const std::string table = "models\npart.stl\n", profile = "layer_height = 0.2\n";
+  scratch.write("report.jsonl", list);
+  scratch.write("report-a.jsonl", list);
+  scratch.write("summary.csv", table);
+  scratch.write("junit.xml", profile);
+  const std::vector<std::vector<std::string>> runs{
+      {"batch", "report.jsonl", "-o", "."},
+      {"batch", "report-a.jsonl", "-o", "./", "--name", "a"},
+      {"batch", "summary.csv", "-o", "."},
+      {"batch", "summary.csv", "-o", ".", "--collect"},
+      {"batch", "part.stl", "-p", "junit.xml", "-o", "."},
+      {"sweep", "part.stl", "-p", "junit.xml", "--vary", "layer_height=0.1,0.2", "-o", "."},
+      {"batch", "part.stl", "-o", "out", "--report", "out/summary.csv"}};
+  std::filesystem::create_directory(scratch.path() / "out");
+  for (const auto& words : runs) {
+    CAPTURE(words);
+    const auto run = weft(words, scratch.path());
+    CHECK(run.status == 2);
+    CHECK_THAT(run.err, Contains("would be lost") || Contains("is the file of"));
+    CHECK(!scratch.has("part.gcode"));
+  }
+  CHECK(scratch.read("report.jsonl") == list);
+  CHECK(scratch.read("report-a.jsonl") == list);
+  CHECK(scratch.read("summary.csv") == table);
+  CHECK(scratch.read("junit.xml") == profile);
 }
 
 TEST_CASE("outputs: devices take any number of results") {

@@ -2,10 +2,10 @@
 // libFuzzer target for the folder of --cache. The bytes are the file of an entry: it is what was written there, or it
 // is made again. And, behind a first byte that says of which stage, they are a result whose hash is right: it is
 // refused or read, in memory that its size bounds, and what is read can be written and read again.
+#include "cache/disk_store.h"
+#include "cache/stage_cache.h"
 #include "core/hash.h"
 #include "pipeline/codec.h"
-#include "pipeline/disk_store.h"
-#include "pipeline/stage_cache.h"
 
 #include <cstdint>
 #include <cstdlib>
@@ -57,7 +57,7 @@ void as_file(const fs::path& folder, std::string_view bytes) {
   const StageCache::Kind kind{text_of, text_from, size_of_text};
   const auto made = cache.get("walls", key, kind, [] { return std::make_shared<const std::string>(right); });
   require(*static_cast<const std::string*>(made.get()) == right);
-  require(pipeline::DiskStore(folder, 1 << 20).read("walls", key) == right);  // mended
+  require(cache::DiskStore(folder, 1 << 20).read("walls", key) == right);  // mended
 }
 
 template <class T>

@@ -62,6 +62,12 @@ TEST_CASE("substitutions: an expression that runs wild ends with an error") {
   CHECK_THAT(message(R"(s/(a|aa)+[bc]/x/r)", std::string(5'000, 'a') + "\n"), Contains("tries too many ways"));
 }
 
+TEST_CASE("substitutions: lines that double each other's text end with an error, not with the memory") {
+  std::string doubling;
+  for (int i = 0; i < 60; ++i) doubling += "s/a/aa/\n";
+  CHECK_THAT(message(doubling, std::string(1'000, 'a')), Contains("gcode_substitutions, line 11: makes 1 MB of"));
+}
+
 TEST_CASE("substitutions: a text that grows much has room, and many threads may do them at once") {
   const Substitutions longer("s/a/0123456789012345678901234567890123456789/\ns/9/99/");
   std::string wanted;

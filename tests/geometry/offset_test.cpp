@@ -2,6 +2,7 @@
 #include "geometry/offset.h"
 
 #include "geometry/boolean.h"
+#include "picture.h"
 #include "shapes.h"
 
 #include <algorithm>
@@ -60,6 +61,7 @@ TEST_CASE("geometry: a convex shape offset out and in returns", "[law]") {
   shapes::Dice dice(7);
   for (int i = 0; i < 50; ++i) {
     const Regions shape{{shapes::convex(dice, {dice.between(-50000, 50000), 0}, 10000, dice.between(3, 40)), {}}};
+    tests::look_at(shape);
     const Regions back = offset(offset(shape, {.by = 700, .corner = corner}), {.by = -700, .corner = corner});
     const double perimeter_mm = perimeter_of(shape[0].outer) / 1000;
     CHECK(area_mm2(exclusive_or(shape, back)) < perimeter_mm * 0.001);
@@ -95,6 +97,7 @@ TEST_CASE("geometry: a grown region keeps its distance and no more, on seeded st
   shapes::Dice dice(11);
   for (int i = 0; i < 40; ++i) {
     const Regions shape{{shapes::star(dice, {0, 0}, 8000, dice.between(3, 60)), {}}};
+    tests::look_at(shape);
     const Um by = dice.between(50, 3000);
     const Regions grown = offset(shape, {.by = by, .corner = Corner::round});
     REQUIRE(grown.size() == 1);
@@ -121,6 +124,7 @@ TEST_CASE("geometry: moving a region by whole microns moves its offset and chang
   shapes::Dice dice(3);
   for (int i = 0; i < 20; ++i) {
     const Regions shape{{shapes::star(dice, {0, 0}, 9000, 30), {}}};
+    tests::look_at(shape);
     for (const Um distance : {-900, -50, 333}) {
       const OffsetOptions options{.by = distance, .corner = i % 2 == 0 ? Corner::miter : Corner::round};
       CHECK(offset(moved(shape, by), options) == moved(offset(shape, options), by));

@@ -2,6 +2,7 @@
 #include "geometry/simplify.h"
 
 #include "geometry/spatial_index.h"
+#include "picture.h"
 #include "shapes.h"
 
 #include <algorithm>
@@ -117,6 +118,7 @@ TEST_CASE("geometry: simplified regions do not cross where they are narrower tha
     upper.insert(upper.end(), {{0, 5000}, {20000, 5000}});
     if (double_area(upper) < 0) std::reverse(upper.begin(), upper.end());
     const Regions regions{{lower, {}}, {upper, {}}};
+    tests::look_at(regions);
     REQUIRE(SegmentIndex(regions).crossing_pairs().empty());
     CHECK(SegmentIndex(simplified(regions, 40)).crossing_pairs().empty());
   }

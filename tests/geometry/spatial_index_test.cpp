@@ -3,6 +3,7 @@
 
 #include "geometry/boolean.h"
 #include "geometry/clip_lines.h"
+#include "picture.h"
 #include "shapes.h"
 
 #include <algorithm>
@@ -20,7 +21,9 @@ Regions some_regions(shapes::Dice& dice) {
     stars.push_back(
         {shapes::star(dice, {dice.between(-20000, 20000), dice.between(-20000, 20000)}, 9000, dice.between(3, 80)),
          {}});
-  return exclusive_or({stars.begin(), stars.begin() + 3}, {stars.begin() + 3, stars.end()});
+  Regions out = exclusive_or({stars.begin(), stars.begin() + 3}, {stars.begin() + 3, stars.end()});
+  tests::look_at(out);
+  return out;
 }
 Point anywhere(shapes::Dice& dice) {
   return {dice.between(-32000, 32000), dice.between(-32000, 32000)};

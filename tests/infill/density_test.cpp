@@ -26,8 +26,8 @@ struct Block {
   Regions outline{rectangle(0, 0, 60'000, 40'000)};
   std::vector<infill::ShellLayer> layers;
   std::vector<infill::LayerAreas> areas;
-  Block() {
-    for (Um z = 200; z <= 20'000; z += 200) {
+  explicit Block(Um high = 20'000) {
+    for (Um z = 200; z <= high; z += 200) {
       layers.push_back({z, 200, &outline, &outline});
       infill::PartAreas part;
       part.sparse = outline;
@@ -169,5 +169,53 @@ TEST_CASE("density: patterns go by it", "[infill]") {
     const Point middle = box_of(part.region.outer).centre();
     // 25 % lies at x = 30 mm
     CHECK(part.pattern == (middle.x < 30'000 ? InfillPattern::gyroid : InfillPattern::grid));
+  }
+}
+
+TEST_CASE("density: no part is narrower than the lines in it are apart", "[infill]") {
+  const Block block;
+  // from 60 to 5 % within 3 mm, and from 40 to 10 over 20
+  const File steep("s.csv",
+                   "0,0,0,0.6\n28,0,0,0.6\n32,0,0,0.05\n36,0,0,0.05\n40,0,0,0.05\n44,0,0,0.05\n48,0,0,0.05\n"
+                   "52,0,0,0.05\n56,0,0,0.05\n60,0,0,0.05\n4,0,0,0.6\n8,0,0,0.6\n12,0,0,0.6\n16,0,0,0.6\n"
+                   "20,0,0,0.6\n24,0,0,0.6\n");
+  InfillSettings s;
+  s.infill_density_field = steep.path.string(), s.infill_density_min = 1;
+  const auto parts = density_of(s, block).parts(block.outline.front(), 10'000, 50);
+  REQUIRE(parts.size() == 3);  // of five levels
+  double area = 0;
+  for (const auto& part : parts) {
+    area += area_mm2(part.region);
+    const Box box = box_of(part.region.outer);
+    CHECK(box.size().x >= 400 / part.level);
+  }
+  CHECK(area == Approx(60 * 40));
+}
+
+TEST_CASE("prepared: cubes are small where the surface is, however the pattern is turned", "[infill]") {
+  const Block block(60'000);
+  for (const double angle : {0.0, 45.0, 110.0}) {
+    InfillSettings s;
+    s.infill_pattern = InfillPattern::cubicsubdiv, s.infill_angle = angle, s.infill_sparse_density = 50;
+    const Point middle{30'000, 20'000};
+    const infill::Prepared prepared = infill::prepare(s, block.object(), block.areas, middle, {});
+    REQUIRE(prepared.cubes);
+    Beads beads;
+    infill::SparseStyle style = infill::sparse_style(s, {.z = 30'000, .height = 200, .nozzle = 400, .origin = middle});
+    style.prepared = &prepared;
+    infill::fill_sparse(block.outline.front(), style, beads);
+    double edge = 0, inner = 0;
+    for (const Bead& bead : beads)
+      for (std::size_t i = 1; i < bead.path.size(); ++i) {
+        const Point a = bead.path[i - 1].at, b = bead.path[i].at;
+        constexpr int pieces = 40;
+        for (int k = 0; k < pieces; ++k) {
+          const double t = (k + 0.5) / pieces, x = std::lerp(a.x, b.x, t), y = std::lerp(a.y, b.y, t);
+          const bool in = std::abs(x - 30'000) < 20'000 && std::abs(y - 20'000) < 10'000;
+          (in ? inner : edge) += distance(a, b) / pieces;
+        }
+      }
+    // the inner part is a third of the area
+    CHECK(edge / 1'600 > 1.1 * inner / 800);
   }
 }

@@ -28,7 +28,7 @@ infill::Figures figures(InfillPattern pattern, double density, bool joined = fal
                          .angle_rad = degrees(45),
                          .connect = joined,
                          .z = static_cast<Um>(200 * (i + 1)),
-                         .index = i,
+                         .turn = i,
                          .reach = 30'000},
                         beads[i]);
     seen.push_back({200, &outline, &sparse, &beads[i]});

@@ -216,3 +216,72 @@ TEST_CASE("infill: moving a part moves its fill and changes nothing else", "[inf
     for (Junction& j : bead.path) j.at = j.at + by;
   CHECK(here == infill::fill({}, {}, far).beads);
 }
+
+namespace {
+
+/// Of the longest straight piece of sparse infill, 0 … π.
+double direction_of(const Beads& beads) {
+  double longest = 0, angle = 0;
+  for (const Bead& bead : beads)
+    for (std::size_t i = 1; i < bead.path.size(); ++i) {
+      const Point d = bead.path[i].at - bead.path[i - 1].at;
+      if (std::hypot(d.x, d.y) > longest) longest = std::hypot(d.x, d.y), angle = std::atan2(d.y, d.x);
+    }
+  return angle < 0 ? angle + std::numbers::pi : angle;
+}
+
+LayerAreas sparse_area(int layers, std::size_t turn) {
+  LayerAreas areas(1);
+  const Regions square{rectangle(-20'000, -20'000, 20'000, 20'000)};
+  (layers > 1 ? areas[0].combined : areas[0].sparse) = square;
+  areas[0].combined_layers = layers, areas[0].combined_turn = turn;
+  return areas;
+}
+
+}  // namespace
+
+TEST_CASE("infill: layers printed at once turn from one time to the next, as single layers do", "[infill]") {
+  InfillSettings settings;
+  settings.infill_pattern = InfillPattern::lines;
+  const auto fill = [&](std::size_t turn) {
+    const LayerAreas areas = sparse_area(2, turn);
+    return infill::fill(settings, {}, {.areas = areas, .index = 2 * turn + 2, .z = 600, .height = 200, .nozzle = 400});
+  };
+  for (const std::size_t turn : {0U, 1U, 2U})
+    CHECK(direction_of(fill(turn).beads) == Approx(degrees(turn % 2 == 0 ? 45 : 135)).margin(1e-3));
+}
+
+TEST_CASE("infill: lines stand on each other in layers of any height", "[infill]") {
+  InfillSettings settings;
+  settings.infill_pattern = InfillPattern::aligned, settings.infill_angle = 0;
+  infill::Prepared prepared;
+  prepared.band = 600;
+  const LayerAreas areas = sparse_area(1, 0);
+  const auto rows = [&](Um height) {  // y of lines
+    std::vector<Um> out;
+    const auto layer = infill::fill(
+        settings, {}, {.areas = areas, .index = 3, .z = 1'000, .height = height, .nozzle = 400, .prepared = &prepared});
+    for (const Bead& bead : layer.beads)
+      for (std::size_t i = 1; i < bead.path.size(); ++i)
+        if (bead.path[i].at.y == bead.path[i - 1].at.y) out.push_back(bead.path[i].at.y);
+    std::sort(out.begin(), out.end());
+    return out;
+  };
+  CHECK(rows(100) == rows(300));
+  CHECK(rows(100).size() > 10);
+}
+
+TEST_CASE("infill: directions stand still against the plate, or against the part", "[infill]") {
+  InfillSettings settings;
+  settings.infill_pattern = InfillPattern::aligned, settings.infill_angle = 10;
+  const LayerAreas areas = sparse_area(1, 0);
+  const auto direction = [&] {
+    return direction_of(
+        infill::fill(settings, {},
+                     {.areas = areas, .index = 3, .z = 1'000, .height = 200, .nozzle = 400, .turned_rad = degrees(30)})
+            .beads);
+  };
+  CHECK(direction() == Approx(degrees(10)).margin(1e-3));
+  settings.infill_angle_frame = InfillFrame::part;
+  CHECK(direction() == Approx(degrees(40)).margin(1e-3));
+}

@@ -128,6 +128,10 @@ TEST_CASE("pattern: lines that bend where they meet cross nowhere, and hold the 
     CHECK(before > 100);
     CHECK(after <= before / 20);
   }
+  // all of their lines meet by threes
+  const auto [before, after] = crossings_bent(InfillPattern::triangles, 200);
+  CHECK(before > 100);
+  CHECK(after <= before / 20);
 }
 
 TEST_CASE("pattern: medial lays one line a region, and as many beside each other where it is narrow", "[infill]") {
@@ -240,7 +244,7 @@ TEST_CASE("lightning: each place under a top is near a branch or a wall, and a b
   constexpr double radius = 3'000;
   constexpr Um height = 200;
   std::vector<infill::LightningLayer> layers(60, {height, {rectangle(0, 0, 40'000, 40'000)}});
-  const auto branches = infill::lightning(layers, radius, 1, {20'000, 20'000});
+  const auto branches = infill::lightning(layers, radius, {1, 1}, {20'000, 20'000});
   REQUIRE(branches.size() == layers.size());
   const auto distance_to = [](const std::vector<Polyline>& lines, Point p) {
     double least = std::min({p.x, p.y, 40'000 - p.x, 40'000 - p.y});
@@ -266,4 +270,31 @@ TEST_CASE("lightning: each place under a top is near a branch or a wall, and a b
       for (const Point p : line) CHECK(distance_to(branches[i - 1], p) <= 1.5 * height + 60);
   }
   CHECK(length(branches.front()) < 0.5 * length(branches.back()));
+}
+
+TEST_CASE("pattern: lines side by side keep the density, and lie a band apart", "[infill]") {
+  const Region square = rectangle(0, 0, 40'000, 40'000);
+  for (const InfillPattern pattern : {InfillPattern::lines, InfillPattern::gyroid, InfillPattern::concentric}) {
+    SparseStyle style{
+        .pattern = pattern, .density = 0.2, .band = 420, .angle_rad = degrees(45), .overlap_um = 45, .z = 1'000};
+    style.origin = {20'000, 20'000};
+    const Beads once = filled(square, style);
+    style.multiplier = 3;
+    const Beads thrice = filled(square, style);
+    CHECK(covered_mm2(thrice) == Approx(covered_mm2(once)).epsilon(0.02));
+    if (pattern != InfillPattern::gyroid) CHECK(crossings(thrice) == 0);
+    // more places are far from all of them
+    const auto far_places = [&](const Beads& beads) {
+      int count = 0;
+      for (Um y = 10'000; y < 30'000; y += 400)
+        for (Um x = 10'000; x < 30'000; x += 400)
+          count += cover(beads, x, y) + cover(beads, x + 900, y) + cover(beads, x - 900, y) + cover(beads, x, y + 900) +
+                               cover(beads, x, y - 900) ==
+                           0
+                       ? 1
+                       : 0;
+      return count;
+    };
+    CHECK(far_places(thrice) > 1.2 * far_places(once));
+  }
 }

@@ -89,7 +89,7 @@ TEST_CASE("streamlines: they hold the density, with a field and without one", "[
 TEST_CASE("streamlines: without a field they are straight, and run across on every second layer", "[infill]") {
   for (const std::size_t index : {std::size_t{0}, std::size_t{1}}) {
     const double angle = degrees(index == 0 ? 30 : 120);
-    for (const Bead& bead : filled(nullptr, {.angle_rad = degrees(30), .index = index})) {
+    for (const Bead& bead : filled(nullptr, {.angle_rad = degrees(30), .turn = index})) {
       const Point a = bead.path.front().at, b = bead.path.back().at;
       CHECK(std::remainder(std::atan2(b.y - a.y, b.x - a.x) - angle, std::numbers::pi) == Approx(0).margin(0.02));
     }

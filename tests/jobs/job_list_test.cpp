@@ -177,14 +177,35 @@ TEST_CASE("jobs: the cells of a CSV may be separated by semicolons, as spreadshe
 }
 
 TEST_CASE("jobs: no output is called like a report of the run") {
-  for (const std::string name :
-       {"report.jsonl", "summary.csv", "junit.xml", "./junit.xml", "report-2-of-3.jsonl", "index.html"}) {
+  for (const std::string name : {"report.jsonl", "summary.csv", "junit.xml", "./junit.xml", "report-2-of-3.jsonl",
+                                 "index.html", "report.jsonl/a.gcode", "x/../index.html/a"}) {
     CAPTURE(name);
     const auto list = jsonl(R"({"models": ["a.stl"], "output": ")" + name + "\"}");
     REQUIRE(list.errors.size() == 1);
     CHECK_THAT(list.errors[0].what(), Contains("is the name of a report"));
   }
   CHECK(jsonl(R"({"models": ["a.stl"], "output": "deep/report.jsonl"})").errors.empty());
+}
+
+TEST_CASE("jobs: no output is called like what a killed run leaves, which the next one removes") {
+  CHECK_THAT(jsonl(R"({"models": ["a.stl"], "output": "a.gcode.weft-abcdef"})").errors.at(0).what(),
+             Contains("is named like a file that is not whole"));
+  for (const std::string name : {".weft-abcdef", "a.weft-abcde", "a.weft-abcdefg", "a.weft-abcdef/b"}) {
+    CAPTURE(name);
+    CHECK(jsonl(R"({"models": ["a.stl"], "output": ")" + name + "\"}").errors.empty());
+  }
+}
+
+TEST_CASE("jobs: a text with the character 0, at which a system would cut it off, is refused with its line") {
+  for (const std::string line :
+       {R"({"models": ["a.stl\u0000b"]})", R"({"models": ["a.stl"], "output": "a\u0000b"})",
+        R"({"models": ["a.stl"], "id": "a\u0000"})", R"({"models": ["a.stl"], "label": "a\u0000"})",
+        R"({"models": ["a.stl"], "set": {"machine_name": "\u0000"}})", R"({"models": [{"file": "a\u0000.stl"}]})"}) {
+    CAPTURE(line);
+    CHECK_THAT(jsonl(line).errors.at(0).what(), Contains("a text holds the character 0"));
+  }
+  CHECK_THAT(read_csv(std::string("models,output\na.stl,b\0c\n", 24), "list", {}).errors.at(0).what(),
+             Contains("a text holds the character 0"));
 }
 
 TEST_CASE("jobs: braces that make more patterns than anyone has models are refused at once") {

@@ -125,7 +125,7 @@ TEST_CASE("arcs: the estimate is that of the pieces that firmware cuts them into
   REQUIRE_FALSE(bead.arcs.empty());
   const Arc& arc = bead.arcs.front();
   for (const auto firmware : {Firmware::klipper, Firmware::marlin2, Firmware::reprapfirmware}) {
-    const auto chords = chords_of(firmware, bead, arc);
+    const auto chords = chords_of(firmware, std::nullopt, bead, arc);
     CHECK(chords.back() == bead.path[arc.last].at);
     for (const Point p : chords) CHECK(distance(p, arc.centre) == Approx(5000).margin(2));
     Point before = bead.path[arc.first].at;

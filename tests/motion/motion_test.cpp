@@ -280,45 +280,6 @@ TEST_CASE("motion: F does not change at every segment of a bead that widens") {
   CHECK(changes < 15);
 }
 
-TEST_CASE("motion: mm³/s change no faster along a bead than max_extrusion_rate_slope") {
-  auto rules = plain_rules();
-  rules.speeds.speed_wall_x = 100;
-  const double slope = 20;
-  rules.speeds.max_extrusion_rate_slope = slope;
-  rules.cooling.cool_min_speed = 0.1;
-  auto bead =
-      line({{0, 300}, {10'000, 300}, {10'400, 900}, {30'000, 900}, {30'200, 200}, {60'000, 200}}, Role::inner_wall);
-  cut_where_width_changes(bead.path);
-  Extrude free = bead;
-  set_bead_speed(rules, bead);
-  rules.speeds.max_extrusion_rate_slope.reset();
-  set_bead_speed(rules, free);
-  CHECK(free.speed_mm_s == Approx(100));
-  REQUIRE(bead.segment_speed_mm_s.size() + 1 == bead.path.size());
-  for (std::size_t i = 1; i + 1 < bead.path.size(); ++i) {
-    const auto rate = [&](std::size_t k) {
-      return mean_area_mm2(bead.path[k - 1], bead.path[k], 0.2) * static_cast<double>(bead.segment_speed_mm_s[k - 1]);
-    };
-    const auto duration = [&](std::size_t k) {
-      return distance(bead.path[k - 1].at, bead.path[k].at) / 1000 /
-             static_cast<double>(bead.segment_speed_mm_s[k - 1]);
-    };
-    INFO("junction " << i);
-    // Sharing one speed among neighbours within 5 % moves the rate by as much.
-    CHECK(std::abs(rate(i + 1) - rate(i)) <=
-          slope * 0.5 * (duration(i) + duration(i + 1)) + 0.06 * std::max(rate(i), rate(i + 1)));
-  }
-}
-
-TEST_CASE("motion: where the width jumps, speed is not lowered below cool_min_speed") {
-  auto rules = plain_rules();
-  rules.speeds.max_extrusion_rate_slope = 5;
-  rules.cooling.cool_min_speed = 12;
-  auto bead = line({{0, 20}, {1'000, 20}, {1'010, 900}, {2'000, 900}}, Role::inner_wall);
-  set_bead_speed(rules, bead);
-  CHECK(bead.speed_mm_s == 12);
-}
-
 TEST_CASE("motion: with full equalisation walls of any width are printed at one mm³/s") {
   auto rules = plain_rules();
   rules.speeds.speed_equalize_flow_width_factor = 100;
@@ -661,7 +622,7 @@ TEST_CASE("motion: the moves that are timed are those that are written") {
       layer_of({line({{0, 450}, {10'000, 450}, {10'010, 350}, {20'000, 350}, {20'012, 420}, {30'000, 420}})});
   std::get<Extrude>(layer.steps[0]).speed_mm_s = 50;
   const std::vector<Rules> rules{plain_rules()};
-  const auto moves = moves_of(rules, layer, Point3{0, 0, 400});
+  const auto moves = moves_of(rules, layer, Point3{0, 0, 400}, rules[0].machine);
   CHECK(moves.size() == 3);
   double length = 0;
   for (const auto& move : moves) length += move.length_mm;

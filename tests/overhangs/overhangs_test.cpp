@@ -2,6 +2,7 @@
 #include "overhangs/overhangs.h"
 
 #include "model/flow.h"
+#include "picture.h"
 #include "rectangle.h"
 
 #include <array>
@@ -28,6 +29,7 @@ std::vector<Extrude> marked(std::vector<Extrude> beads, const Regions& over_air)
   LayerPlan layer{.z = 1000, .height = height};
   for (auto& bead : beads) layer.steps.emplace_back(std::move(bead));
   const std::array strands{overhangs::Strand{400, 1}};
+  tests::look_at(over_air);
   overhangs::mark(strands, over_air, layer);
   std::vector<Extrude> out;
   for (const auto& step : layer.steps) out.push_back(std::get<Extrude>(step));

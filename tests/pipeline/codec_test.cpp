@@ -90,12 +90,14 @@ TEST_CASE("codec: results of stages come back as they were") {
     CHECK(walls2[0].inside == walls[0].inside);
     CHECK(walls2[0].over_air == walls[0].over_air);
     CHECK(walls2[0].notices == walls[0].notices);
-    const std::vector<FilledLayer> fills{{regions(dice), regions(dice), regions(dice), beads(dice), notices(dice)}};
+    const std::vector<FilledLayer> fills{
+        {regions(dice), regions(dice), regions(dice), beads(dice), {3, 0, 7}, notices(dice)}};
     const auto fills2 = there_and_back(fills);
     CHECK(fills2[0].top == fills[0].top);
     CHECK(fills2[0].skin == fills[0].skin);
     CHECK(fills2[0].sparse == fills[0].sparse);
     CHECK(fills2[0].beads == fills[0].beads);
+    CHECK(fills2[0].inner_beads == fills[0].inner_beads);
   }
 }
 

@@ -217,6 +217,23 @@ TEST_CASE("project: one of PrusaSlicer is printed as a plate that says the same 
   CHECK(out.commands() == printed_as_meant().commands());
 }
 
+TEST_CASE("project: heights of layers that come with an object are its own, unless they are for another height") {
+  const Folder folder;
+  const auto heights = [&](const std::string& profile) {
+    const auto file =
+        folder.write("h.3mf", of_prusaslicer({body}, {}, {{"Metadata/Slic3r_PE_layer_heights_profile.txt", profile}}));
+    return printed(plain_job(file));
+  };
+  const auto own = heights("object_id=1|0;0.2;0.2;0.2;2;0.1;6;0.1\n");
+  const auto plain = heights("");
+  CHECK(own.report.layers > plain.report.layers + 10);
+  CHECK_THAT(own.text, Contains(";Z:5.9") || Contains(";Z:6\n"));
+  const auto other = heights("object_id=1|0;0.2;9;0.1\n");
+  CHECK(other.report.layers == plain.report.layers);
+  CHECK(std::any_of(other.report.warnings.begin(), other.report.warnings.end(),
+                    [](const Notice& notice) { return notice.code == "layer_heights_left_out"; }));
+}
+
 TEST_CASE("project: one of OrcaSlicer is printed as a plate that says the same in weft's words") {
   const Folder folder;
   auto dense = plug;
@@ -236,7 +253,8 @@ TEST_CASE("project: one of Cura has objects with settings, and meshes that chang
   };
   const std::string resources =
       "<object id=\"1\" name=\"thing\" type=\"model\"><metadatagroup>" + setting("drop_to_buildplate", "True") +
-      setting("infill_sparse_density", "15") + setting("no_such_thing", "7") + "</metadatagroup>" + mesh_of({body}) +
+      setting("infill_sparse_density", "15") + setting("no_such_thing", "7") +
+      setting("infill_density_image", "/etc/passwd") + "</metadatagroup>" + mesh_of({body}) +
       "</object><object id=\"2\" name=\"grip\" type=\"model\"><metadatagroup>" + setting("infill_mesh", "True") +
       setting("wall_line_count", "4") + "</metadatagroup>" + mesh_of({grip}) + "</object>";
   const auto file =
@@ -254,11 +272,12 @@ TEST_CASE("project: one of Cura has objects with settings, and meshes that chang
   REQUIRE(passed.has_value());
   by_hand.text = passed->gcode();
   CHECK(out.commands() == by_hand.commands());
-  bool told = false;
-  for (const auto& notice : out.report.warnings)
-    told = told || notice.message.find("object 'thing': no_such_thing = 7 is left out: weft has no such setting") !=
-                       std::string::npos;
-  CHECK(told);
+  std::string told;
+  for (const auto& notice : out.report.warnings) told += notice.message + "\n";
+  CHECK_THAT(told,
+             Contains("object 'thing': no_such_thing = 7 is left out: weft has no such setting") &&
+                 Contains("object 'thing': infill_density_image = /etc/passwd is left out: a project does not say "
+                          "which files of this machine are read"));
 }
 
 TEST_CASE("project: a negative volume cuts the parts before it and no other") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/stage_cache.h"
+#include "cache/stage_cache.h"
 
 #include "cuboid.h"
 #include "pipeline/cached.h"

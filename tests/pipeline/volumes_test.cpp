@@ -91,6 +91,11 @@ std::optional<ScopeId> found(const slice::Cut& cut, const Areas& areas, Point p)
       if (lies_in(cut.layer.regions[region], p)) {
         CHECK_FALSE(out.has_value());  // areas are apart
         out = area.scope;
+        int inner_ones = 0;
+        for (const auto& inner : area.inner)
+          for (const auto& each : inner.regions)
+            if (lies_in(each, p)) out = inner.scope, ++inner_ones;
+        CHECK(inner_ones <= 1);
       }
   CHECK(region == cut.layer.regions.size());
   return out;
@@ -121,7 +126,7 @@ TEST_CASE("volumes: the last part has it, negative volumes cut those before, mod
     std::vector<const std::vector<slice::Cut>*> of_volume;
     for (const auto& each : cuts) of_volume.push_back(&each);
     std::vector<Areas> areas;
-    const auto layers = united(object, of_object, of_volume, areas);
+    const auto layers = united(object, of_object, scopes, of_volume, areas);
     REQUIRE(layers.size() == planes.size());
     for (std::size_t i = 0; i < layers.size(); ++i) {
       for (std::size_t a = 0; a < areas[i].size(); ++a)

@@ -138,6 +138,13 @@ TEST_CASE("profiles: a file of densities that is not there, and patterns that ar
               "' is not there; the path is relative to this file");
   CHECK(problem_of("infill_pattern_by_density = 0:bees\n") ==
         ini + ":1: infill_pattern_by_density: 'bees' is no pattern; as in: 0:honeycomb, 30:grid, 70:concentric");
+  CHECK(problem_of("infill_modifiers = boss.stl:80\n") == ini + ":1: infill_modifiers: '" +
+                                                              (folder.path / "boss.stl").string() +
+                                                              "' is not there; the path is relative to this file");
+  CHECK(problem_of("infill_modifiers = boss.stl\n") ==
+        ini +
+            ":1: infill_modifiers: 'boss.stl' is not file:% or file:%:pattern with 0 … 100 %; as in: boss.stl:80, "
+            "core.stl:5:gyroid");
   Profile profile;
   apply_value(profile, "infill_density_field", "b.csv", "--set");
   CHECK(settings_error([&] { check_consistency(profile); }) ==

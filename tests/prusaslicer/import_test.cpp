@@ -79,17 +79,39 @@ TEST_CASE("prusaslicer: walls over air have the speeds and fans that the profile
   CHECK(value_of(by_share, "overhang_fan_speed_25") == "60");
 }
 
-TEST_CASE("prusaslicer: of two limits to how fast flow changes the lower one holds") {
-  const auto slope = [](const std::string& positive, const std::string& negative) {
-    return value_of(translated("max_volumetric_extrusion_rate_slope_positive = " + positive +
-                               "\nmax_volumetric_extrusion_rate_slope_negative = " + negative + "\n"),
-                    "max_extrusion_rate_slope");
+TEST_CASE("prusaslicer: how fast flow may grow and fall are two limits, and 0 is none") {
+  const auto slopes = [](const std::string& positive, const std::string& negative) {
+    const auto t = translated("max_volumetric_extrusion_rate_slope_positive = " + positive +
+                              "\nmax_volumetric_extrusion_rate_slope_negative = " + negative + "\n");
+    return value_of(t, "max_extrusion_rate_slope") + " " + value_of(t, "max_extrusion_rate_slope_down");
   };
-  CHECK(slope("100", "60") == "60");
-  CHECK(slope("50", "60") == "50");
-  CHECK(slope("0", "60") == "60");
-  CHECK(slope("50", "0") == "50");
-  CHECK(slope("0", "0") == "auto");
+  CHECK(slopes("100", "60") == "100 60");
+  CHECK(slopes("0", "60") == "auto 60");
+  CHECK(slopes("50", "0") == "50 100000");
+  CHECK(slopes("0", "0") == "auto auto");
+}
+
+TEST_CASE("prusaslicer: the second values of all limits are those of silent mode") {
+  std::string lines = "gcode_flavor = marlin\nsilent_mode = 1\n";
+  for (const char* axis : {"x", "y", "z", "e"})
+    lines +=
+        std::string("machine_max_feedrate_") + axis + " = 200,100\nmachine_max_acceleration_" + axis + " = 1250,960\n";
+  lines += "machine_max_jerk_x = 8,7\nmachine_max_jerk_y = 8,7\nmachine_max_jerk_z = 0.4,0.3\n";
+  const std::string last = "machine_max_jerk_e = 4.5,2.5\n";
+  CHECK(value_of(translated(lines + last), "machine_silent_limits") ==
+        "100, 100, 100, 100, 960, 960, 960, 960, 7, 0.3, 2.5");
+  CHECK(value_of(translated(lines + "machine_max_jerk_e = 4.5\n"), "machine_silent_limits") == "(absent)");
+  auto off = lines + last;
+  off.replace(off.find("silent_mode = 1"), 15, "silent_mode = 0");
+  CHECK(value_of(translated(off), "machine_silent_limits") == "(absent)");
+}
+
+TEST_CASE("prusaslicer: what layers of varying height may be is said for adaptive ones") {
+  const auto t = translated("min_layer_height = 0.05\nmax_layer_height = 0\n");
+  CHECK(value_of(t, "adaptive_layer_height_min") == "0.05");
+  CHECK(value_of(t, "adaptive_layer_height_max") == "auto");
+  CHECK(value_of(translated("min_layer_height = 0\nmax_layer_height = 0.25\n"), "adaptive_layer_height_min") == "0.02");
+  CHECK(value_of(translated("max_layer_height = 0.25\n"), "adaptive_layer_height_max") == "0.25");
 }
 
 TEST_CASE("prusaslicer: rough walls, vases, ironing and single walls become what they are here") {
@@ -290,4 +312,19 @@ TEST_CASE("prusaslicer: values that do not parse whole are errors with the line"
       CHECK(e.where() == "p.ini:2");
     }
   }
+}
+
+TEST_CASE("prusaslicer: anchors of infill are as long as the profile says, and weft's own where it says nothing") {
+  const auto said = translated(
+      "fill_density = 15%\ninfill_extrusion_width = 0.45\ninfill_anchor = 600%\n"
+      "infill_anchor_max = 12\n");
+  CHECK(value_of(said, "infill_anchor_length") == "2.7");
+  CHECK(value_of(said, "infill_anchor_max") == "12");
+  CHECK(value_of(said, "infill_connect_lines") == "true");
+  const auto off = translated("fill_density = 15%\ninfill_anchor = 5\ninfill_anchor_max = 0\n");
+  CHECK(value_of(off, "infill_anchor_length") == "0");
+  CHECK(value_of(off, "infill_connect_lines") == "false");
+  const auto silent = translated("fill_density = 15%\n");
+  CHECK(value_of(silent, "infill_anchor_length") == "(absent)");
+  CHECK(value_of(silent, "infill_anchor_max") == "(absent)");
 }

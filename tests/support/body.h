@@ -2,6 +2,7 @@
 #pragma once
 #include "geometry/boolean.h"
 #include "geometry/offset.h"
+#include "picture.h"
 #include "rectangle.h"
 #include "support/support.h"
 
@@ -59,7 +60,10 @@ inline Regions grown(const Regions& regions, Um by) {
 
 inline support::Plan planned(const SupportSettings& s, Body& body) {
   const auto object = body.object();
-  return support::plan(s, object, support::demand(s, object));
+  auto out = support::plan(s, object, support::demand(s, object));
+  if (!body.layers.empty())  // seen from above: what is to be held, and what stands on the bed
+    tests::look_at(body.layers.back().regions, out.layers.empty() ? Regions{} : all_of(out.layers.front()));
+  return out;
 }
 
 }  // namespace weft::test

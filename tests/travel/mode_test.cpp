@@ -106,7 +106,7 @@ TEST_CASE("travel: with no_outer_surfaces ways keep off the outer wall", "[trave
   for (const Point p : *way) CHECK((p.y > 27000 || p.y < 12000 - 3 * sample::width / 2 + 30));
 }
 
-TEST_CASE("travel: with no_outer_surfaces a neck of two walls is gone through along them, not over the edge",
+TEST_CASE("travel: with no_outer_surfaces a neck of two walls is gone through along them with filament drawn back",
           "[travel]") {
   // Two rooms and a neck between them that has no room for second walls.
   const Region rooms{{{0, 0},
@@ -127,7 +127,7 @@ TEST_CASE("travel: with no_outer_surfaces a neck of two walls is gone through al
   REQUIRE(prepared.comb.part_of({5000, 5000}) != prepared.comb.part_of({25000, 5000}));
   const RetractionSettings retraction;
   const auto way = Router(settings, retraction, prepared).way({5000, 2000}, {25000, 2000});
-  CHECK_FALSE(way.retract);
+  CHECK(way.retract);  // what oozed would be a scar on them
   CHECK_FALSE(way.crosses);
 }
 

@@ -32,7 +32,7 @@ double length_um(const Extrude& bead) {
 TEST_CASE("spiral: turns follow each other without a gap in x, y or z, and rise evenly") {
   const bool smooth = GENERATE(true, false);
   const int corners = GENERATE(4, 60);
-  Spiral spiral(smooth);
+  Spiral spiral({.smooth = smooth});
   constexpr int turns = 12;
   constexpr Um height = 200;
   std::optional<Point3> end;
@@ -64,7 +64,7 @@ TEST_CASE("spiral: turns follow each other without a gap in x, y or z, and rise 
 
 TEST_CASE("spiral: passing over, a turn lies between two loops; else it keeps to its own") {
   for (const bool smooth : {true, false}) {
-    Spiral spiral(smooth);
+    Spiral spiral({.smooth = smooth});
     spiral.turn(ring(10'000, 200), 200, {true, false}, Point{10'000, 0});
     const auto turn = spiral.turn(ring(10'400, 200), 200, {}, std::nullopt).front();
     double along = 0;
@@ -79,7 +79,7 @@ TEST_CASE("spiral: passing over, a turn lies between two loops; else it keeps to
 }
 
 TEST_CASE("spiral: the first turn grows from nothing, the one after the last falls to it, and the rest is whole") {
-  Spiral spiral(true);
+  Spiral spiral({});
   const auto first = spiral.turn(ring(10'000, 4), 200, {true, false}, Point{10'000, 0}).front();
   const auto next = spiral.turn(ring(10'000, 4), 200, {}, std::nullopt).front();
   const auto last = spiral.turn(ring(10'000, 4), 200, {false, true}, std::nullopt);

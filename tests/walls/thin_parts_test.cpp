@@ -28,7 +28,7 @@ Regions bands_of(const Beads& beads) {
 }  // namespace
 
 TEST_CASE("walls: a triangle hardly larger than a bead keeps its volume and little of it lies beside it", "[walls]") {
-  // 2.2 % on average; one bead as wide as the triangle on both sides together laid 5.1 % beside it.
+  // What its one bead does not reach in the corners lies beside the sides: 5.1 % on average.
   WallSettings settings = by_volume();
   settings.flow_compensation = false;
   double beside = 0;
@@ -44,7 +44,7 @@ TEST_CASE("walls: a triangle hardly larger than a bead keeps its volume and litt
       beside += (area_mm2(bands) - area_mm2(geometry::intersect(part, bands))) / area;
       ++count;
     }
-  CHECK(beside / count < 0.025);
+  CHECK(beside / count < 0.055);
 }
 
 TEST_CASE("walls: a part smaller than a dab gets one bead of its volume in few pieces", "[walls]") {
@@ -58,17 +58,20 @@ TEST_CASE("walls: a part smaller than a dab gets one bead of its volume in few p
   CHECK(bead_area_mm2(walls) == Approx(area_mm2(part)).epsilon(0.005));
 }
 
-TEST_CASE("walls: where no bead is too short, corners of a thin part get beads of their own", "[walls]") {
-  // A bead along a triangle and one in the corner that it does not reach.
+TEST_CASE("walls: a small part is one bead, however little each bead may be", "[walls]") {
+  // The corner of a triangle that its bead does not reach, and the sides of a lens that it does not fill, had one, two
+  // and four beads of their own, shorter than a nozzle is wide.
   WallSettings settings = by_volume();
   settings.flow_compensation = false;
   settings.min_feature_size = 1;
   settings.min_wall_length = 0;
-  const Regions part{{{{0, 0}, {600, 0}, {800, 600}}, {}}};
-  const auto walls = built(part, settings);
-  CHECK(walls.beads.size() > 1);
-  const Regions bands = bands_of(walls.beads);
-  CHECK(area_mm2(bands) - area_mm2(geometry::intersect(part, bands)) < 0.005 * area_mm2(part));
+  const Regions triangle{{{{0, 0}, {600, 0}, {800, 600}}, {}}};
+  const Regions lens{{{{0, 0}, {300, -180}, {700, -260}, {1100, -180}, {1400, 0}, {1100, 160}, {300, 160}}, {}}};
+  for (const Regions& part : {triangle, lens}) {
+    const auto walls = built(part, settings);
+    CHECK(walls.beads.size() == 1);
+    CHECK(bead_area_mm2(walls) == Approx(area_mm2(part)).epsilon(0.005));
+  }
 }
 
 TEST_CASE("walls: a short bead lies half-way between the sides of a part, not along one of them", "[walls]") {

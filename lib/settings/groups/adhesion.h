@@ -41,6 +41,8 @@ struct AdhesionSettings {
   Um brim_width = 0_mm;
   Um brim_gap = 0_mm;
   BrimLocation brim_location = BrimLocation::outside;
+  bool brim_ears = false;
+  double brim_ears_max_angle = 125;
   std::optional<LengthOrShare> skirt_brim_line_width;
   AdhesionOutside adhesion_outside = AdhesionOutside::keep;
 };
@@ -62,6 +64,11 @@ inline constexpr Rows adhesion_schema{
     setting("brim_gap", Scope::object, &AdhesionSettings::brim_gap, Unit::mm, 0_mm, 10_mm,
             "Distance between the part and its brim, to make it easier to take off."),
     setting("brim_location", Scope::object, &AdhesionSettings::brim_location, "Outlines that the brim follows."),
+    setting("brim_ears", Scope::object, &AdhesionSettings::brim_ears,
+            "The brim is a disc of radius brim_width at each tip of the part, where it would come off first, and "
+            "nothing elsewhere."),
+    setting("brim_ears_max_angle", Scope::object, &AdhesionSettings::brim_ears_max_angle, Unit::degrees, 0, 180,
+            "What is sharper than this is a tip, rounded or not."),
     setting("skirt_brim_line_width", Scope::plate, &AdhesionSettings::skirt_brim_line_width, Unit::mm, 0.05_mm, 5_mm,
             "Line width of skirt and brim; auto keeps the cross-section of the nozzle; a share is of nozzle_diameter."),
     setting("adhesion_outside", Scope::plate, &AdhesionSettings::adhesion_outside,

@@ -13,6 +13,7 @@ struct CoolingSettings {
   double cool_fan_speed_0 = 0;
   int cool_fan_off_layers = 1;
   int cool_fan_full_layer = 4;
+  double cool_fan_lead = 0;
   double bridge_fan_speed = 100;
   std::optional<double> overhang_fan_speed_25;
   std::optional<double> overhang_fan_speed_50;
@@ -41,6 +42,8 @@ inline constexpr Rows cooling_schema{
             "First layers with the fan at cool_fan_speed_0, so that they stick."),
     setting("cool_fan_full_layer", Scope::layer, &CoolingSettings::cool_fan_full_layer, Unit::layers, 0, 1000000,
             "Number of the layer, counted from 1, up to which the fan is raised step by step."),
+    setting("cool_fan_lead", Scope::layer, &CoolingSettings::cool_fan_lead, Unit::seconds, 0, 5,
+            "How long before a bead a fan that is to turn faster for it is told so: as long as it takes to speed up."),
     setting("bridge_fan_speed", Scope::region, &CoolingSettings::bridge_fan_speed, Unit::percent, 0, 100,
             "Fan over bridges and walls over air, where it is more than the layer's."),
     setting("overhang_fan_speed_25", Scope::region, &CoolingSettings::overhang_fan_speed_25, Unit::percent, 0, 100,

@@ -54,6 +54,7 @@ struct GcodeSettings {
   bool gcode_flow_comments = false;
   bool arc_fitting = false;
   Um arc_tolerance = 0.0125_mm;
+  std::optional<Um> arc_segment_length;
   PictureSizes thumbnails = {{32, 32}, {300, 300}};
   ThumbnailContent thumbnail_content = ThumbnailContent::model;
   std::string output_filename_format = "{input_filename_base}.gcode";
@@ -114,6 +115,9 @@ inline constexpr Rows gcode_schema{
             "Moves along a curve are written as arcs, G2 and G3: fewer lines for firmware that reads them."),
     setting("arc_tolerance", Scope::plate, &GcodeSettings::arc_tolerance, Unit::mm, 0.001_mm, 0.1_mm,
             "How far an arc may stand off the moves that it stands for."),
+    setting("arc_segment_length", Scope::plate, &GcodeSettings::arc_segment_length, Unit::mm, 0.02_mm, 10_mm,
+            "Pieces that the firmware cuts arcs into: curves of which these would stand off by more than arc_tolerance "
+            "are no arcs; auto: 1 with Klipper, and with other firmware what its documents say."),
     setting("thumbnails", Scope::plate, &GcodeSettings::thumbnails,
             "Sizes of the pictures of the plate in the head of the file, PNG; empty: none."),
     setting("thumbnail_content", Scope::plate, &GcodeSettings::thumbnail_content,

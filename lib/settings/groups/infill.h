@@ -135,6 +135,7 @@ struct InfillSettings {
   Numbers infill_angles;
   Um infill_offset_x = 0;
   Um infill_offset_y = 0;
+  InfillFrame infill_angle_frame = InfillFrame::plate;
   InfillFrame infill_phase_frame = InfillFrame::part;
   InfillCrossings infill_crossings = InfillCrossings::cross;
   LengthOrShare infill_overlap = share(15);
@@ -142,10 +143,13 @@ struct InfillSettings {
   std::optional<Um> infill_anchor_max;
   Um infill_anchor_length = 0;
   int infill_wall_line_count = 0;
+  int infill_multiplier = 1;
   std::optional<Um> infill_sparse_thickness;
   bool infill_support_enabled = false;
   double infill_support_angle = 40;
   double lightning_infill_support_angle = 45;
+  std::optional<double> lightning_infill_prune_angle;
+  std::optional<double> lightning_infill_straightening_angle;
   std::string infill_pattern_by_density;
   std::string infill_direction_field;
   ValuesAt infill_density_by_distance;
@@ -159,6 +163,7 @@ struct InfillSettings {
   TransferCurve infill_density_transfer;
   DensityDither infill_density_dither = DensityDither::none;
   DensityCombine infill_density_combine = DensityCombine::max;
+  std::string infill_modifiers;
   double infill_density_min = 5;
   double infill_density_max = 90;
 };
@@ -183,13 +188,16 @@ inline constexpr Rows infill_schema{
             "How far the pattern is moved along X from the middle of the object."),
     setting("infill_offset_y", Scope::region, &InfillSettings::infill_offset_y, Unit::mm, -1000_mm, 1000_mm,
             "How far the pattern is moved along Y from the middle of the object."),
+    setting("infill_angle_frame", Scope::object, &InfillSettings::infill_angle_frame,
+            "What the directions of lines stand still against: plate, the machine's axes; part, the model as its file "
+            "has it, so that its infill is turned with it."),
     setting(
         "infill_phase_frame", Scope::object, &InfillSettings::infill_phase_frame,
         "What the pattern stands still against: part, the middle of each object, so that copies are alike; plate, the "
         "bed's zero, so that the patterns of objects that touch go on in each other."),
     setting("infill_crossings", Scope::region, &InfillSettings::infill_crossings,
             "Where lines of two directions meet: cross, one runs over the other; bend, both turn aside, so that the "
-            "nozzle strikes nothing. Where three meet they cross."),
+            "nozzle strikes nothing. Where three meet, the outer two turn."),
     setting("infill_overlap", Scope::region, &InfillSettings::infill_overlap, Unit::mm, 0_mm, 5_mm,
             "How far the ends of skin and infill lines reach into the innermost wall, to bond with it; a share is of "
             "that wall's line width."),
@@ -197,11 +205,14 @@ inline constexpr Rows infill_schema{
         "infill_connect_lines", Scope::region, &InfillSettings::infill_connect_lines,
         "Neighbouring lines, solid ones too, are joined along the wall instead of travelling from one to the next."),
     setting("infill_anchor_max", Scope::region, &InfillSettings::infill_anchor_max, Unit::mm, 0_mm, 1000_mm,
-            "Longest joint along the wall between two sparse lines; auto is one and a half times their distance."),
+            "Longest joint along the wall between two sparse lines; auto is three times their distance."),
     setting("infill_anchor_length", Scope::region, &InfillSettings::infill_anchor_length, Unit::mm, 0_mm, 1000_mm,
             "How far a sparse line that is joined to none is bent along the wall that it ends at, to hold there."),
     setting("infill_wall_line_count", Scope::region, &InfillSettings::infill_wall_line_count, Unit::none, 0, 100,
             "Lines around each area of sparse infill, inside of the walls; the pattern fills what they leave."),
+    setting("infill_multiplier", Scope::region, &InfillSettings::infill_multiplier, Unit::none, 1, 10,
+            "So many lines side by side for each of the pattern, as much farther apart; the density stays. Not of "
+            "fermat, medial, streamlines and lightning."),
     setting("infill_sparse_thickness", Scope::object, &InfillSettings::infill_sparse_thickness, Unit::mm, 0.02_mm, 5_mm,
             "Height of sparse infill, printed every so many layers at once: as many as it holds; auto is layer_height. "
             "No more than nozzle_diameter."),
@@ -211,6 +222,11 @@ inline constexpr Rows infill_schema{
             "With infill_support_enabled: a shell that leans less than this from the vertical carries itself."),
     setting("lightning_infill_support_angle", Scope::object, &InfillSettings::lightning_infill_support_angle,
             Unit::degrees, 5, 80, "How far branches of the pattern lightning lean, against the vertical."),
+    setting("lightning_infill_prune_angle", Scope::object, &InfillSettings::lightning_infill_prune_angle, Unit::degrees,
+            5, 80, "How far their tips draw back downwards; auto is lightning_infill_support_angle."),
+    setting("lightning_infill_straightening_angle", Scope::object,
+            &InfillSettings::lightning_infill_straightening_angle, Unit::degrees, 5, 80,
+            "How far their bends move downwards to become straight; auto is lightning_infill_support_angle."),
     setting("infill_pattern_by_density", Scope::region, &InfillSettings::infill_pattern_by_density,
             "Patterns by the density that varies, %:pattern, each from its density on: 0:honeycomb, 30:grid, "
             "70:concentric. Empty: infill_pattern everywhere."),
@@ -250,6 +266,9 @@ inline constexpr Rows infill_schema{
             "narrower; floyd_steinberg, blue_noise, cells of one and of the other, so that their mean is right."),
     setting("infill_density_combine", Scope::region, &InfillSettings::infill_density_combine,
             "Where several of these densities are asked for: max, min, or multiply, their product."),
+    setting("infill_modifiers", Scope::plate, &InfillSettings::infill_modifiers,
+            "Meshes in the models' coordinates with a density, and a pattern, of their own: boss.stl:80, "
+            "core.stl:5:gyroid; where they overlap the last wins. Paths are relative to the file that names them."),
     setting("infill_density_min", Scope::region, &InfillSettings::infill_density_min, Unit::percent, 0, 100,
             "No density that varies is less."),
     setting("infill_density_max", Scope::region, &InfillSettings::infill_density_max, Unit::percent, 0, 100,

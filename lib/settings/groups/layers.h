@@ -22,16 +22,44 @@ constexpr auto choices_of(SlicingMode) {
 /// How the model is cut.
 struct LayerSettings {
   Um layer_height = 0.2_mm;
+  HeightBands layer_height_ranges;
+  bool adaptive_layer_height_enabled = false;
+  Um adaptive_layer_height_error = 0.08_mm;
+  Um adaptive_layer_height_min = 0.07_mm;
+  std::optional<Um> adaptive_layer_height_max;
+  std::optional<bool> adaptive_layer_height_flats;
   std::optional<Um> initial_layer_height;                 ///< auto: layer_height
   std::optional<LengthOrShare> initial_layer_line_width;  ///< auto: as in the other layers
   Um resolution = 0.0125_mm;
   SlicingMode slicing_mode = SlicingMode::regular;
   bool magic_spiralize = false;
   bool smooth_spiralized_contours = true;
+  double spiral_smoothing = 200;
+  double spiral_start_flow = 0;
+  double spiral_finish_flow = 0;
+  bool z_contouring = false;
+  Um z_contour_min_height = 0.06_mm;
 };
 
 inline constexpr Rows layer_schema{
     setting("layer_height", Scope::layer, &LayerSettings::layer_height, Unit::mm, 0.02_mm, 2_mm, "Height of a layer."),
+    setting("layer_height_ranges", Scope::object, &LayerSettings::layer_height_ranges,
+            "Layers of other heights between two heights of the object: `0-5:0.1; 5-20:0.3`, mm; layer_height "
+            "elsewhere."),
+    setting(
+        "adaptive_layer_height_enabled", Scope::object, &LayerSettings::adaptive_layer_height_enabled,
+        "Layers are as high as the object's surface allows: thin where it is nearly flat, high where it is upright."),
+    setting("adaptive_layer_height_error", Scope::object, &LayerSettings::adaptive_layer_height_error, Unit::mm,
+            0.005_mm, 0.5_mm,
+            "How far the steps of adaptive layers may stand off the surface: h(0.184 + c/2) for a face whose normal "
+            "rises by c, as measured walls do."),
+    setting("adaptive_layer_height_min", Scope::object, &LayerSettings::adaptive_layer_height_min, Unit::mm, 0.02_mm,
+            2_mm, "Least height of an adaptive layer."),
+    setting("adaptive_layer_height_max", Scope::object, &LayerSettings::adaptive_layer_height_max, Unit::mm, 0.02_mm,
+            2_mm, "Greatest height of an adaptive layer; auto is 75 % of nozzle_diameter."),
+    setting("adaptive_layer_height_flats", Scope::object, &LayerSettings::adaptive_layer_height_flats,
+            "Layers end where horizontal faces lie: true without adaptive layers stretches all of them by up to 10 %; "
+            "auto: with adaptive layers alone."),
     setting("initial_layer_height", Scope::object, &LayerSettings::initial_layer_height, Unit::mm, 0.02_mm, 2_mm,
             "Height of the first layer; auto is layer_height."),
     setting("initial_layer_line_width", Scope::region, &LayerSettings::initial_layer_line_width, Unit::mm, 0.05_mm,
@@ -47,6 +75,17 @@ inline constexpr Rows layer_schema{
             "Above its bottom layers the object is one wall that rises without an end, and without a seam: a vase."),
     setting("smooth_spiralized_contours", Scope::plate, &LayerSettings::smooth_spiralized_contours,
             "Each turn of a vase passes over into the next along all of its way; off: at its end."),
+    setting("spiral_smoothing", Scope::plate, &LayerSettings::spiral_smoothing, Unit::percent, 0, 1000,
+            "How far apart, in widths of their wall, turns of a vase may be that pass over into each other: what is "
+            "further apart is a step of the model."),
+    setting("spiral_start_flow", Scope::plate, &LayerSettings::spiral_start_flow, Unit::percent, 0, 100,
+            "Plastic that a vase's first turn begins with; at its end it is all."),
+    setting("spiral_finish_flow", Scope::plate, &LayerSettings::spiral_finish_flow, Unit::percent, 0, 100,
+            "Plastic that a vase's last turn, which stays on its level, ends with."),
+    setting("z_contouring", Scope::object, &LayerSettings::z_contouring,
+            "Tops and outermost walls of gentle slopes follow the surface within their layer, instead of stepping."),
+    setting("z_contour_min_height", Scope::object, &LayerSettings::z_contour_min_height, Unit::mm, 0.02_mm, 1_mm,
+            "Least height that a bead has left where it follows the surface."),
 };
 static_assert(complete<LayerSettings>(layer_schema));
 

@@ -59,6 +59,18 @@ Ring reach_area(const MachineSettings& machine) {
   return counter_clockwise(machine.machine_reach);
 }
 
+std::optional<MachineSettings> in_silent_mode(const MachineSettings& machine) {
+  const auto& limits = machine.machine_silent_limits;
+  if (limits.size() != silent_limits) return std::nullopt;
+  MachineSettings out = machine;
+  out.machine_max_speed_x = limits[0], out.machine_max_speed_y = limits[1];
+  out.machine_max_speed_z = limits[2], out.machine_max_speed_e = limits[3];
+  out.machine_max_acceleration_x = limits[4], out.machine_max_acceleration_y = limits[5];
+  out.machine_max_acceleration_z = limits[6], out.machine_max_acceleration_e = limits[7];
+  out.machine_max_jerk = limits[8], out.machine_max_jerk_z = limits[9], out.machine_max_jerk_e = limits[10];
+  return out;
+}
+
 bool is_simple(const Ring& ring) {
   const std::size_t n = ring.size();
   const auto at = [&](std::size_t i) { return ring[i % n]; };

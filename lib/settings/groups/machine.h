@@ -45,6 +45,7 @@ struct MachineSettings {
   Ring nozzle_offsets;
   Um z_offset = 0_mm;
   Um nozzle_diameter = 0.4_mm;
+  Um machine_nozzle_tip_outer_diameter = 1_mm;
   Firmware firmware = Firmware::marlin2;
   double machine_max_speed_x = 300;
   double machine_max_speed_y = 300;
@@ -60,6 +61,7 @@ struct MachineSettings {
   std::optional<double> machine_max_jerk_e;
   double machine_minimum_cruise_ratio = 50;
   std::optional<int> machine_planner_blocks;
+  Numbers machine_silent_limits;
 };
 
 inline constexpr Rows machine_schema{
@@ -105,6 +107,8 @@ inline constexpr Rows machine_schema{
             "Added to every Z that is written: positive lifts the nozzle, where the end stop lets it sit too low."),
     setting("nozzle_diameter", Scope::tool, &MachineSettings::nozzle_diameter, Unit::mm, 0.05_mm, 5_mm,
             "Diameter of the nozzle's opening."),
+    setting("machine_nozzle_tip_outer_diameter", Scope::tool, &MachineSettings::machine_nozzle_tip_outer_diameter,
+            Unit::mm, 0.1_mm, 10_mm, "Diameter of the flat that the nozzle ends in, which digs into slopes uphill."),
     setting("firmware", Scope::machine, &MachineSettings::firmware,
             "The firmware that reads the file; marlin is Marlin 1 and what descends from it."),
     setting("machine_max_speed_x", Scope::machine, &MachineSettings::machine_max_speed_x, Unit::mm_s, 1, 5000,
@@ -141,6 +145,10 @@ inline constexpr Rows machine_schema{
     setting("machine_planner_blocks", Scope::machine, &MachineSettings::machine_planner_blocks, Unit::none, 2, 10000,
             "Moves that the firmware looks ahead over, for the estimate of time; auto is 16 with Marlin, Repetier and "
             "Smoothie, and all with Klipper and RepRapFirmware."),
+    setting(
+        "machine_silent_limits", Scope::machine, &MachineSettings::machine_silent_limits, Unit::none, 0.01, 100000,
+        "Limits of the firmware's silent mode, whose times M73 tells beside the usual ones: eleven numbers, the speeds "
+        "of X, Y, Z, E, their accelerations, jerk of X and Y, of Z and of E; empty: it has none."),
 };
 static_assert(complete<MachineSettings>(machine_schema));
 
@@ -163,6 +171,12 @@ inline Um reach_z_max(const MachineSettings& machine) {
 inline Um exclude_height(const MachineSettings& machine) {
   return machine.exclude_height.value_or(height_of(machine));
 }
+
+/// Numbers that machine_silent_limits has.
+inline constexpr std::size_t silent_limits = 11;
+
+/// The machine in its silent mode; nothing: it has none, or not all of its limits are known.
+std::optional<MachineSettings> in_silent_mode(const MachineSettings& machine);
 
 /// Do no two edges of the ring cross, touch or overlap, but for neighbours at their common corner? Exact. O(n²).
 bool is_simple(const Ring& ring);

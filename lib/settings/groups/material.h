@@ -15,6 +15,8 @@ struct MaterialSettings {
   double material_shrinkage_percentage_xy = 100;
   double material_shrinkage_percentage_z = 100;
   double material_max_volumetric_speed = 12;
+  PressureRows pressure_advance_model;
+  double pressure_advance_step = 0.004;
   int material_print_temperature = 210;
   std::optional<int> material_print_temperature_layer_0;
   int material_bed_temperature = 60;
@@ -44,6 +46,11 @@ inline constexpr Rows material_schema{
             Unit::percent, 50, 200, "The same in Z."),
     setting("material_max_volumetric_speed", Scope::tool, &MaterialSettings::material_max_volumetric_speed, Unit::mm3_s,
             0.1, 500, "What the hot end melts; speeds are lowered to stay below it."),
+    setting("pressure_advance_model", Scope::tool, &MaterialSettings::pressure_advance_model,
+            "Pressure advance by flow and acceleration, as measured: `0.04, 3, 1000; 0.03, 10, 1000`, each row an "
+            "advance in s, mm³/s, mm/s², and perhaps the height of a layer in mm; empty: the firmware's own stays."),
+    setting("pressure_advance_step", Scope::tool, &MaterialSettings::pressure_advance_step, Unit::seconds, 0.0001, 0.1,
+            "Pressure advance is told anew where it differs by this or more."),
     setting("material_print_temperature", Scope::tool, &MaterialSettings::material_print_temperature, Unit::celsius, 0,
             500, "Nozzle temperature."),
     setting("material_print_temperature_layer_0", Scope::tool, &MaterialSettings::material_print_temperature_layer_0,

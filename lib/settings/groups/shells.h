@@ -68,6 +68,8 @@ struct ShellSettings {
   Um ironing_line_spacing = 0.1_mm;
   std::optional<Um> ironing_inset;
   std::optional<double> ironing_angle;
+  double ironing_prime = 0;
+  Um small_area_flow_length = 0_mm;
 };
 
 inline constexpr Rows shell_schema{
@@ -126,6 +128,12 @@ inline constexpr Rows shell_schema{
             "How far ironing keeps from the edge of the surface; auto is half of nozzle_diameter."),
     setting("ironing_angle", Scope::region, &ShellSettings::ironing_angle, Unit::degrees, -360, 360,
             "Direction of ironing, against X; auto goes across the lines of the surface."),
+    setting("ironing_prime", Scope::region, &ShellSettings::ironing_prime, Unit::mm3, 0, 20,
+            "Plastic that is pushed forward when ironing is over, beside what was drawn back: it left the nozzle "
+            "meanwhile."),
+    setting("small_area_flow_length", Scope::region, &ShellSettings::small_area_flow_length, Unit::mm, 0_mm, 2_mm,
+            "Each line of a solid layer holds as much less plastic as this length of it: what is laid twice where it "
+            "turns into the next. 0.25 suits a nozzle of 0.4 mm."),
 };
 static_assert(complete<ShellSettings>(shell_schema));
 

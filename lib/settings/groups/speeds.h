@@ -32,6 +32,8 @@ struct SpeedSettings {
   std::optional<double> speed_travel_layer_0;
   double speed_equalize_flow_width_factor = 0;
   std::optional<double> max_extrusion_rate_slope;
+  std::optional<double> max_extrusion_rate_slope_down;
+  double speed_curvature_even = 0;
   bool acceleration_enabled = false;
   double acceleration_print = 1500;
   std::optional<double> acceleration_wall_0;
@@ -40,6 +42,7 @@ struct SpeedSettings {
   std::optional<double> acceleration_topbottom;
   std::optional<double> acceleration_top_skin;
   std::optional<double> acceleration_bridge;
+  std::optional<double> acceleration_overhang;
   std::optional<double> acceleration_layer_0;
   std::optional<double> acceleration_travel;
 };
@@ -97,7 +100,12 @@ inline constexpr Rows speed_schema{
             "width, at 0 % the "
             "speed stays."),
     setting("max_extrusion_rate_slope", Scope::tool, &SpeedSettings::max_extrusion_rate_slope, Unit::mm3_s2, 0.1,
-            100000, "How fast mm³/s may change along a bead; auto: no limit."),
+            100000, "How fast mm³/s may grow along beads, so that the pressure in the nozzle follows; auto: no limit."),
+    setting("max_extrusion_rate_slope_down", Scope::tool, &SpeedSettings::max_extrusion_rate_slope_down, Unit::mm3_s2,
+            0.1, 100000, "How fast mm³/s may fall; auto is max_extrusion_rate_slope."),
+    setting("speed_curvature_even", Scope::region, &SpeedSettings::speed_curvature_even, Unit::percent, 0, 100,
+            "How far outermost walls keep one speed along a curve, the lowest that the machine comes down to in it: "
+            "what is printed at one speed shines alike."),
     setting("acceleration_enabled", Scope::plate, &SpeedSettings::acceleration_enabled,
             "Accelerations are written to the G-code; off: the firmware's own stay in force."),
     setting("acceleration_print", Scope::region, &SpeedSettings::acceleration_print, Unit::mm_s2, 1, 100000,
@@ -115,6 +123,9 @@ inline constexpr Rows speed_schema{
             "Acceleration in top surfaces; auto is acceleration_topbottom."),
     setting("acceleration_bridge", Scope::region, &SpeedSettings::acceleration_bridge, Unit::mm_s2, 1, 100000,
             "Acceleration in strands over air; auto is acceleration_print."),
+    setting("acceleration_overhang", Scope::region, &SpeedSettings::acceleration_overhang, Unit::mm_s2, 1, 100000,
+            "Acceleration in walls that lie over air with more than half of their width; auto: that of outermost "
+            "walls."),
     setting("acceleration_layer_0", Scope::region, &SpeedSettings::acceleration_layer_0, Unit::mm_s2, 1, 100000,
             "Acceleration of everything printed in the first layer; auto: as in the others."),
     setting("acceleration_travel", Scope::layer, &SpeedSettings::acceleration_travel, Unit::mm_s2, 1, 100000,

@@ -47,6 +47,21 @@ constexpr auto choices_of(FuzzyMode) {
                     Choice<FuzzyMode>{FuzzyMode::width, "width"}};
 }
 
+/// What rough walls stand off by.
+enum class FuzzyNoise {
+  classic,  ///< by chance, each point for itself
+  perlin,   ///< waves
+  billow,   ///< cushions
+  ridged,   ///< crests
+  voronoi,  ///< plates
+};
+constexpr auto choices_of(FuzzyNoise) {
+  return std::array{Choice<FuzzyNoise>{FuzzyNoise::classic, "classic"},
+                    Choice<FuzzyNoise>{FuzzyNoise::perlin, "perlin"}, Choice<FuzzyNoise>{FuzzyNoise::billow, "billow"},
+                    Choice<FuzzyNoise>{FuzzyNoise::ridged, "ridged"},
+                    Choice<FuzzyNoise>{FuzzyNoise::voronoi, "voronoi"}};
+}
+
 /// Beads along the outlines.
 struct WallSettings {
   int wall_line_count = 3;
@@ -79,6 +94,9 @@ struct WallSettings {
   Um magic_fuzzy_skin_thickness = 0.3_mm;
   Um magic_fuzzy_skin_point_dist = 0.8_mm;
   FuzzyMode fuzzy_skin_mode = FuzzyMode::displacement;
+  FuzzyNoise fuzzy_skin_noise = FuzzyNoise::classic;
+  Um fuzzy_skin_scale = 1_mm;
+  int fuzzy_skin_octaves = 4;
   int fuzzy_skin_seed = 0;
   Um xy_offset = 0_mm;
   Um xy_offset_layer_0 = 0_mm;
@@ -158,6 +176,13 @@ inline constexpr Rows wall_schema{
     setting("fuzzy_skin_mode", Scope::region, &WallSettings::fuzzy_skin_mode,
             "What of a rough wall moves: displacement, all of it; width, its outer edge, so that no gap opens to the "
             "next wall."),
+    setting("fuzzy_skin_noise", Scope::region, &WallSettings::fuzzy_skin_noise,
+            "What rough walls stand off by: classic, each point for itself; perlin, waves; billow, cushions; ridged, "
+            "crests; voronoi, plates. All but the first go on from layer to layer."),
+    setting("fuzzy_skin_scale", Scope::region, &WallSettings::fuzzy_skin_scale, Unit::mm, 0.1_mm, 500_mm,
+            "Size of those waves, cushions, crests and plates."),
+    setting("fuzzy_skin_octaves", Scope::region, &WallSettings::fuzzy_skin_octaves, Unit::none, 1, 10,
+            "How often half as large ones, half as high, are laid over them; not over plates."),
     setting("fuzzy_skin_seed", Scope::region, &WallSettings::fuzzy_skin_seed, Unit::none, 0, 1000000,
             "Another number gives other rough walls."),
     setting("xy_offset", Scope::object, &WallSettings::xy_offset, Unit::mm, -10_mm, 10_mm,
