@@ -140,7 +140,7 @@ Axis parse_axis(const std::string& text) {
                 near.empty() ? "`weft settings` lists them all" : fmt::format("did you mean '{}'?", near)};
   }
   if (tool && !differs_by_tool(*entry))
-    throw Error{Error::Kind::settings, fmt::format("{} holds for the plate", entry->key), option, "leave out the tool"};
+    throw Error{Error::Kind::settings, fmt::format("{} is no tool's own", entry->key), option, "leave out the tool"};
   axis.key = tool ? fmt::format("tool.{}.{}", tool->first, entry->key) : std::string(entry->key);
   const auto values = text.substr(equals + 1);
   const auto range = trimmed_parts(values, ':');
