@@ -3,6 +3,7 @@
 
 #include "core/escape.h"
 #include "prusaslicer/keys.h"
+#include "prusaslicer/text.h"
 #include "settings/catalogue.h"
 #include "settings/gcode_variables.h"
 #include "settings/value.h"
@@ -74,7 +75,13 @@ Variable in_their_words(const prusaslicer::Key& row, const Variable& ours, const
     case Form::reckoned:
       break;
   }
-  return ours;
+  Variable out = ours;
+  const bool flag = ours.values.size() == 1 && std::holds_alternative<bool>(ours.values[0]);
+  if (flag) out.text.assign(1, std::get<bool>(ours.values[0]) ? '1' : '0');
+  if (ours.text.ends_with('%') && row.initial && !row.initial->ends_with('%')) out.text.pop_back();
+  // What is for weft to find out has the value there that nobody has chosen.
+  if (!ours.missing.empty() && row.initial) return macro::variable_of(*row.initial);
+  return out;
 }
 
 }  // namespace
@@ -86,7 +93,8 @@ Variables variables_of(const Settings& settings) {
     auto ours = variable(entry, text);
     for (const auto& row : prusaslicer::keys())
       if (row.ours == entry.key) out.emplace(std::string(row.name), in_their_words(row, ours, text));
-    out.insert_or_assign(std::string(entry.key), std::move(ours));
+    // Of a name that both have PrusaSlicer's own value stands in for what is for weft to find out.
+    if (ours.missing.empty() || !out.contains(entry.key)) out.insert_or_assign(std::string(entry.key), std::move(ours));
   }
   const auto set = [&](const char* key, const char* prusa, double v) { out[key] = out[prusa] = number(v); };
   const auto& m = settings.material;
@@ -103,8 +111,14 @@ Variables variables_of(const Settings& settings) {
     std::string values;
     for (const auto& e : further.elements)
       values += (values.empty() ? "" : ", ") + (e.quoted ? quoted_variable(e.text) : e.text);
-    out.emplace(further.name, macro::variable_of(values));  // a setting of that name is nearer
+    auto value = macro::variable_of(values);
+    if (value.values.size() == 1 && std::holds_alternative<bool>(value.values[0])) value.text.clear();
+    out.emplace(further.name, std::move(value));  // a setting of that name is nearer
   }
+  // What no profile says otherwise is as PrusaSlicer has it; where the tower stands is found here.
+  for (const auto& row : prusaslicer::keys())
+    if (row.initial && !row.name.starts_with("wipe_tower_") && !out.contains(row.name))
+      out.emplace(std::string(row.name), macro::variable_of(prusaslicer::in_macro_words(row.name, *row.initial)));
   return out;
 }
 

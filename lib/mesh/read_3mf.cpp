@@ -3,6 +3,7 @@
 #include "core/stop.h"
 #include "mesh/formats.h"
 #include "mesh/three_mf.h"
+#include "mesh/three_mf_colours.h"
 #include "mesh/weld.h"
 
 #include <algorithm>
@@ -163,6 +164,7 @@ class Build {
     for (auto& [key, mark] : marks_) {
       Mark made{key.kind, key.painted, {mark.weld.take_vertices(), std::move(mark.triangles)}};
       drop_degenerate(made.mesh);
+      if (key.kind == MarkKind::tint) made.settings = {mark.tint}, made.author = document_.parts.author;
       if (mark.volume) {
         made.name = mark.volume->name;
         made.settings = mark.volume->settings, made.author = document_.parts.author;
@@ -249,6 +251,7 @@ class Build {
     Weld weld{64};
     std::vector<Triangle> triangles;
     const VolumeSaid* volume = nullptr;
+    ForeignSetting tint{};  ///< of what is for another extruder
   };
 
   void mark(const Resource& resource, const Eigen::Affine3d& transform, const Reference& reference,
@@ -264,13 +267,26 @@ class Build {
     to.triangles.push_back(wound(corners, mirrored));
   }
   void paint(const Resource& resource, const Eigen::Affine3d& transform, const Reference& reference, bool mirrored) {
-    for (const auto& facet : resource.painted) {
-      auto& to =
-          marks_[{facet.paint == Paint::enforcer ? MarkKind::support_enforcer : MarkKind::support_blocker, true, 0}];
-      Triangle corners;
-      for (std::size_t i = 0; i < 3; ++i)
-        corners[i] = to.weld.index(placed(transform * facet.corners[i], reference, 0));
-      to.triangles.push_back(wound(corners, mirrored));
+    const auto add = [&](MarkInWork& to, const auto& corners) {
+      Triangle triangle;
+      for (std::size_t i = 0; i < 3; ++i) triangle[i] = to.weld.index(placed(transform * corners[i], reference, 0));
+      to.triangles.push_back(wound(triangle, mirrored));
+    };
+    for (const auto& facet : resource.painted)
+      add(marks_[{facet.paint == Paint::enforcer ? MarkKind::support_enforcer : MarkKind::support_blocker, true, 0}],
+          facet.corners);
+    for (const auto& facet : resource.tinted) {
+      auto& to = marks_[{MarkKind::tint, true, static_cast<std::size_t>(facet.state)}];
+      to.tint = {"extruder", std::to_string(facet.state)};
+      add(to, facet.corners);
+    }
+    constexpr std::size_t colours = std::size_t{1} << 24;  // behind all extruders
+    for (const auto& [t, colour] : resource.coloured) {
+      const auto number = static_cast<std::size_t>(colour.r << 16 | colour.g << 8 | colour.b);
+      auto& to = marks_[{MarkKind::tint, true, colours + number}];
+      to.tint = {std::string(colour_key), text_of(colour)};
+      const auto& [a, b, c] = resource.triangles[t];
+      add(to, std::array{resource.vertices[a], resource.vertices[b], resource.vertices[c]});
     }
   }
 

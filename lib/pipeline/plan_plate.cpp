@@ -12,6 +12,7 @@
 #include "pipeline/passes.h"
 #include "pipeline/place_heat.h"
 #include "pipeline/plan_moves.h"
+#include "pipeline/prime_lines.h"
 #include "pipeline/sample.h"
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
@@ -185,18 +186,24 @@ travel::Room room_at(const MachineSettings& machine, Um z) {
 /// Skirt and brim around everything that rises together, put before the other beads of their layers.
 void add_adhesion(const Settings& settings, std::span<travel::LayerInput> rise, const Regions& tower,
                   Notices& notices) {
+  constexpr Um thickest = 2000;  // of any layer
   const auto wanted = adhesion_of(settings.adhesion);
   const std::size_t needed = adhesion::layers_needed(wanted);
   if (needed == 0) return;
   std::vector<adhesion::PlateLayer> plate;
   std::vector<travel::LayerInput*> bottoms;  // of each height the first that is printed
   for (auto& layer : rise) {
-    if (layer.time.number >= needed) break;
-    if (layer.time.number == plate.size()) plate.push_back({{}, layer.height}), bottoms.push_back(&layer);
-    auto& outlines = plate.back().outlines;
-    if (outlines.empty()) outlines = tower;
-    for (const auto& object : layer.objects)
-      outlines.insert(outlines.end(), object.outline.begin(), object.outline.end());
+    const bool around = layer.time.number < needed;
+    if (!around && layer.z > thickest) break;
+    if (around && layer.time.number == plate.size()) plate.push_back({{}, layer.height}), bottoms.push_back(&layer);
+    if (around && plate.back().outlines.empty()) plate.back().outlines = tower;
+    for (const auto& object : layer.objects) {
+      const auto add = [&](Regions& to) { to.insert(to.end(), object.outline.begin(), object.outline.end()); };
+      if (around) add(plate.back().outlines);
+      // Of an object whose first layer is thicker than others' the top is higher up.
+      const bool lies = layer.z <= (object.height != 0 ? object.height : layer.height);
+      if (lies && layer.time.number > 0) add(plate.front().outlines);
+    }
   }
   const Ring surface = print_surface(settings.machine);
   auto built =
@@ -257,15 +264,6 @@ std::pair<std::vector<travel::Prepared>, std::vector<travel::Linked>> prepared_a
   return {std::move(prepared), std::move(linked)};
 }
 
-/// The tower and the shield, which skirt and brim go round.
-Regions beside_objects(const Settings& settings, const Passes& passes) {
-  // A brim goes within the shield.
-  Regions out = settings.adhesion.adhesion_type == AdhesionType::brim ? Regions{} : passes.shield;
-  if (passes.has_tower())
-    out.insert(out.begin(), {tools::tower_outline(settings.tools, passes.size, passes.corner), {}});
-  return out;
-}
-
 /// Tells each layer its height over the bed, the room there, and what plastic comes of.
 void give_room(const Settings& settings, std::vector<travel::LayerInput>& inputs) {
   const double filament_mm = to_mm(settings.material.filament_diameter);
@@ -305,9 +303,8 @@ std::vector<LayerTimes> put_together(std::vector<PackedLayer> planned, bool keep
 PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, const Sequence& sequence,
                         std::vector<PrintedLayers> layers, std::vector<SupportOf> supports, Report& report,
                         const PlanOptions& options) {
-  const PlanFor use = options.use;
   const Stopwatch stopwatch(report.timings_ms[Stage::travel]);
-  const Settings& settings = scopes[0];
+  const auto& settings = scopes[0];
   const ScopeId on_first_layer = scopes.on_first_layer(0);
   auto copies = copies_of(plate);
   auto with_all = with_supports(sequence, std::move(supports), copies, layers);
@@ -331,6 +328,7 @@ PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, c
   add_adhesion_to_rises(settings, inputs, beside_objects(settings, passes), plan.notices);
   give_adhesion(settings, tools, scopes, inputs);
   add_ooze_shield(settings, passes.shield, passes, inputs);
+  add_prime_lines(settings, tools, scopes, passes, inputs, plan.notices);
   give_room(settings, inputs);
   for (auto& notice : check(settings)) plan.notices.push_back(std::move(notice));
   const Vases vases = settings.layers.magic_spiralize ? vases_of(settings, inputs, plan.notices) : Vases{};
@@ -346,13 +344,12 @@ PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, c
   auto planned = plan_moves(
       {scopes, tools, passes, pauses, heights_before(timeline, settings.machine.z_offset), vases,
        standing_of(options.surfaces, copies, copies_on(plate), raft_lift(settings) + settings.machine.z_offset)},
-      std::move(prepared), std::move(ordered), plan.notices, {use, report.figures.has_value()});
-  out.purge_wanted_mm3 = passes.purged.wanted_mm3;
-  const auto times = put_together(std::move(planned), use == PlanFor::figures, report, out);
-  if (use == PlanFor::figures)
-    for (std::size_t i = 0; i < out.layers.size(); ++i)
-      out.layers[i].bottom = has_bottom(timeline[i], copies_on(plate));
-  if (tools.several() && use == PlanFor::writing) place_heat(tools.tools(), times, out);
+      std::move(prepared), std::move(ordered), plan.notices, {options.use, report.figures.has_value()});
+  out.purged = passes.purged;
+  const bool keeps_layers = options.use == PlanFor::figures;
+  const auto times = put_together(std::move(planned), keeps_layers, report, out);
+  for (std::size_t i = 0; i < out.layers.size(); ++i) out.layers[i].bottom = has_bottom(timeline[i], copies_on(plate));
+  if (tools.several() && options.use == PlanFor::writing) place_heat(tools.tools(), times, out);
   return out;
 }
 

@@ -15,9 +15,9 @@
 #include "pipeline/provenance.h"
 #include "pipeline/room_around.h"
 #include "pipeline/stopwatch.h"
+#include "pipeline/tints.h"
 #include "pipeline/transform_models.h"
 #include "pipeline/transform_words.h"
-#include "preview/thumbnail.h"
 #include "profile/foreign_overlay.h"
 #include "settings/modifier_list.h"
 #include "settings/value.h"
@@ -321,7 +321,8 @@ class Builder {
     lay_foreign(foreign, job_.settings, std::filesystem::path(path).filename().string(), to, notices_);
   }
   void lay(const mesh::Loaded& model, const std::vector<mesh::ForeignSetting>& said, Overlay& to) {
-    if (!said.empty()) lay_words(model.author, said, model.path, to);
+    const auto file = std::filesystem::path(model.path).filename().string();
+    if (!said.empty()) lay_words(model.author, with_extruders(said, job_.settings, file, notices_), model.path, to);
   }
 
   /// Its place among the models of the job; what comes of a cut or a split is of the model that it comes of.
@@ -351,7 +352,17 @@ class Builder {
     return out;
   }
 
+  void add_tint(mesh::Mark mark, const std::string& path, Object& object) {
+    const auto file = std::filesystem::path(path).filename().string();
+    auto tint = tint_of(std::move(mark), object, job_.settings, file, notices_);
+    if (!tint) return;
+    for (auto& [after, volume] : later_[&object])
+      if (volume.kind == VolumeKind::tint && volume.name == tint->name) return join(volume, std::move(tint->mesh));
+    later_[&object].push_back({mark.after, std::move(*tint)});
+  }
+
   void add_mark(mesh::Mark mark, const std::string& path, Object& object) {
+    if (mark.kind == mesh::MarkKind::tint) return add_tint(std::move(mark), path, object);
     if (mark.kind != mesh::MarkKind::modifier && mark.kind != mesh::MarkKind::negative) {
       object.marks.push_back(std::move(mark));
       return;
@@ -368,7 +379,7 @@ class Builder {
     later_[&object].push_back({mark.after, std::move(volume)});
   }
 
-  /// Negative volumes behind the parts that they cut, modifiers behind them all.
+  /// Negative volumes behind the parts that they cut, modifiers behind them all, and paint behind those.
   void in_order(Object& object) {
     auto& later = later_[&object];
     std::vector<Volume> out;
@@ -385,8 +396,9 @@ class Builder {
     negatives_after(part, ~std::size_t{0});
     for (auto& [after, volume] : later)
       if (volume.kind == VolumeKind::negative && after == ~std::size_t{0}) out.push_back(std::move(volume));
-    for (auto& [after, volume] : later)
-      if (volume.kind == VolumeKind::modifier) out.push_back(std::move(volume));
+    for (const auto kind : {VolumeKind::modifier, VolumeKind::tint})
+      for (auto& [after, volume] : later)
+        if (volume.kind == kind) out.push_back(std::move(volume));
     object.volumes = std::move(out);
     later_.erase(&object);
   }
@@ -478,20 +490,6 @@ Plate place_models(const Job& job, Report& report, StageCache* cache) {
   if (job.audit == audit::Mode::reject) mesh::check_fits(placed, bed, job.settings.audit.audit_tolerance);
   for (std::size_t i = 0; i < placed.size(); ++i) builder.put(together[i], std::move(placed[i]));
   return std::move(builder).take_plate();
-}
-
-std::vector<gcode::Thumbnail> thumbnails_of(const Settings& settings, const Plate& plate) {
-  const auto& sizes = settings.gcode.thumbnails;
-  if (sizes.empty() || plate.objects.empty()) return {};
-  std::vector<preview::Standing> standing;
-  for (const auto& object : plate.objects)
-    for (const auto& volume : object.volumes)
-      if (volume.kind == VolumeKind::model) standing.push_back({&volume.mesh, object.copies.front()});
-  return tasks::parallel_map(sizes.size(), [&](std::size_t i) {
-    const auto size = sizes[i];
-    const auto png = preview::thumbnail(standing, {size.width, size.height});
-    return gcode::Thumbnail{size.width, size.height, std::string(png.begin(), png.end())};
-  });
 }
 
 }  // namespace weft::pipeline

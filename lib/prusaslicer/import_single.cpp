@@ -226,6 +226,13 @@ void fuzzy_skin(Lines& lines, const Outlet& out) {
   if (e->value != "none") out.set("magic_fuzzy_skin_outside_only", e->value == "external" ? "true" : "false", *e);
 }
 
+/// What is written at a height: PrusaSlicer's own words are its printers', and no profile's.
+void at_heights(Lines& lines, const Outlet& out) {
+  for (const auto& [theirs, ours] :
+       {std::pair{"color_change_gcode", "color_change_gcode"}, std::pair{"pause_print_gcode", "pause_gcode"}})
+    if (const auto* e = lines.find(theirs); e && e->line != 0) out.set(ours, e->value, *e);
+}
+
 struct Remarked {
   std::string_view key, neutral, why;
 };
@@ -266,6 +273,7 @@ void import_single_keys(Lines& lines, double infill_mm_s, double solid_mm_s, con
   fuzzy_skin(lines, out);
   shrinkage(lines, out);
   flow_slopes(lines, out);
+  at_heights(lines, out);
   layer_heights(lines, out);
   silent_limits(lines, out);
   for (const auto& row : remarked)

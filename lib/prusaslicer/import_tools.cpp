@@ -73,13 +73,13 @@ std::string quoted(const std::string& text) {
 }
 
 /// How a value of theirs becomes one of weft's.
-enum class As { number, length, flag, extruder, position };
+enum class As { number, length, flag, chosen, extruder, position };
 struct Row {
   std::string_view theirs, ours;
   As as;
 };
 constexpr std::array rows{
-    Row{"wipe_tower", "prime_tower_enable", As::flag},
+    Row{"wipe_tower", "prime_tower_enable", As::chosen},
     Row{"wipe_tower_x", "prime_tower_position_x", As::position},
     Row{"wipe_tower_y", "prime_tower_position_y", As::position},
     Row{"wipe_tower_width", "prime_tower_width", As::length},
@@ -136,6 +136,9 @@ class Tools {
     features();
     volumes();
     waiting();
+    paint();
+    tower();
+    multitool_ramming(shared);
     load_time();
     offsets();
     filament_code();
@@ -153,6 +156,9 @@ class Tools {
       case As::position:  // a default of PrusaSlicer's own is no place that anybody has chosen
         if (e->line != 0) out_.set(row.ours, number(lines_.figure(*e).v, 3), *e);
         return;
+      case As::chosen:  // the same of an answer: PrusaSlicer's window asks for it where it is needed
+        if (e->line == 0) return;
+        [[fallthrough]];
       case As::flag:
         return out_.set(row.ours, lines_.flag(*e) ? "true" : "false", *e);
       case As::extruder:
@@ -220,6 +226,33 @@ class Tools {
     if (delta && temperature)
       out_.set("material_standby_temperature",
                number(std::max(0.0, lines_.figure(*temperature).v + lines_.figure(*delta).v)), *delta);
+  }
+
+  /// 0 is any depth there: as far as another paint, or the surface on the other side, is nearer.
+  void paint() {
+    const auto* e = lines_.find("mmu_segmented_region_max_width");
+    if (!e || e->line == 0) return;
+    const double mm = lines_.figure(*e).v;
+    out_.set("paint_depth", mm > 0 ? number(mm, 3) : "1000", *e);
+  }
+
+  void tower() {
+    if (const auto* e = lines_.find("wipe_tower_cone_angle"); e && lines_.figure(*e).v > 0) {
+      out_.set("prime_tower_shape", "cone", *e);
+      out_.set("prime_tower_cone_angle", number(lines_.figure(*e).v), *e);
+    }
+    if (const auto* e = lines_.find("wipe_tower_no_sparse_layers"))
+      out_.set("prime_tower_sparse", lines_.flag(*e) ? "false" : "true", *e);
+  }
+
+  void multitool_ramming(bool shared) {
+    const auto* does = lines_.find("filament_multitool_ramming");
+    const auto *volume = lines_.find("filament_multitool_ramming_volume"),
+               *flow = lines_.find("filament_multitool_ramming_flow");
+    if (shared || !does || !lines_.flag(*does) || !volume) return;
+    out_.set("filament_multitool_ramming_volume", number(lines_.figure(*volume).v), *volume);
+    if (flow && lines_.figure(*flow).v > 0)
+      out_.set("filament_multitool_ramming_flow", number(lines_.figure(*flow).v), *flow);
   }
 
   void load_time() {

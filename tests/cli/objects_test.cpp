@@ -237,3 +237,10 @@ TEST_CASE("weft slice: --fill leaves room for the skirt, and prints more without
   CHECK(with_skirt >= 36);  // six rows of six have room between the skirt
   CHECK(without > with_skirt);
 }
+
+TEST_CASE("objects: a skirt goes around one whose first layer is thicker, too") {
+  const Boxes boxes;
+  const auto report =
+      boxes.sliced({"base.stl", "lid.stl", "--for", "lid", "layer_height=0.3", "-s", "skirt_line_count=1"});
+  CHECK(report["features"]["skirt"]["mm"].get<double>() > 2 * 46 + 2 * 20);  // mm: both stand beside each other
+}
