@@ -450,7 +450,7 @@ PrintedLayers print_object(const Running& job, const Scopes& all_scopes, const T
   auto sliced = slice_object(job, object, scopes, all_scopes, slice_hands, areas);
   append(notices, slice::notices_of(*sliced, object.name), at);
 
-  const auto sliced_by = [&] { return slice_hashes(object, scopes, slice_hands); };
+  const auto sliced_by = [&] { return slice_hashes(object, scopes, all_scopes, slice_hands); };
   support_object(job, all_scopes, scopes, object, *sliced, sliced_by, support);
 
   const auto wall_hands = hand<Stage::walls>(all_scopes);

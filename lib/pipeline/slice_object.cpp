@@ -3,6 +3,7 @@
 
 #include "pipeline/key_bytes.h"
 #include "pipeline/layer_heights.h"
+#include "pipeline/weave.h"
 #include "slice/slice.h"
 #include "tasks/parallel.h"
 
@@ -63,15 +64,22 @@ Result<Cuts> slice_object(const Running& job, const Object& object, const Object
   const Stopwatch stopwatch(job.report.timings_ms[Stage::slice]);
   std::vector<const Cuts*> cuts;
   for (const auto& result : of_volume) cuts.push_back(&*result);
-  return Result<Cuts>(united(object, scopes, all_scopes, cuts, areas));
+  auto out = united(object, scopes, all_scopes, cuts, areas);
+  if (const auto how = weave_of(scopes, all_scopes)) weave(*how, out, areas);
+  return Result<Cuts>(std::move(out));
 }
 
-std::vector<std::string> slice_hashes(const Object& object, const ObjectScopes& scopes, const SliceHands& handed) {
+std::vector<std::string> slice_hashes(const Object& object, const ObjectScopes& scopes, const Scopes& all_scopes,
+                                      const SliceHands& handed) {
+  const auto how = weave_of(scopes, all_scopes);
   const auto planes = layers_of(object, scopes, handed, top_of(object));
   std::vector<std::string> out;
   for (const auto& volume : object.volumes) {
     auto key = slice_key(volume.mesh, planes, scopes, handed);
     if (volume.kind != VolumeKind::model) key.with(std::uint64_t{static_cast<std::uint8_t>(volume.kind)});
+    if (how)
+      for (const auto& from : scopes)
+        for (const ScopeId id : from.of_mix) key.with(Um{how->tool.at(id)});
     out.push_back(key.hash());
   }
   return out;

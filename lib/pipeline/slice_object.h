@@ -17,6 +17,7 @@ Result<Cuts> slice_object(const Running& job, const Object& object, const Object
                           const Scopes& all_scopes, const SliceHands& handed, std::vector<Areas>& areas);
 
 /// What the layers are a function of: the keys of the slices of each volume, and what the volume is.
-std::vector<std::string> slice_hashes(const Object& object, const ObjectScopes& scopes, const SliceHands& handed);
+std::vector<std::string> slice_hashes(const Object& object, const ObjectScopes& scopes, const Scopes& all_scopes,
+                                      const SliceHands& handed);
 
 }  // namespace weft::pipeline
