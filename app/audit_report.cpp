@@ -24,6 +24,8 @@ std::string_view kind_of(audit::Finding::Kind kind) {
       return "reach";
     case audit::Finding::Kind::no_go:
       return "no_go_area";
+    case audit::Finding::Kind::head:
+      return "head";
     case audit::Finding::Kind::damaged:
       break;
   }
@@ -44,6 +46,10 @@ Json violation_of(const audit::Finding& f) {
     out["side"] = side_of(f.side, f.area);
     out["at"] = {to_mm(f.at.x), to_mm(f.at.y), to_mm(f.at.z)};
     out["outside_mm"] = to_mm(f.outside);
+    if (f.kind == audit::Finding::Kind::head) {
+      out["above_tip_mm"] = to_mm(f.above_tip);
+      out["met"] = {to_mm(f.met.x), to_mm(f.met.y)};
+    }
   }
   if (!f.object.empty()) out["object"] = f.object;
   if (!f.setting.empty()) out["setting"] = f.setting;
@@ -51,6 +57,18 @@ Json violation_of(const audit::Finding& f) {
   out["line"] = f.line;
   out["text"] = f.text;
   return out;
+}
+
+Json conflict_of(const audit::Conflict& c) {
+  return {{"a", c.a},
+          {"b", c.b},
+          {"support", {c.support_a, c.support_b}},
+          {"features", {c.feature_a, c.feature_b}},
+          {"at", {to_mm(c.at.x), to_mm(c.at.y), to_mm(c.at.z)}},
+          {"depth_mm", to_mm(c.depth)},
+          {"layer", c.layer},
+          {"layers", c.layers},
+          {"blocks", c.blocks}};
 }
 
 Json reach_beyond(const audit::Report& r) {
@@ -87,6 +105,9 @@ Json entry_of(const AuditEntry& entry) {
                              {"feature", t.feature},
                              {"count", t.count},
                              {"worst_mm", to_mm(t.worst)}});
+  out["conflicts_audited"] = r.labelled;
+  out["conflicts"] = Json::array();
+  for (const auto& c : r.conflicts) out["conflicts"].push_back(conflict_of(c));
   out["opaque"] = Json::array();
   for (const auto& o : r.opaque)
     out["opaque"].push_back({{"command", o.name}, {"count", o.count}, {"first_line", o.first_line}});

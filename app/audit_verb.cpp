@@ -63,9 +63,15 @@ void tell(Console& console, const AuditEntry& entry, bool name_printer) {
     console.detail(fmt::format("{}: {} x {}{}{}, worst {:.3f} mm", where, t.count,
                                t.feature.empty() ? "move" : t.feature,
                                t.kind == audit::Finding::Kind::damaged ? " damaged"
+                               : t.kind == audit::Finding::Kind::head  ? " into what is printed"
                                : t.kind == audit::Finding::Kind::no_go ? fmt::format(" inside no-go area {}", t.area)
                                                                        : " beyond ",
                                t.kind == audit::Finding::Kind::no_go ? "" : audit::name_of(t.side), to_mm(t.worst)));
+  for (const auto& c : r.conflicts)
+    if (c.blocks)
+      console.detail(fmt::format("{}: {}, on {} layers", where, audit::describe(c), c.layers));
+    else
+      console.warning({"paths_touch", fmt::format("{}: {}", where, audit::describe(c))});
   if (entry.outcome.seconds)
     console.info(fmt::format("{}: {} without heating and waiting", where, short_duration(*entry.outcome.seconds)));
   if (r.clean())

@@ -6,6 +6,7 @@
 #include "core/stop.h"
 #include "limited.h"
 #include "limits.h"
+#include "pipeline/arranged.h"
 #include "slice_job.h"
 #include "verbs.h"
 
@@ -56,8 +57,8 @@ std::string help() {
   return out.str();
 }
 
-/// Fills in the report, also with what went wrong. @return layers planned
-std::size_t estimated(const Command& command, const Profile& profile, Console& console, Report& report) {
+/// Fills in the report, also with what went wrong. @return the figures, of each plate where there are several
+std::string estimated(const Command& command, const Profile& profile, Console& console, Report& report) {
   Watch watch;
   watch.progress = [&](std::string_view stage, double share) { console.progress(stage, share); };
   watch.cancelled = *StopWhen::current();
@@ -65,8 +66,28 @@ std::size_t estimated(const Command& command, const Profile& profile, Console& c
   std::optional<StageCache> cache;
   if (!cache_options.folder.empty()) cache.emplace(cache_options);
   const EstimateOptions how{.exact = command.options["exact"].as<bool>()};
-  if (how.exact && command.report) report.figures.emplace();
-  return estimate(job_of(command, profile.settings), how, watch, report, cache ? &*cache : nullptr);
+  auto job = job_of(command, profile.settings);
+  const auto plates = plates_of(job, watch, cache ? &*cache : nullptr);
+  if (plates > 1 && command.report == "-")
+    throw Error{Error::Kind::usage, fmt::format("{} plates have a report each", plates), "--report", "name a file"};
+  std::string out;
+  double seconds = 0, metres = 0;
+  for (std::size_t plate = 1; plate <= plates; ++plate) {
+    job.placement.on_plate = static_cast<int>(plate);
+    Report own;
+    own.warnings = report.warnings;
+    if (how.exact && command.report) own.figures.emplace();
+    const auto planned = estimate(job, how, watch, own, cache ? &*cache : nullptr);
+    seconds += own.print_time_s, metres += own.filament_mm / 1000;
+    if (plates > 1) out += fmt::format("plate {} of {}\n", plate, plates);
+    out += figures(own, profile.settings, planned);
+    if (plates > 1 && command.report && *command.report != "-")
+      write_output(pipeline::name_of_plate(*command.report, plate), to_json(own));
+    if (plate == plates) report = std::move(own);
+  }
+  if (plates > 1)
+    out += fmt::format("all       {} ({:.0f} s), {:.2f} m of filament\n", short_duration(seconds), seconds, metres);
+  return out;
 }
 
 }  // namespace
@@ -90,8 +111,7 @@ int estimate_verb(const Words& words) {
       const auto profile = resolve(command);
       inputs_are_known = true;
       report.warnings = profile.notices;
-      const auto planned = estimated(command, profile, console, report);
-      text = figures(report, profile.settings, planned);
+      text = estimated(command, profile, console, report);
     });
   } catch (const Error& error) {
     report.status = Report::Status::failed;
@@ -101,7 +121,7 @@ int estimate_verb(const Words& words) {
   }
   warn(console, report.warnings, command.console.verbosity == Verbosity::detail ? report.warnings.size() : 3);
   report.peak_memory_mb = peak_memory_mb();
-  write_report(command, report, true);
+  if (report.plates.size() < 2) write_report(command, report, true);
   if (command.output)
     write_output(*command.output, text);
   else if (command.report != "-")

@@ -67,11 +67,14 @@ Json items_of(const mesh::Loaded& loaded) {
     for (const auto& range : item.ranges)
       ranges.push_back(
           {{"from", to_mm(range.from)}, {"to", to_mm(range.to)}, {"settings", settings_of(range.settings)}});
+    Json profile = Json::array();
+    for (const auto& [z, height] : item.heights) profile.push_back({to_mm(z), to_mm(height)});
     out.push_back({{"name", item.name},
                    {"settings", settings_of(item.settings)},
                    {"parts", std::move(parts)},
                    {"volumes", std::move(marks)},
-                   {"ranges", std::move(ranges)}});
+                   {"ranges", std::move(ranges)},
+                   {"layers_by_height", std::move(profile)}});
   }
   return out;
 }
@@ -95,7 +98,7 @@ Json project_of(const mesh::Loaded& loaded) {
   return {{"items", items_of(loaded)},
           {"plates", std::move(plates)},
           {"changes", std::move(changes)},
-          {"configuration", !project->configuration.empty()}};
+          {"configuration", !project->configuration.empty() || !project->json_configuration.empty()}};
 }
 
 /// "wall_loops = 5, sparse_infill_density = 60%"; empty for none.
@@ -118,7 +121,9 @@ std::string project_text(const Json& project) {
         plate["name"].get<std::string>().empty() ? "" : fmt::format(" '{}'", plate["name"].get<std::string>()),
         plate["objects"].get<std::size_t>());
   for (const auto& item : project["items"]) {
-    if (item["settings"].empty() && item["volumes"].empty() && item["ranges"].empty() && item["parts"].size() < 2)
+    if (item["parts"].empty()) continue;  // Cura's meshes that change others: told with those
+    if (item["settings"].empty() && item["volumes"].empty() && item["ranges"].empty() &&
+        item["layers_by_height"].empty() && item["parts"].size() < 2)
       continue;
     line(2, fmt::format("object '{}'", item["name"].get<std::string>()), item["settings"]);
     if (item["parts"].size() > 1)
@@ -131,6 +136,12 @@ std::string project_text(const Json& project) {
            mark["settings"]);
     for (const auto& range : item["ranges"])
       line(4, fmt::format("{:g} … {:g} mm", range["from"].get<double>(), range["to"].get<double>()), range["settings"]);
+    if (const auto& profile = item["layers_by_height"]; !profile.empty()) {
+      double low = profile[0][1].get<double>(), high = low;
+      for (const auto& point : profile)
+        low = std::min(low, point[1].get<double>()), high = std::max(high, point[1].get<double>());
+      out += fmt::format("    layers {:g} … {:g} mm high by its profile\n", low, high);
+    }
   }
   for (const auto& change : project["changes"])
     out += fmt::format("  at {:g} mm: {}{}{}\n", change["z"].get<double>(), change["kind"].get<std::string>(),

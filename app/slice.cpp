@@ -6,6 +6,7 @@
 #include "core/write_file.h"
 #include "gcode/file_name.h"
 #include "limits.h"
+#include "pipeline/arranged.h"
 #include "pipeline/model_parts.h"
 #include "pipeline/pipeline.h"
 #include "preview_file.h"
@@ -49,6 +50,10 @@ po::options_description slice_options() {
       "put the middle of an object there, turned; the others are arranged around it; repeatable")(
       "arrange", po::bool_switch(), "put models close together by their true outlines, not in rows")(
       "fill", po::bool_switch(), "the same with as many copies as there is room for, of models in turns")(
+      "plates", po::bool_switch(),
+      "the same on as many plates as it takes: OUT.gcode, or OUT_plate_1.gcode, OUT_plate_2.gcode …")(
+      "turn", po::value<double>()->value_name("DEG")->default_value(45, "45"),
+      "with these three: things may be turned by multiples of it, where they have no room otherwise; 0 keeps them")(
       "plate", po::value<int>()->value_name("N"), "which plate of a project of several is printed")(
       "copies", po::value<std::vector<std::string>>()->value_name("[NAME=]N"),
       "N copies of each model, or of one object; arranged on the bed; repeatable")(
@@ -83,9 +88,14 @@ Placement placement_of(const po::variables_map& o) {
   else if (o.count("copies"))
     for (const auto& text : o["copies"].as<std::vector<std::string>>())
       if (text.find('=') == std::string::npos) p.copies = copies_in(text);
-  p.arrange = o["arrange"].as<bool>(), p.fill = o["fill"].as<bool>();
-  if (p.keep_position && (p.arrange || p.fill))
-    throw Error{Error::Kind::usage, "contradicts --arrange and --fill", "--keep-position", "give one of them"};
+  p.arrange = o["arrange"].as<bool>(), p.fill = o["fill"].as<bool>(), p.plates = o["plates"].as<bool>();
+  p.turn_deg = o["turn"].as<double>();
+  if (!(p.turn_deg >= 0 && p.turn_deg <= 180)) throw Error{Error::Kind::usage, "must be 0 … 180 degrees", "--turn"};
+  if (p.keep_position && p.by_outlines())
+    throw Error{Error::Kind::usage, "contradicts --arrange, --fill and --plates", "--keep-position",
+                "give one of them"};
+  if (p.fill && p.plates)
+    throw Error{Error::Kind::usage, "contradicts --plates", "--fill", "it prints one full plate, --plates all of them"};
   if (o.count("plate")) p.plate = o["plate"].as<int>();
   if (p.plate < 0 || p.plate > 10000 || (o.count("plate") && p.plate < 1))
     throw Error{Error::Kind::usage, fmt::format("{} is outside 1 … 10000", p.plate), "--plate"};
@@ -221,6 +231,102 @@ int inform(const Command& command) {
   return inspect(said);
 }
 
+/// One run of the verb, of which there is one a plate.
+struct Slicing {
+  const Command& command;
+  Console& console;
+  const Limits& limits;
+  const Profile& profile;
+  StageCache* cache;
+  std::size_t plate = 0;  ///< 0: the only one
+
+  /// @throws Error{usage} where that is something that is read
+  std::string named(const std::string& file, const std::string& option) const {
+    if (plate == 0 || file == "-") return file;
+    auto out = pipeline::name_of_plate(file, plate);
+    files_of(command, profile).writes(out, option);
+    return out;
+  }
+};
+
+void finish(const Slicing& of, Report& report) {
+  const bool all = of.command.console.verbosity == Verbosity::detail;
+  warn(of.console, report.warnings, all ? report.warnings.size() : 3);
+  report.peak_memory_mb = peak_memory_mb();
+  if (of.command.report) write_output(of.named(*of.command.report, "--report"), to_json(report));
+}
+
+[[nodiscard]] Error memory_used_up(const Command& command) {
+  return {Error::Kind::interrupted, "the machine's memory is used up", command.inputs.front(),
+          "nothing was written; try a coarser mesh or layer_height, or fewer copies"};
+}
+
+/// @throws Error when nothing was written, once it is in the report
+void slice_one(const Slicing& of, const Job& job) {
+  const auto& command = of.command;
+  Report report;
+  report.warnings = of.profile.notices;
+  if (command.report) report.figures.emplace();
+  if (command.report && command.console.verbosity == Verbosity::detail) report.tours.emplace();  // figures to debug by
+  const auto failed = [&](const Error& error) {
+    report.status = Report::Status::failed;
+    report.error = error.what();
+    finish(of, report);
+    return error;
+  };
+  Watchdog watchdog(of.limits, [&](const Error& error, Report known) { say_last(command, error, std::move(known)); });
+  try {
+    const auto destination = [&] { return of.named(destination_of(command, of.profile, report), "--output"); };
+    check_writable(destination());  // refused before the work, not after it
+    const Watch watch{
+        [&](std::string_view stage, double share) { of.console.progress(stage, share), watchdog.remember(report); },
+        [&] { return of.limits.reached(); }};
+    const auto gcode = run(job, watch, report, of.cache);
+    watchdog.dismiss();
+    if (of.cache) of.console.detail("cache: " + told(*of.cache));
+    if (const auto preview = preview_of(command); gcode && !preview.empty())
+      write_preview(of.named(preview, "--preview"), *gcode, of.profile.settings,
+                    std::filesystem::path(command.inputs.front()).filename().string(), command.inputs);
+    if (gcode) write_gcode(destination(), *gcode);
+    finish(of, report);
+    if (!gcode) throw Error{Error::Kind::audit, report.error, {}, {}};
+    of.console.info(summary(report));
+  } catch (const std::bad_alloc&) {
+    watchdog.dismiss();
+    throw failed(memory_used_up(command));
+  } catch (const Error& error) {
+    watchdog.dismiss();
+    if (report.status == Report::Status::rejected) throw;
+    throw failed(error.kind() == Error::Kind::interrupted ? of.limits.error() : error);
+  }
+}
+
+/// What could not even be begun is in the report as well.
+/// @param begin is given what to tell when what is read is known: else a report might be written over one of them
+template <class Begin>
+auto begun(const Command& command, const Limits& limits, const Begin& begin) {
+  bool inputs_are_known = false;
+  const auto failed = [&](const Error& error) {
+    Report report;
+    report.error = error.what();
+    report.peak_memory_mb = peak_memory_mb();
+    write_report(command, report, inputs_are_known);
+    return error;
+  };
+  Watchdog watchdog(limits, [&](const Error& error, Report known) { say_last(command, error, std::move(known)); });
+  try {
+    auto out = begin(inputs_are_known);
+    watchdog.dismiss();
+    return out;
+  } catch (const std::bad_alloc&) {
+    watchdog.dismiss();
+    throw failed(memory_used_up(command));
+  } catch (const Error& error) {
+    watchdog.dismiss();
+    throw failed(error.kind() == Error::Kind::interrupted ? limits.error() : error);
+  }
+}
+
 }  // namespace
 
 int slice(const Words& words) {
@@ -229,58 +335,30 @@ int slice(const Words& words) {
   if (command.help) return write_output("-", help(options)), 0;
   if (command.options["info"].as<bool>()) return inform(command);
   refuse_nonsense(command);
-  const auto preview = preview_of(command);
 
   Console console(command.console);
   const Limits limits(limit_of(command.options, "timeout"), limit_of(command.options, "max-memory"));
-
-  Report report;
-  if (command.report) report.figures.emplace();
-  if (command.report && command.console.verbosity == Verbosity::detail) report.tours.emplace();  // figures to debug by
-  bool inputs_are_known = false;  // else a report might be written over one of them
-  const auto finish = [&] {
-    warn(console, report.warnings, command.console.verbosity == Verbosity::detail ? report.warnings.size() : 3);
-    report.peak_memory_mb = peak_memory_mb();
-    write_report(command, report, inputs_are_known);
-  };
-  const auto failed = [&](const Error& error) {
-    report.status = Report::Status::failed;
-    report.error = error.what();
-    finish();
-    return error;
-  };
-  Watchdog watchdog(limits, [&](const Error& error, Report known) { say_last(command, error, std::move(known)); });
-  try {
-    const auto profile = resolve(command);
+  const auto cache_options = cache_options_of(command);
+  std::optional<StageCache> cache;
+  std::size_t plates = 1;
+  const auto [profile, job] = begun(command, limits, [&](bool& inputs_are_known) {
+    auto resolved = resolve(command);
     inputs_are_known = true;
-    report.warnings = profile.notices;
-    check_writable(destination_of(command, profile, report));  // refused before the work, not after it
-    const Watch watch{
-        [&](std::string_view stage, double share) { console.progress(stage, share), watchdog.remember(report); },
-        [&] { return limits.reached(); }};
-    const auto cache_options = cache_options_of(command);
-    std::optional<StageCache> cache;
+    auto asked = job_of(command, resolved.settings);
     if (!cache_options.folder.empty()) cache.emplace(cache_options);
-    const auto gcode = run(job_of(command, profile.settings), watch, report, cache ? &*cache : nullptr);
-    watchdog.dismiss();
-    if (cache) console.detail("cache: " + told(*cache));
-    if (gcode && !preview.empty())
-      write_preview(preview, *gcode, profile.settings,
-                    std::filesystem::path(command.inputs.front()).filename().string(), command.inputs);
-    if (gcode) write_gcode(destination_of(command, profile, report), *gcode);
-    finish();
-    if (!gcode) throw Error{Error::Kind::audit, report.error, {}, {}};
-    console.info(summary(report));
-    return 0;
-  } catch (const std::bad_alloc&) {
-    watchdog.dismiss();
-    throw failed({Error::Kind::interrupted, "the machine's memory is used up", command.inputs.front(),
-                  "nothing was written; try a coarser mesh or layer_height, or fewer copies"});
-  } catch (const Error& error) {
-    watchdog.dismiss();
-    if (report.status == Report::Status::rejected) throw;
-    throw failed(error.kind() == Error::Kind::interrupted ? limits.error() : error);
+    const Watch watch{{}, [&] { return limits.reached(); }};
+    plates = plates_of(asked, watch, cache ? &*cache : nullptr);
+    if (plates > 1 && (command.output == "-" || command.report == "-"))
+      throw Error{Error::Kind::usage, fmt::format("{} plates cannot all go to standard output", plates), "--plates",
+                  "name files for them"};
+    return std::pair(std::move(resolved), std::move(asked));
+  });
+  for (std::size_t plate = 1; plate <= plates; ++plate) {
+    Job own = job;
+    own.placement.on_plate = static_cast<int>(plate);
+    slice_one({command, console, limits, profile, cache ? &*cache : nullptr, plates > 1 ? plate : 0}, own);
   }
+  return 0;
 }
 
 }  // namespace weft::app

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "adhesion/adhesion.h"
 
-#include "adhesion/ears.h"
 #include "adhesion/loops.h"
+#include "adhesion/places.h"
 #include "core/convex_hull.h"
 #include "core/stop.h"
 #include "geometry/boolean.h"
@@ -11,7 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -79,43 +79,24 @@ class Layer {
   double lost_um_ = 0;
 };
 
-/// A disc.
-Region disc(Point centre, Um radius) {
-  constexpr int corners = 48;
-  Region out;
-  for (int i = 0; i < corners; ++i) {
-    const double angle = 2 * std::numbers::pi * i / corners;
-    out.outer.push_back({centre.x + rounded(radius * std::cos(angle)), centre.y + rounded(radius * std::sin(angle))});
-  }
-  return out;
-}
-
-/// What of a brim's loops lies around tips of the parts.
-std::vector<BrimLoop> at_tips(const AdhesionSettings& settings, const Regions& outlines,
-                              const std::vector<BrimLoop>& loops) {
-  Regions ears;
-  for (const Point tip : tips_of(geometry::unite(outlines), settings.brim_ears_max_angle))
-    ears.push_back(disc(tip, settings.brim_gap + settings.brim_width));
-  std::vector<BrimLoop> out;
-  if (ears.empty()) return out;
-  ears = geometry::unite(ears);
-  for (const BrimLoop& loop : loops)
-    for (BrimLoop& piece : cut_loop(loop, ears, true)) out.push_back(std::move(piece));
-  std::erase_if(out, [](const BrimLoop& loop) { return !loop.closed && length_of(loop.line) < shortest_piece; });
-  return out;
-}
-
-/// The brim, group of parts by group of parts.
-void add_brim(const AdhesionSettings& settings, const PlateLayer& first, Um nominal, std::uint32_t first_sequence,
-              Layer& layer, Beads& beads) {
+/// The brim of a foot, group of parts by group of parts.
+/// @param others what else stands there, with brims that are laid already
+/// @param sequence of the first group; grows by their number
+/// @return what it covers, with the parts, about
+Regions add_brim(const Foot& foot, Um nominal, const Regions& others, std::uint32_t& sequence, Layer& layer,
+                 Beads& beads) {
+  const auto& settings = foot.settings;
   const int count = std::max(1, static_cast<int>(std::lround(static_cast<double>(settings.brim_width) / nominal)));
   const double band = static_cast<double>(settings.brim_width) / count;
-  std::vector<BrimLoop> loops = brim_loops(first.outlines, settings.brim_location, settings.brim_gap, band, count);
-  if (settings.brim_ears) loops = at_tips(settings, first.outlines, loops);
+  auto loops = brim_loops(foot.outlines, settings.brim_location, settings.brim_gap, band, count, others);
+  if (const auto places = brim_places(settings, foot.outlines))
+    for (auto& loop : std::exchange(loops, {}))
+      for (auto& piece : cut_loop(loop, *places, true))
+        if (piece.closed || length_of(piece.line) >= shortest_piece) loops.push_back(std::move(piece));
   // parts whose brims meet are one group
-  const Regions groups = geometry::offset(first.outlines, {.by = settings.brim_gap + settings.brim_width + 1,
-                                                           .corner = geometry::Corner::round,
-                                                           .arc_tolerance = arc_tolerance});
+  const Regions groups = geometry::offset(foot.outlines, {.by = settings.brim_gap + settings.brim_width + 1,
+                                                          .corner = geometry::Corner::round,
+                                                          .arc_tolerance = arc_tolerance});
   std::vector<Box> boxes;
   for (const Region& group : groups) boxes.push_back(box_of(group.outer));
   std::vector<std::vector<const BrimLoop*>> of_group(groups.size() + 1);
@@ -128,7 +109,35 @@ void add_brim(const AdhesionSettings& settings, const PlateLayer& first, Um nomi
   }
   for (std::size_t g = 0; g < of_group.size(); ++g)
     for (const BrimLoop* loop : of_group[g])
-      layer.add(*loop, rounded(band), Role::brim, first_sequence + static_cast<std::uint32_t>(g), beads);
+      layer.add(*loop, rounded(band), Role::brim, sequence + static_cast<std::uint32_t>(g), beads);
+  sequence += static_cast<std::uint32_t>(of_group.size());
+  return groups;
+}
+
+/// What stands there and is not of that foot.
+Regions others_than(std::size_t foot, std::span<const Foot> feet) {
+  Regions out;
+  for (std::size_t i = 0; i < feet.size(); ++i)
+    if (i != foot) out.insert(out.end(), feet[i].outlines.begin(), feet[i].outlines.end());
+  return out;
+}
+
+/// How far brims reach beyond what they lie around.
+Um reach_of(std::span<const Foot> feet) {
+  Um out = 0;
+  for (const auto& [outlines, settings] : feet)
+    if (settings.brim_width > 0 && settings.brim_location != BrimLocation::inside)
+      out = std::max(out, settings.brim_gap + settings.brim_width);
+  return out;
+}
+
+/// Asked for ears only, and there is nothing to put one at.
+void tell_no_tips(const Foot& foot, bool bare, Notices& notices) {
+  if (bare && foot.settings.brim_ears && foot.settings.brim_narrow_width == 0 && !foot.outlines.empty())
+    notices.push_back(
+        {"brim_no_tips",
+         fmt::format("brim_ears: the parts have no tip sharper than {:g}° (brim_ears_max_angle): there is no brim",
+                     foot.settings.brim_ears_max_angle)});
 }
 
 }  // namespace
@@ -141,22 +150,29 @@ std::size_t layers_needed(const AdhesionSettings& settings) {
 
 Adhesion build(const AdhesionSettings& settings, const AdhesionInput& input) {
   Adhesion result;
-  const std::size_t height = std::min(layers_needed(settings), input.layers.size());
+  std::size_t wanted = layers_needed(settings);
+  for (const auto& foot : input.feet) wanted = std::max(wanted, layers_needed(foot.settings));
+  const std::size_t height = std::min(wanted, input.layers.size());
   result.layers.resize(height);
   if (height == 0) return result;
   const PlateLayer& first = input.layers.front();
   Layer layer(settings, input);
 
   Beads brim;
-  if (settings.brim_width > 0) {
-    add_brim(settings, first, band_of(settings, input.nozzle, first.height), 2, layer, brim);
-    layer.report("brim", result.notices);
-    if (settings.brim_ears && brim.empty() && !first.outlines.empty())
-      result.notices.push_back(
-          {"brim_no_tips",
-           fmt::format("brim_ears: the parts have no tip sharper than {:g}° (brim_ears_max_angle): there is no brim",
-                       settings.brim_ears_max_angle)});
+  const Foot all{first.outlines, settings};
+  const std::span<const Foot> feet = input.feet.empty() ? std::span(&all, 1) : input.feet;
+  std::uint32_t sequence = 2;
+  Regions laid;  // brims
+  for (std::size_t i = 0; i < feet.size(); ++i) {
+    if (feet[i].settings.brim_width == 0) continue;
+    const std::size_t before = brim.size();
+    Regions others = others_than(i, feet);
+    others.insert(others.end(), laid.begin(), laid.end());
+    const Regions own = add_brim(feet[i], band_of(settings, input.nozzle, first.height), others, sequence, layer, brim);
+    laid.insert(laid.end(), own.begin(), own.end());
+    tell_no_tips(feet[i], brim.size() == before, result.notices);
   }
+  layer.report("brim", result.notices);
   if (settings.skirt_line_count > 0) {
     std::vector<Point> points;
     for (std::size_t i = 0; i < height; ++i)
@@ -165,9 +181,8 @@ Adhesion build(const AdhesionSettings& settings, const AdhesionInput& input) {
     const Ring hull = convex_hull(std::move(points));
     double missing_mm = to_mm(settings.skirt_brim_minimal_length);
     for (const Bead& bead : brim) missing_mm -= length_mm(bead);
-    const bool brim_outside = settings.brim_width > 0 && settings.brim_location != BrimLocation::inside;
-    const Um clear = settings.skirt_gap + (brim_outside ? settings.brim_gap + settings.brim_width : 0);
-    for (std::size_t i = 0; i < height && hull.size() >= 3; ++i) {
+    const Um clear = settings.skirt_gap + reach_of(feet);
+    for (std::size_t i = 0; i < std::min(height, layers_needed(settings)) && hull.size() >= 3; ++i) {
       const Um band = band_of(settings, input.nozzle, input.layers[i].height);
       std::vector<BrimLoop> loops;
       for (int k = 0; k < settings.skirt_line_count || (i == 0 && missing_mm > 0 && k < most_loops); ++k) {

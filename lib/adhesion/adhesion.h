@@ -16,10 +16,17 @@ struct PlateLayer {
   Um height = 0;
 };
 
+/// What of the first layer has a brim of its own.
+struct Foot {
+  Regions outlines;
+  AdhesionSettings settings;  ///< of its brim
+};
+
 struct AdhesionInput {
   std::span<const PlateLayer> layers;   ///< from the first on; as many as `layers_needed` says, or all there are
   Um nozzle = 0;                        ///< diameter
   const Ring* print_surface = nullptr;  ///< what adhesion_outside = clip cuts to; none: nothing is cut
+  std::span<const Foot> feet{};         ///< of the first layer; empty: all of it is as the settings say
 };
 
 /// How many layers a skirt looks at and is printed on.

@@ -63,10 +63,11 @@ void add_rings(const Regions& regions, bool outers, bool holes, int loop, std::v
 
 }  // namespace
 
-std::vector<BrimLoop> brim_loops(const Regions& outlines, BrimLocation location, Um gap, double band_um, int count) {
+std::vector<BrimLoop> brim_loops(const Regions& outlines, BrimLocation location, Um gap, double band_um, int count,
+                                 const Regions& others) {
   std::vector<BrimLoop> loops;
   const Regions united = geometry::unite(outlines);
-  if (location == BrimLocation::everywhere) {
+  if (location == BrimLocation::everywhere && others.empty()) {
     for (int k = count - 1; k >= 0; --k) add_rings(grown(united, gap + (k + 0.5) * band_um), true, true, k, loops);
     return loops;
   }
@@ -75,12 +76,15 @@ std::vector<BrimLoop> brim_loops(const Regions& outlines, BrimLocation location,
   const Regions holes = holes_of(united);
   for (int k = count - 1; k >= 0; --k) {
     const double away = gap + (k + 0.5) * band_um;
-    if (location == BrimLocation::inside)
+    if (location == BrimLocation::everywhere)
+      add_rings(grown(united, away), true, true, k, whole);
+    else if (location == BrimLocation::inside)
       add_rings(shrunk(holes, away), true, false, k, whole);
     else
       for (const Regions& depth : islands) add_rings(grown(depth, away), true, false, k, whole);
   }
-  const Regions forbidden = grown(united, std::max(0.0, gap + band_um / 2 - rounding));
+  const double clear = std::max(0.0, gap + band_um / 2 - rounding);
+  const Regions forbidden = grown(others.empty() ? united : geometry::unite(united, others), clear);
   for (const BrimLoop& loop : whole) {
     std::vector<BrimLoop> pieces = cut_loop(loop, forbidden, false);
     loops.insert(loops.end(), std::make_move_iterator(pieces.begin()), std::make_move_iterator(pieces.end()));

@@ -16,7 +16,9 @@ struct BrimLoop {
 
 /// @param gap    between the part and the first band
 /// @param band   width of each of the `count` bands
-std::vector<BrimLoop> brim_loops(const Regions& outlines, BrimLocation location, Um gap, double band_um, int count);
+/// @param others what else stands there: loops that run into it are opened
+std::vector<BrimLoop> brim_loops(const Regions& outlines, BrimLocation location, Um gap, double band_um, int count,
+                                 const Regions& others = {});
 
 /// The pieces of a loop inside (or outside) of regions; a piece that runs over the loop's start is one piece.
 std::vector<BrimLoop> cut_loop(const BrimLoop& loop, const Regions& regions, bool keep_inside);

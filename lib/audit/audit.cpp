@@ -4,6 +4,7 @@
 #include "audit/auditor.h"
 #include "core/file_bytes.h"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <utility>
@@ -139,8 +140,9 @@ std::string_view not_text(std::string_view front) {
 
 }  // namespace
 
-Check::Check(const MachineSettings& machine, const MaterialSettings& material, const AuditSettings& audit, Mode mode)
-    : auditor_(std::make_unique<Auditor>(machine, material, audit, mode == Mode::annotate)), mode_(mode) {}
+Check::Check(const MachineSettings& machine, const MaterialSettings& material, const AuditSettings& audit, Mode mode,
+             const PlateSettings& plate)
+    : auditor_(std::make_unique<Auditor>(machine, material, audit, plate, mode == Mode::annotate)), mode_(mode) {}
 Check::~Check() = default;
 
 void Check::reserve(std::size_t bytes) {
@@ -177,27 +179,27 @@ Passed Check::passed() {
 }
 
 Passed check(const MachineSettings& machine, const MaterialSettings& material, const AuditSettings& audit,
-             std::string gcode, Mode mode) {
-  Check all(machine, material, audit, mode);
+             std::string gcode, Mode mode, const PlateSettings& plate) {
+  Check all(machine, material, audit, mode, plate);
   all.gcode_ = std::move(gcode);
   all.auditor_->feed(all.gcode_);
   return all.passed();
 }
 
 Report examine_text(const MachineSettings& machine, const MaterialSettings& material, const AuditSettings& audit,
-                    std::string_view gcode) {
-  Auditor auditor(machine, material, audit, false);
+                    std::string_view gcode, const PlateSettings& plate) {
+  Auditor auditor(machine, material, audit, plate, false);
   auditor.feed(gcode);
   return auditor.finish();
 }
 
 Report examine(const MachineSettings& machine, const MaterialSettings& material, const AuditSettings& audit,
-               const std::filesystem::path& path) {
+               const std::filesystem::path& path, const PlateSettings& plate) {
   const auto refuse = [&](std::string what, std::string hint = {}) {
     throw Error{Error::Kind::file, std::move(what), path.string(), std::move(hint)};
   };
   InputFile file(path.string());
-  Auditor auditor(machine, material, audit, false);
+  Auditor auditor(machine, material, audit, plate, false);
   constexpr std::size_t piece = 1U << 18;
   const auto buffer = std::make_unique<char[]>(piece);
   bool first = true;
@@ -216,6 +218,17 @@ Report examine(const MachineSettings& machine, const MaterialSettings& material,
 double Report::coverage() const {
   const auto all = checked_moves + unaudited_moves;
   return all == 0 ? 1.0 : static_cast<double>(checked_moves) / static_cast<double>(all);
+}
+
+const Conflict* Report::blocking() const {
+  const auto at = std::find_if(conflicts.begin(), conflicts.end(), [](const Conflict& c) { return c.blocks; });
+  return at == conflicts.end() ? nullptr : &*at;
+}
+
+std::int64_t Report::count_of(Finding::Kind kind) const {
+  std::int64_t out = 0;
+  for (const auto& total : totals) out += total.kind == kind ? total.count : 0;
+  return out;
 }
 
 Rejected::Rejected(Report report, std::string where)

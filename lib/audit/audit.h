@@ -8,6 +8,7 @@
 #include "settings/groups/audit.h"
 #include "settings/groups/machine.h"
 #include "settings/groups/material.h"
+#include "settings/groups/plate.h"
 
 #include <array>
 #include <cstdint>
@@ -37,6 +38,7 @@ struct Finding {
     reach,    ///< a motion beyond what the nozzle can go to
     no_go,    ///< a motion through one of bed_exclude_areas
     damaged,  ///< the line is not what a slicer writes
+    head,     ///< the head, or the bar that carries it, in what is printed
   };
   Kind kind = Kind::reach;
   Motion::Kind move = Motion::Kind::travel;
@@ -51,7 +53,23 @@ struct Finding {
   std::string text;        ///< the line, cut to 120 characters
   std::string problem;     ///< of a damaged line
   std::string setting;     ///< the custom G-code that it came from; "" when it is the slicer's own, or not known
+  Um above_tip = 0;        ///< of what of the head meets what is printed
+  Point met;               ///< and where that is
 };
+
+/// Two owners of beads that lie in each other: copies, supports, and what belongs to none.
+struct Conflict {
+  std::string a, b;                           ///< labels of objects, or "skirt", "brim", "wipe_tower"
+  bool support_a = false, support_b = false;  ///< it is the object's support
+  std::string feature_a, feature_b;           ///< where it is deepest, on the lowest layer with any
+  Point3 at;
+  Um depth = 0;
+  int layer = -1;
+  std::int64_t layers = 0;  ///< on how many
+  bool blocks = true;       ///< supports may meet, and lie in skirts; a brim lies at its part
+};
+/// "'body' and 'lid' overlap at layer 12, z 2.400, (112.500, 100.200), 0.420 mm deep (outer_wall, skin)"
+std::string describe(const Conflict& conflict);
 
 /// Moves whose way is not known, by what made it so.
 struct Unaudited {
@@ -88,6 +106,8 @@ struct Report {
   std::vector<Opaque> opaque;        ///< what only the printer knows: macros, calibrations, tool changes
   std::int64_t opaque_count = 0;
   std::int64_t lines = 0, bytes = 0;
+  std::vector<Conflict> conflicts;  ///< all pairs of owners, by where they begin
+  bool labelled = false;            ///< the file says whose its beads are: without that conflicts are not audited
   /// How far the reach goes beyond the print surface and beyond 0 … machine_height: −x, +x, −y, +y, −z, +z. What is
   /// printed stays on the surface; custom G-code and travels may use all of it.
   std::array<Um, 6> reach_beyond{};
@@ -99,7 +119,11 @@ struct Report {
   /// Does the file hold no move at all?
   bool empty() const { return checked_moves + unaudited_moves == 0 && violation_count == 0; }
   /// Was every motion judged, and none found outside?
-  bool clean() const { return violation_count == 0 && unaudited_moves == 0 && !empty(); }
+  bool clean() const { return violation_count == 0 && unaudited_moves == 0 && !empty() && blocking() == nullptr; }
+  /// The first conflict that blocks; null: none does.
+  const Conflict* blocking() const;
+  /// How many findings of a kind there are.
+  std::int64_t count_of(Finding::Kind kind) const;
 };
 
 enum class Mode { reject, annotate };
@@ -130,7 +154,9 @@ class Passed {
 /// Audits G-code while it grows: the text is the audit's from its first byte, so that nothing stands in it unread.
 class Check {
  public:
-  Check(const MachineSettings& machine, const MaterialSettings& material, const AuditSettings& audit, Mode mode);
+  /// @param plate the head, and how deep beads of two objects may lie in each other
+  Check(const MachineSettings& machine, const MaterialSettings& material, const AuditSettings& audit, Mode mode,
+        const PlateSettings& plate = {});
   ~Check();
   Check(const Check&) = delete;
   Check& operator=(const Check&) = delete;
@@ -148,7 +174,8 @@ class Check {
   Passed passed();
 
  private:
-  friend Passed check(const MachineSettings&, const MaterialSettings&, const AuditSettings&, std::string, Mode);
+  friend Passed check(const MachineSettings&, const MaterialSettings&, const AuditSettings&, std::string, Mode,
+                      const PlateSettings&);
   std::unique_ptr<Auditor> auditor_;
   Mode mode_;
   std::string gcode_;
@@ -157,16 +184,16 @@ class Check {
 
 /// Audits finished G-code, as Check does. @throws Rejected
 Passed check(const MachineSettings& machine, const MaterialSettings& material, const AuditSettings& audit,
-             std::string gcode, Mode mode);
+             std::string gcode, Mode mode, const PlateSettings& plate = {});
 
 /// Audits a file of any slicer. Cost: one pass, constant memory.
 /// @throws Error{file} when it cannot be read or is no text
 Report examine(const MachineSettings& machine, const MaterialSettings& material, const AuditSettings& audit,
-               const std::filesystem::path& file);
+               const std::filesystem::path& file, const PlateSettings& plate = {});
 
 /// The same for text in memory.
 Report examine_text(const MachineSettings& machine, const MaterialSettings& material, const AuditSettings& audit,
-                    std::string_view gcode);
+                    std::string_view gcode, const PlateSettings& plate = {});
 
 /// Where G-code leaves the nozzle, from above; nullopt when that is not known, as where placeholders decide it.
 std::optional<Point> place_after(const MachineSettings& machine, std::string_view gcode);

@@ -44,6 +44,8 @@ Reader::Machine reader_machine(const MachineSettings& machine) {
           .firmware = machine.firmware};
 }
 
+constexpr double by_hand_mm = 0.6;  // width of what custom G-code lays, about
+
 double disc_area_mm2(Um diameter) {
   return std::numbers::pi * to_mm(diameter) * to_mm(diameter) / 4;
 }
@@ -84,12 +86,19 @@ Volumes::Volumes(const MachineSettings& machine, const AuditSettings& audit)
 }
 
 Auditor::Auditor(const MachineSettings& machine, const MaterialSettings& material, const AuditSettings& audit,
-                 bool keep_marks)
+                 const PlateSettings& plate, bool keep_marks)
     : volumes_(machine, audit),
       filament_area_mm2_(disc_area_mm2(material.filament_diameter)),
       reader_(reader_machine(machine)),
       tally_(audit.audit_max_findings, volumes_.tolerance_mm, keep_marks),
-      unmarked_(audit.audit_max_findings, volumes_.tolerance_mm, keep_marks) {}
+      owners_(to_mm(plate.conflict_tolerance)),
+      unmarked_(audit.audit_max_findings, volumes_.tolerance_mm, keep_marks) {
+  const auto slabs = head_of(plate, machine);
+  if (slabs.empty()) return;
+  Bounds area = volumes_.surface.bounds();
+  area.add(volumes_.reach.bounds().min), area.add(volumes_.reach.bounds().max);
+  head_.emplace(slabs, area, to_mm(machine.nozzle_diameter));
+}
 
 void Auditor::feed(std::string_view bytes) {
   StopNowAndThen stop(256);
@@ -122,7 +131,12 @@ Report Auditor::finish() {
   report.reach_beyond = volumes_.reach_beyond;
   report.bytes = lines_.bytes();
   report.tolerance = static_cast<Um>(std::lround(volumes_.tolerance_mm * 1000));
-  report.verdict = report.violation_count > 0 ? Verdict::rejected : report.clean() ? Verdict::pass : Verdict::unaudited;
+  report.conflicts = owners_.conflicts();
+  for (auto& conflict : report.conflicts) conflict.blocks = conflict.blocks && !reader_.context().labels_meshes();
+  report.labelled = owners_.labelled();
+  report.verdict = report.violation_count > 0 || report.blocking() != nullptr ? Verdict::rejected
+                   : report.clean()                                           ? Verdict::pass
+                                                                              : Verdict::unaudited;
   if (!report.empty() && unmarked)
     report.notices.push_back(
         {"audit_no_features",
@@ -170,6 +184,9 @@ void Auditor::judge(const Motion& m) {
     const bool printing = m.extrudes && known && (!reader_.context().custom() || !reader_.context().began());
     const double margin_mm = printing ? half_bead_mm(m) : 0;
     if (printing) judge_surface(m, margin_mm);
+    if (head_) judge_head(m);
+    if (printing) lay(m, margin_mm);
+    if (head_ && m.extrudes && known && !printing && m.z_known) head_->lay(m.path, {}, by_hand_mm / 2, m.z_to);
     if (!volumes_.no_go.empty()) judge_no_go(m, reader_.context().custom() ? 0 : margin_mm);
   } else {
     judge_half_known(m);
@@ -278,6 +295,33 @@ void Auditor::judge_half_known(const Motion& m) {
   if (m.y_known) beyond(reach.min.y - m.path.to.y, Side::minus_y), beyond(m.path.to.y - reach.max.y, Side::plus_y);
 }
 
+/// Of what the motion lays, as far as it is known.
+double Auditor::bead_height_mm() const {
+  const double said = reader_.context().height_mm();
+  return said > 0 ? said : layer_height_mm_;
+}
+
+/// The nozzle passes beads of the layer that it prints; the rest of what stands must not meet the head.
+void Auditor::judge_head(const Motion& m) {
+  if (!m.z_known) return;
+  const auto met = head_->meets(m.path, m.z_from, m.z_to, std::max(volumes_.tolerance_mm, bead_height_mm()));
+  if (!met || met->depth_mm <= violation_.excess.mm) return;
+  violation_ = {.kind = Finding::Kind::head, .move = m.kind, .excess = {}, .z_mm = m.z_to};
+  violation_.excess.mm = met->depth_mm, violation_.excess.at = met->nozzle;
+  violation_.above_tip_mm = met->head_from_mm, violation_.met = met->at;
+}
+
+/// Remembers a bead: how high plastic stands there, and whose it is.
+void Auditor::lay(const Motion& m, double half_width_mm) {
+  if (!m.z_known) return;
+  const Context& context = reader_.context();
+  const Vec offset = volumes_.nozzle_offset(m.tool);
+  if (head_) head_->lay(m.path, offset, half_width_mm, m.z_to);
+  if (!context.custom())
+    owners_.lay(context.owner(), context.feature(), m.path, offset, half_width_mm, m.z_to, bead_height_mm(),
+                context.layer());
+}
+
 /// Half the width of the bead that the motion lays: of the band of equal volume, by the width that the slicer states,
 /// else by what the filament spreads to at least.
 double Auditor::half_bead_mm(const Motion& m) {
@@ -288,7 +332,7 @@ double Auditor::half_bead_mm(const Motion& m) {
     layer_z_mm_ = m.z_to;
   }
   const double width_mm = context.width_mm();
-  const double height_mm = context.height_mm() > 0 ? context.height_mm() : layer_height_mm_;
+  const double height_mm = bead_height_mm();
   if (height_mm <= 0) return width_mm / 2;
   if (width_mm > 0) return band_mm(width_mm, height_mm) / 2;
   // E is written to 5 decimals and lengths to 3: on very short moves rounding alone would fake a wide bead.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "audit/audit.h"
+#include "audit/heights.h"
 #include "audit/lines.h"
+#include "audit/owners.h"
 #include "audit/tally.h"
 
 #include <vector>
@@ -28,7 +30,7 @@ struct Volumes {
 class Auditor {
  public:
   Auditor(const MachineSettings& machine, const MaterialSettings& material, const AuditSettings& audit,
-          bool keep_marks);
+          const PlateSettings& plate, bool keep_marks);
   void feed(std::string_view bytes);
   Report finish();
   /// Where annotations belong; empty unless keep_marks. After finish().
@@ -42,11 +44,14 @@ class Auditor {
   void judge_no_go(const Motion& motion, double margin_mm);
   void judge_height(const Motion& motion);
   void judge_half_known(const Motion& motion);
+  void judge_head(const Motion& motion);
+  void lay(const Motion& motion, double half_width_mm);
   bool can_be_judged(const Motion& motion, bool printing) const;
   bool below_no_go(const Motion& motion) const;
   void count(const Motion& motion);
   void report_unaudited(Report& report) const;
   double half_bead_mm(const Motion& motion);
+  double bead_height_mm() const;
   void offer(Violation& worst, Finding::Kind kind, const Motion& motion, const Excess& excess, int area = 0);
 
   Volumes volumes_;
@@ -54,6 +59,8 @@ class Auditor {
   Lines lines_;
   Reader reader_;
   Tally tally_;
+  std::optional<HeadWatch> head_;  ///< absent: nothing is known of it
+  Owners owners_;
   Tally unmarked_;  ///< what counts only if no comment ever tells print from custom G-code
   std::int64_t checked_ = 0, unaudited_ = 0;
   std::vector<std::int64_t> unaudited_by_cause_;  ///< by the reader's number of the cause

@@ -149,11 +149,12 @@ void Context::brim(std::string_view rest) {
 }
 
 void Context::mesh(std::string_view name) {
+  labels_meshes_ = true;
   set_object(name == "NONMESH" ? std::string_view{} : name);
 }
 
 void Context::printing_object(std::string_view rest) {
-  set_object(rest.substr(0, rest.find(" id:")));
+  set_object(rest.substr(0, rest.find(" id:")), rest);
 }
 
 void Context::no_object(std::string_view) {

@@ -33,11 +33,19 @@ class Context {
   double width_mm() const { return width_mm_; }    ///< 0 when not said
   double height_mm() const { return height_mm_; }  ///< 0 when not said
   std::string_view object() const { return object_; }
-  void set_object(std::string_view name) { object_.assign(name.substr(0, most_name)); }
+  /// The label of one copy of it: what tells owners of beads apart.
+  std::string_view owner() const { return owner_; }
+  /// Do labels name meshes, which may be parts of one object?
+  bool labels_meshes() const { return labels_meshes_; }
+  void set_object(std::string_view name) { set_object(name, name); }
 
  private:
   static constexpr std::uint8_t custom_index = 1;
-  static constexpr std::size_t most_name = 60, most_names = 64;
+  static constexpr std::size_t most_name = 60, most_names = 64, most_label = 250;
+  void set_object(std::string_view name, std::string_view label) {
+    object_.assign(name.substr(0, most_name));
+    owner_.assign(label.substr(0, most_label));
+  }
   void set_feature(std::string_view slicers_name);
   void next_layer(int number);
   // What the signs in comments mean; see read().
@@ -59,7 +67,8 @@ class Context {
   bool began_ = false, ended_ = false;
   int layer_ = -1, layer_count_ = 0;
   double width_mm_ = 0, height_mm_ = 0;
-  std::string object_;
+  std::string object_, owner_;
+  bool labels_meshes_ = false;
 };
 
 }  // namespace weft::audit

@@ -27,8 +27,9 @@ std::string shown(std::string_view line) {
 
 std::string annotation(const Finding& f) {
   if (f.kind == Finding::Kind::damaged) return fmt::format("; WEFT-AUDIT damaged: {}", f.problem);
-  const std::string where = f.kind == Finding::Kind::no_go ? fmt::format("inside no-go area {}", f.area)
-                                                           : fmt::format("outside {}", name_of(f.side));
+  const std::string where = f.kind == Finding::Kind::head    ? "the head in what is printed"
+                            : f.kind == Finding::Kind::no_go ? fmt::format("inside no-go area {}", f.area)
+                                                             : fmt::format("outside {}", name_of(f.side));
   return fmt::format("; WEFT-AUDIT {} {:.3f} mm, {}{}{}", where, to_mm(f.outside), f.feature,
                      f.feature.empty() ? "" : ", ", name_of(f.move));
 }
@@ -55,6 +56,8 @@ Finding Tally::finding(const Violation& v, const Place& place) const {
   f.line = place.line;
   f.text = shown(place.text);
   f.problem = v.problem;
+  f.above_tip = clamped(v.above_tip_mm);
+  f.met = {clamped(v.met.x), clamped(v.met.y)};
   return f;
 }
 

@@ -16,6 +16,8 @@ struct Violation {
   double z_mm = 0;
   int area = 0;
   std::string_view problem{};  ///< of a damaged line
+  double above_tip_mm = 0;     ///< of the head: what of it meets what is printed
+  Vec met{};                   ///< and where that is
 };
 
 /// Where a line stands and what surrounds it.

@@ -14,6 +14,16 @@ std::string_view volume_of(Finding::Kind kind) {
   return kind == Finding::Kind::surface ? "the print surface" : "the reach";
 }
 
+/// Of those of the head, or of the others that are no damage.
+const Finding* worst_of(const Report& report, bool head) {
+  const Finding* out = nullptr;
+  for (const auto& f : report.findings)
+    if (f.kind != Finding::Kind::damaged && (f.kind == Finding::Kind::head) == head &&
+        (out == nullptr || f.outside > out->outside))
+      out = &f;
+  return out;
+}
+
 const Finding* worst_of(const Report& report) {
   const auto at =
       std::max_element(report.findings.begin(), report.findings.end(), [](const Finding& a, const Finding& b) {
@@ -24,6 +34,10 @@ const Finding* worst_of(const Report& report) {
 
 /// "1.200 mm beyond +x of the print surface", "1.200 mm inside no-go area 2".
 std::string extent_of(const Finding& f) {
+  if (f.kind == Finding::Kind::head)
+    return fmt::format(
+        "{:.3f} mm deep in what stands at ({:.3f}, {:.3f}), with what of the head is {:g} mm above its tip",
+        to_mm(f.outside), to_mm(f.met.x), to_mm(f.met.y), to_mm(f.above_tip));
   if (f.kind == Finding::Kind::no_go) return fmt::format("{:.3f} mm inside no-go area {}", to_mm(f.outside), f.area);
   return fmt::format("{:.3f} mm beyond {} of {}", to_mm(f.outside), name_of(f.side), volume_of(f.kind));
 }
@@ -62,6 +76,16 @@ std::string describe(const Finding& f) {
   return fmt::format("line {}: {} at ({:.3f}, {:.3f}, {:.3f}) is {}{}{}: {}", f.line, who(f), to_mm(f.at.x),
                      to_mm(f.at.y), to_mm(f.at.z), extent_of(f),
                      f.object.empty() ? "" : fmt::format(" (object {})", f.object), from, f.text);
+}
+
+std::string describe(const Conflict& c) {
+  const auto named = [](const std::string& name, bool support) {
+    const bool of_none = name == "skirt" || name == "brim" || name == "wipe_tower";
+    return (support ? "the support of " : "") + (of_none ? name : fmt::format("'{}'", name));
+  };
+  return fmt::format("{} and {} overlap at layer {}, z {:.3f}, ({:.3f}, {:.3f}), {:.3f} mm deep ({}, {})",
+                     named(c.a, c.support_a), named(c.b, c.support_b), c.layer, to_mm(c.at.z), to_mm(c.at.x),
+                     to_mm(c.at.y), to_mm(c.depth), c.feature_a, c.feature_b);
 }
 
 std::string describe(const Cause& cause) {
@@ -108,16 +132,19 @@ std::string damage_of(const Report& r) {
 
 std::string summary(const Report& r) {
   if (r.empty()) return "nothing to audit: did the upload break off?";
-  const auto outside = r.violation_count - r.damaged_count;
+  const auto met = r.count_of(Finding::Kind::head), outside = r.violation_count - r.damaged_count - met;
   std::string out;
   const auto add = [&](const std::string& part) { out += (out.empty() ? "" : "; ") + part; };
-  if (const Finding* const worst = worst_of(r); outside > 0) {
-    out = fmt::format("{} move{} outside", outside, plural(outside));
-    if (worst) {
-      out += fmt::format(", worst {} ({}, line {})", extent_of(*worst), who(*worst), worst->line);
-      if (!worst->setting.empty()) out += fmt::format(", from {}: {}", worst->setting, worst->text);
-    }
-  }
+  const auto add_worst = [&](const std::string& part, bool head) {
+    add(part);
+    const Finding* const worst = worst_of(r, head);
+    if (!worst) return;
+    out += fmt::format(", worst {} ({}, line {})", extent_of(*worst), who(*worst), worst->line);
+    if (!worst->setting.empty()) out += fmt::format(", from {}: {}", worst->setting, worst->text);
+  };
+  if (outside > 0) add_worst(fmt::format("{} move{} outside", outside, plural(outside)), false);
+  if (met > 0) add_worst(fmt::format("{} move{} into what is printed", met, plural(met)), true);
+  if (const Conflict* const conflict = r.blocking()) add(describe(*conflict));
   if (r.damaged_count > 0) add(damage_of(r));
   if (r.unaudited_moves > 0) add(unaudited_of(r));
   if (r.clean()) add(fmt::format("{} move{} checked", r.checked_moves, plural(r.checked_moves)));
@@ -141,6 +168,7 @@ std::string remedy_for(const Cause& cause) {
 
 std::string remedy(const Report& r) {
   const Finding* const f = worst_of(r);
+  if (!f && r.blocking() != nullptr) return "move them apart, or make them parts of one object";
   if (!f) return r.unaudited.empty() ? std::string{} : remedy_for(r.unaudited.front().cause);
   switch (f->kind) {
     case Finding::Kind::damaged:
@@ -155,6 +183,10 @@ std::string remedy(const Report& r) {
       if (f->feature == "brim") return "use a narrower brim, adhesion_outside = clip, or move the part";
       if (f->feature.starts_with("support")) return "support_outside = route, or move the part";
       return "move or turn the part, or take a larger printer";
+    case Finding::Kind::head:
+      return f->feature == "custom" ? fmt::format("raise the nozzle first in {}",
+                                                  f->setting.empty() ? "the start or end G-code" : f->setting)
+                                    : "print all at once, or move the objects apart";
     case Finding::Kind::reach:
       break;
   }
@@ -169,11 +201,16 @@ std::string remedy(const Report& r) {
 
 std::string header_value(const Report& r) {
   if (r.clean()) return fmt::format("pass, {}", summary(r));
-  const auto outside = r.violation_count - r.damaged_count;
+  const auto met = r.count_of(Finding::Kind::head), outside = r.violation_count - r.damaged_count - met;
   std::string out;
   const auto add = [&](const std::string& part) { out += (out.empty() ? ": " : ", ") + part; };
-  if (outside > 0)
-    add(fmt::format("{} move{} outside, worst {:.3f} mm", outside, plural(outside), to_mm(r.worst_outside)));
+  const auto add_worst = [&](std::int64_t count, const char* what, bool head) {
+    const Finding* const worst = worst_of(r, head);
+    add(fmt::format("{} move{} {}, worst {:.3f} mm", count, plural(count), what, worst ? to_mm(worst->outside) : 0.0));
+  };
+  if (outside > 0) add_worst(outside, "outside", false);
+  if (met > 0) add_worst(met, "into what is printed", true);
+  if (r.blocking() != nullptr) add("objects overlap");
   if (r.damaged_count > 0) add(fmt::format("{} damaged line{}", r.damaged_count, plural(r.damaged_count)));
   if (r.unaudited_moves > 0) add(fmt::format("{} move{} not audited", r.unaudited_moves, plural(r.unaudited_moves)));
   if (r.empty()) add("nothing to audit");

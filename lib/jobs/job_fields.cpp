@@ -94,6 +94,8 @@ constexpr std::array fields{
     Field{"negative", true, add_marks<mesh::MarkKind::negative>},
     Field{"arrange", false, [](JobLine& j, const Values& v, Folder) { j.placement.arrange = flag(v[0]); }},
     Field{"fill", false, [](JobLine& j, const Values& v, Folder) { j.placement.fill = flag(v[0]); }},
+    Field{"plates", false, [](JobLine& j, const Values& v, Folder) { j.placement.plates = flag(v[0]); }},
+    Field{"turn", false, [](JobLine& j, const Values& v, Folder) { j.placement.turn_deg = number(v[0], 0, 180); }},
     Field{"plate", false,
           [](JobLine& j, const Values& v, Folder) { j.placement.plate = static_cast<int>(number(v[0], 1, 10000)); }},
     Field{"copies", false,

@@ -167,6 +167,10 @@ void complete(JobList& list) {
       refuse(job, "keep_position contradicts center", "give one of the two");
     if (job.placement.keep_position && job.placement.copies > 1)
       refuse(job, "keep_position contradicts copies", "copies are arranged on the bed");
+    if (job.placement.keep_position && job.placement.by_outlines())
+      refuse(job, "keep_position contradicts arrange, fill and plates", "give one of them");
+    if (job.placement.fill && job.placement.plates)
+      refuse(job, "fill contradicts plates", "fill prints one full plate, plates all of them");
     try {
       pipeline::check_transform(job.placement);
     } catch (const std::invalid_argument& problem) {

@@ -40,10 +40,11 @@ struct JobList {
 
 /// One JSON object a line: {"id": …, "models": […], "profiles": […], "set": {…}, "output": …}, and where they are
 /// wanted "center": [x, y], "keep_position", "drop", "scale", "rotate", "copies", "spacing", "audit", "timeout" (s),
-/// "plate", "arrange", "fill", and the free fields "label", "priority", "due" and "x-…". Blank lines do not count.
-/// Models, profiles and files that settings name are relative to `folder`. A model may be an object: {"file": …} or
-/// {"parts": [{"file": …, "tool": 1, "set": {…}}]}, "tool", "set", "copies", "place": [x, y, degrees], "modifiers":
-/// [{"file": …, "set": {…}}], "negatives": […].
+/// "plate", "arrange", "fill", "plates", "turn", and the free fields "label", "priority", "due" and "x-…". Blank lines
+/// do not count. Models and profiles are relative to `folder`. A model may be an object: {"file": …} or {"parts":
+/// [{"file": …, "tool": 1, "set": {…}}]}, "tool", "set", "copies", "place": [x, y, degrees], "modifiers": [{"file": …,
+/// "set": {…}}], "negatives": […]. "fill" may be a list of models: they are put on as many plates as it takes, each a
+/// job of its own once it is known how many (prepare.h).
 JobList read_jsonl(std::string_view text, const std::string& path, const std::filesystem::path& folder);
 
 /// A header line with the same names, of which models and profiles are lists separated by `;` (by `,` where

@@ -3,6 +3,7 @@
 
 #include "gcode/writer.h"
 #include "jobs/record.h"
+#include "pipeline/arranged.h"
 #include "pipeline/field_files.h"
 #include "pipeline/model_parts.h"
 #include "pipeline/profile_file.h"
@@ -94,6 +95,22 @@ Prepared prepare_one(JobLine line, const Common& common, ProfileShelf& shelf) {
   return out;
 }
 
+/// A job a plate. @throws Error as a job that is begun
+void add_plates(Prepared job, std::vector<Prepared>& out) {
+  std::size_t count = 1;
+  try {
+    count = plates_of(job.job);
+  } catch (const Error&) {  // told when it is run, as of any job
+  }
+  for (std::size_t k = 1; k <= count; ++k) {
+    auto& own = out.emplace_back(job);
+    if (count == 1) return;
+    own.job.placement.on_plate = own.line.placement.on_plate = static_cast<int>(k);
+    own.line.id = fmt::format("{}_plate_{}", job.line.id, k);
+    own.line.output = pipeline::name_of_plate(job.line.output, k);
+  }
+}
+
 }  // namespace
 
 std::vector<Prepared> prepare(std::vector<JobLine> jobs, const Common& common, std::vector<Error>& errors) {
@@ -103,7 +120,11 @@ std::vector<Prepared> prepare(std::vector<JobLine> jobs, const Common& common, s
   for (auto& job : jobs) {
     const std::string where = job.where;
     try {
-      out.push_back(prepare_one(std::move(job), common, shelf));
+      auto one = prepare_one(std::move(job), common, shelf);
+      if (one.job.placement.plates)
+        add_plates(std::move(one), out);
+      else
+        out.push_back(std::move(one));
     } catch (const Error& error) {
       errors.push_back(at_line(error, where));
     }

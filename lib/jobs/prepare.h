@@ -25,7 +25,8 @@ struct Prepared {
 
 /// Resolves and checks every job before the first is run: profiles and settings as `weft slice` would, models by
 /// whether they can be opened, custom G-code by its placeholders. Each profile is read once for all jobs that begin
-/// with it.
+/// with it. A job of several plates becomes one a plate: of `id` and `output` those of plate 2 are `id_plate_2` and
+/// `output_plate_2.gcode`.
 /// @param errors gets one for each job that cannot be run, naming its line
 std::vector<Prepared> prepare(std::vector<JobLine> jobs, const Common& common, std::vector<Error>& errors);
 

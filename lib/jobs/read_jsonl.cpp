@@ -154,6 +154,11 @@ void set_all(JobLine& job, const Json& object, const std::filesystem::path& fold
       for (const auto& model : v) ModelReader(job, folder).read(model);
       continue;
     }
+    if (name == "fill" && v.is_array()) {  // a queue of parts, on as many plates as it takes
+      for (const auto& model : v) ModelReader(job, folder).read(model);
+      job.placement.plates = true;
+      continue;
+    }
     if (is_free_field(name)) {
       if (!v.is_primitive() || v.is_null())
         throw std::invalid_argument(name + ": is not a text, a number, true or false");

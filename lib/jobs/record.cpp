@@ -229,6 +229,8 @@ std::string inputs_hash(const Job& job, FileHashes& files) {
   exact::add(key, Um{p.plate});
   exact::add(key, p.arrange);
   exact::add(key, p.fill);
+  if (p.plates) exact::add(key, fmt::format("plate {} of all", p.on_plate));
+  if (p.by_outlines()) exact::add(key, p.turn_deg);
   if (!job.by_name.empty()) exact::add(key, text_of(job.by_name));
   for (const auto& word : pipeline::transform_words())
     if (const auto text = word.text(p); !text.empty() && word.key != "scale")

@@ -87,6 +87,18 @@ bool Archive::has(const std::string& part) const {
   return unzLocateFile(zip_->handle, part.c_str(), any_case) == UNZ_OK;
 }
 
+std::vector<std::string> Archive::parts() const {
+  constexpr std::size_t most = 100'000, longest = 1024;
+  std::vector<std::string> out;
+  for (int status = unzGoToFirstFile(zip_->handle); status == UNZ_OK && out.size() < most;
+       status = unzGoToNextFile(zip_->handle)) {
+    char name[longest] = {};
+    if (unzGetCurrentFileInfo64(zip_->handle, nullptr, name, longest - 1, nullptr, 0, nullptr, 0) != UNZ_OK) break;
+    out.emplace_back(name);
+  }
+  return out;
+}
+
 void Archive::read(const std::string& part, const std::function<void(std::string_view piece)>& take) {
   const std::string where = path_ + "/" + part;
   if (!has(part)) throw Error(Error::Kind::model, "not in the archive", where, "export the model again");

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace weft::mesh {
 
@@ -16,6 +17,8 @@ class Archive {
   ~Archive();
 
   bool has(const std::string& part) const;
+  /// The names of all parts, in their order.
+  std::vector<std::string> parts() const;
 
   /// Gives the part, of which the case of the name does not matter, to `take` piece by piece.
   /// Throws: Error::Kind::model when it is missing, damaged, encrypted, or larger than a model could be.

@@ -4,8 +4,10 @@
 #include "core/convex_hull.h"
 #include "core/error.h"
 #include "mesh/arrange.h"
+#include "mesh/holes_below.h"
 #include "mesh/mapped.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -26,26 +28,15 @@ Eigen::Rotation2Dd::Matrix2 turn(double degrees) {
   return result;
 }
 
-PlacedModel at_origin(Loaded loaded, const PlacementOptions& options, double rotate_deg, Point3& home) {
-  PlacedModel model{std::move(loaded.path), {}, {}, {}, {}, {}, {}};
-  Box3 in_file;
-  for (const Object& object : loaded.objects) in_file.add(box_of(object.mesh));
-  const Point about = in_file.footprint().centre();
-  for (Object& object : loaded.objects) {
-    const auto turned_in_place = [&](Mesh mesh) {
-      mesh = stretched(std::move(mesh), options.stretch_xy, options.stretch_z, {about.x, about.y, 0});
-      return rotated(std::move(mesh), rotate_deg, about);
-    };
-    model.objects.push_back(turned_in_place(std::move(object.mesh)));
-    for (Mark& mark : object.marks) mark.mesh = turned_in_place(std::move(mark.mesh));
-    model.marks.push_back(std::move(object.marks));
-  }
-  Box3 turned;
-  for (const Mesh& mesh : model.objects) turned.add(box_of(mesh));
-  const Point centre = turned.footprint().centre();
-  home = {centre.x, centre.y, turned.min.z};
-  const Point3 by{-home.x, -home.y, -home.z};
+/// Moves the model so that the middle of its box is x = y = 0 and its lowest point z = 0; finds its box and footprints.
+/// @return where that was
+Point3 centre_on_origin(PlacedModel& model) {
+  Box3 box;
+  for (const Mesh& mesh : model.objects) box.add(box_of(mesh));
+  const Point centre = box.footprint().centre();
+  const Point3 home{centre.x, centre.y, box.min.z}, by{-home.x, -home.y, -home.z};
   std::vector<Point> corners;
+  model.box = {}, model.footprints.clear();
   for (Mesh& mesh : model.objects) {
     mesh = moved(std::move(mesh), by);
     model.box.add(box_of(mesh));
@@ -55,7 +46,48 @@ PlacedModel at_origin(Loaded loaded, const PlacementOptions& options, double rot
   for (auto& marks : model.marks)
     for (Mark& mark : marks) mark.mesh = moved(std::move(mark.mesh), by);
   model.hull = convex_hull(std::move(corners));
+  return home;
+}
+
+PlacedModel at_origin(Loaded loaded, const PlacementOptions& options, double rotate_deg, Point3& home) {
+  PlacedModel model{std::move(loaded.path), 0, 0, {}, {}, {}, {}, {}, {}};
+  Box3 in_file;
+  for (const Object& object : loaded.objects) in_file.add(box_of(object.mesh));
+  const Point about = in_file.footprint().centre();
+  for (Object& object : loaded.objects) {
+    const auto turned_in_place = [&](Mesh mesh) {
+      mesh = stretched(std::move(mesh), options.stretch_xy, options.stretch_z, {about.x, about.y, 0});
+      return rotated(std::move(mesh), rotate_deg, about);
+    };
+    model.objects.push_back(without_holes_below(turned_in_place(std::move(object.mesh))));
+    for (Mark& mark : object.marks) mark.mesh = turned_in_place(std::move(mark.mesh));
+    model.marks.push_back(std::move(object.marks));
+  }
+  home = centre_on_origin(model);
   return model;
+}
+
+/// The copies that are turned by the same, each with the model turned so, in the order they are first met.
+std::vector<PlacedModel> by_turn(PlacedModel model, const std::vector<Stand>& stands) {
+  std::vector<std::pair<double, std::vector<Point>>> turns;
+  for (const auto& [at, turn_deg] : stands) {
+    const auto same = [&, turn = turn_deg](const auto& each) { return each.first == turn; };
+    auto found = std::find_if(turns.begin(), turns.end(), same);
+    if (found == turns.end()) found = turns.insert(found, {turn_deg, {}});
+    found->second.push_back(at);
+  }
+  std::vector<PlacedModel> out;
+  for (auto& [turn_deg, at] : turns) {
+    out.push_back(turns.size() == 1 ? std::move(model) : model);
+    auto& own = out.back();
+    own.instances = std::move(at), own.turned_deg = turn_deg;
+    if (turn_deg == 0) continue;
+    for (Mesh& mesh : own.objects) mesh = rotated(std::move(mesh), turn_deg, {});
+    for (auto& marks : own.marks)
+      for (Mark& mark : marks) mark.mesh = rotated(std::move(mark.mesh), turn_deg, {});
+    centre_on_origin(own);
+  }
+  return out;
 }
 
 /// A part that keeps its place stands on the bed there.
@@ -92,54 +124,79 @@ Mesh moved(Mesh mesh, Point3 by) {
   return mesh;
 }
 
-std::vector<PlacedModel> place(std::vector<Loaded> models, const PlacementOptions& options, const Plate& plate) {
-  if (options.keep_position && options.copies > 1)
-    throw Error(Error::Kind::usage, "copies of one position would lie in each other", "--keep-position",
-                "leave out --copies or --keep-position");
-  const auto own = [&](std::size_t i) { return options.of_model.empty() ? PlacementOfModel{} : options.of_model[i]; };
-  std::vector<PlacedModel> placed;
-  std::vector<Point3> homes(models.size());
-  for (std::size_t i = 0; i < models.size(); ++i)
-    placed.push_back(at_origin(std::move(models[i]), options, options.rotate_deg + own(i).rotate_deg, homes[i]));
-  Plate free = plate;  // without what stands where it is told to
-  for (std::size_t i = 0; i < placed.size(); ++i) {
-    if (const auto at = own(i).at) {
-      placed[i].instances = {*at};
-      const Box box = placed[i].box.footprint().grown(options.spacing);
-      free.keep_out.push_back(
-          {box.min + *at, Point{box.max.x, box.min.y} + *at, box.max + *at, Point{box.min.x, box.max.y} + *at});
-    } else if (options.keep_position) {
-      if (own(i).copies > 1)
-        throw Error(Error::Kind::usage, "copies of one position would lie in each other", "--keep-position",
-                    "leave out --copies or --keep-position");
-      if (!options.drop) check_stands(placed[i].path, homes[i].z);
-      placed[i].instances = {{homes[i].x, homes[i].y}};
+namespace {
+
+/// What stands in a place of its own leaves less to the others.
+void keep_free_of(const PlacedModel& model, const Stand& stand, Um spacing, Plate& free) {
+  Ring hull = model.hull;
+  if (stand.turn_deg != 0) {
+    const Eigen::Matrix2d matrix = turn(stand.turn_deg);
+    for (Point& p : hull) {
+      const Eigen::Vector2d um = matrix * Eigen::Vector2d(p.x, p.y);
+      p = {lattice(um.x() / 1000), lattice(um.y() / 1000)};
     }
   }
-  if (options.arranger) {
-    std::vector<ToPlace> wanted;
-    std::vector<std::size_t> of_wanted;
-    for (std::size_t i = 0; i < placed.size(); ++i) {
-      if (!placed[i].instances.empty()) continue;
-      wanted.push_back({&placed[i], static_cast<std::size_t>(own(i).copies > 0 ? own(i).copies : options.copies)});
-      of_wanted.push_back(i);
-    }
-    auto places = options.arranger(wanted, free);
-    for (std::size_t k = 0; k < of_wanted.size(); ++k) placed[of_wanted[k]].instances = std::move(places[k]);
-    return placed;
-  }
+  const Point size = weft::box_of(hull).size() + Point{2 * spacing, 2 * spacing}, half{size.x / 2, size.y / 2};
+  free.keep_out.push_back(
+      {stand.at - half, stand.at + Point{half.x, -half.y}, stand.at + half, stand.at + Point{-half.x, half.y}});
+}
+
+/// In rows, or in cells of a grid.
+void place_in_rows(const std::vector<ToPlace>& wanted, const PlacementOptions& options, const Plate& free,
+                   std::vector<std::vector<Stand>>& stands) {
   std::vector<Item> items;
   std::vector<std::size_t> of_item;
-  for (std::size_t i = 0; i < placed.size(); ++i) {
-    if (!placed[i].instances.empty()) continue;
-    const int copies = own(i).copies > 0 ? own(i).copies : options.copies;
-    items.insert(items.end(), static_cast<std::size_t>(copies), {placed[i].box.footprint().size(), &placed[i].hull});
-    of_item.resize(items.size(), i);
+  for (const auto& [model, number, copies] : wanted) {
+    items.insert(items.end(), copies, {model->box.footprint().size(), &model->hull});
+    of_item.resize(items.size(), number);
   }
-  if (items.empty()) return placed;
+  if (items.empty()) return;
   const Arrangement arrangement = arrange(items, free, options.center, options.spacing);
-  for (std::size_t i = 0; i < items.size(); ++i) placed[of_item[i]].instances.push_back(arrangement.at[i]);
-  return placed;
+  for (std::size_t i = 0; i < items.size(); ++i) stands[of_item[i]].push_back({arrangement.at[i]});
+}
+
+}  // namespace
+
+std::vector<PlacedModel> place(std::vector<Loaded> models, const PlacementOptions& options, const Plate& plate) {
+  const auto refuse_copies = [] {
+    throw Error(Error::Kind::usage, "copies of one position would lie in each other", "--keep-position",
+                "leave out --copies or --keep-position");
+  };
+  if (options.keep_position && options.copies > 1) refuse_copies();
+  const auto own = [&](std::size_t i) { return options.of_model.empty() ? PlacementOfModel{} : options.of_model[i]; };
+  std::vector<PlacedModel> at_middle;
+  std::vector<std::vector<Stand>> stands(models.size());
+  std::vector<ToPlace> wanted;
+  Plate free = plate;  // without what stands where it is told to
+  at_middle.reserve(models.size());
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    Point3 home;
+    at_middle.push_back(at_origin(std::move(models[i]), options, options.rotate_deg, home));
+    at_middle.back().number = i;
+    stands[i] = own(i).at;
+    for (const auto& stand : stands[i]) keep_free_of(at_middle.back(), stand, options.spacing, free);
+    if (!stands[i].empty()) continue;
+    if (options.keep_position) {
+      if (own(i).copies > 1) refuse_copies();
+      if (!options.drop) check_stands(at_middle.back().path, home.z);
+      stands[i] = {{{home.x, home.y}}};
+      continue;
+    }
+    wanted.push_back({&at_middle[i], i, static_cast<std::size_t>(own(i).copies > 0 ? own(i).copies : options.copies)});
+  }
+  if (options.arranger) {
+    auto places = options.arranger(wanted, free);
+    for (std::size_t k = 0; k < wanted.size(); ++k) stands[wanted[k].number] = std::move(places[k]);
+  } else {
+    place_in_rows(wanted, options, free, stands);
+  }
+  std::vector<PlacedModel> out;
+  for (std::size_t i = 0; i < at_middle.size(); ++i)
+    if (stands[i].empty())
+      out.push_back(std::move(at_middle[i]));
+    else
+      for (auto& model : by_turn(std::move(at_middle[i]), stands[i])) out.push_back(std::move(model));
+  return out;
 }
 
 }  // namespace weft::mesh

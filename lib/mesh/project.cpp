@@ -57,6 +57,22 @@ void read_orca(Archive& archive, const std::string& path, Project& out) {
              .prefix = {}});
 }
 
+/// `<wipe_tower_information bed_idx position_x position_y rotation_deg/>` of the first bed.
+void read_tower(Archive& archive, const std::string& path, Project& out) {
+  const std::string part = "Metadata/Prusa_Slicer_wipe_tower_information.xml";
+  if (!archive.has(part)) return;
+  parse_xml(archive, part, path,
+            {.start =
+                 [&](std::string_view, const XmlAttributes& attributes, std::size_t) {
+                   const auto of = [&](std::string_view name) { return number_in(attributes.find(name).value_or("")); };
+                   const auto x = of("position_x"), y = of("position_y");
+                   if (x && y && !out.tower && of("bed_idx").value_or(0) == 0)
+                     out.tower = Project::Tower{*x, *y, of("rotation_deg").value_or(0)};
+                 },
+             .end = {},
+             .prefix = {}});
+}
+
 }  // namespace
 
 std::optional<Project> read_project(const std::string& path) {
@@ -72,7 +88,11 @@ std::optional<Project> read_project(const std::string& path) {
     out.author = Author::prusaslicer;
     out.configuration = archive.text(part);
   }
-  if (archive.has("Metadata/project_settings.config")) out.author = Author::orca, out.other_configuration = true;
+  if (const std::string part = "Metadata/project_settings.config"; archive.has(part)) {
+    out.author = Author::orca;
+    out.json_configuration = archive.text(part);
+  }
+  read_tower(archive, path, out);
   read_prusaslicer(archive, path, out);
   read_orca(archive, path, out);
   return out;

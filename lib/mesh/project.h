@@ -23,8 +23,13 @@ struct ProjectChange {
 struct Project {
   Author author = Author::unknown;
   std::string configuration{};       ///< PrusaSlicer's, as comments of G-code hold it; empty: there is none
-  bool other_configuration = false;  ///< one in a form that is not read is there
+  std::string json_configuration{};  ///< OrcaSlicer's and BambuStudio's; empty: there is none
   std::vector<ProjectChange> changes{};
+  /// Where the prime tower stands, mm and degrees.
+  struct Tower {
+    double x_mm = 0, y_mm = 0, angle_deg = 0;
+  };
+  std::optional<Tower> tower{};
 };
 
 /// @return nothing for what is no 3MF. Throws: Error::Kind::file, Error::Kind::model.

@@ -89,7 +89,7 @@ Loaded loaded_from(Contents contents, Format format, const std::string& path_as_
     loaded.triangles_in_file += body.mesh.triangles.size();
     if (bodies_are_items) {
       body.item = loaded.items.size();
-      loaded.items.push_back({body.name, {}, {}});
+      loaded.items.push_back({body.name, {}, {}, {}});
     }
     Repaired repaired = repair(std::move(body.mesh));
     if (!repaired.mesh.triangles.empty())

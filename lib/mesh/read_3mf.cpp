@@ -45,21 +45,22 @@ class Build {
       const auto* said = said_of(item);
       ItemOfFile what{object(item).name, said ? said->settings : says.back().settings, {}, {}};
       if (what.name.empty() && said) what.name = said->name;
-      if (const auto at = places.find(item.object.second); at != places.end()) {
-        if (const auto ranges = document_.parts.ranges.find(at->second); ranges != document_.parts.ranges.end())
-          what.ranges = ranges->second;
-        if (const auto heights = document_.parts.heights.find(at->second); heights != document_.parts.heights.end())
-          what.heights = heights->second;
-      }
+      if (const auto at = places.find(item.object.second); at != places.end()) tell_heights(at->second, what);
       contents.items.push_back(std::move(what));
-      for (auto& body : bodies(item, said)) {
+      const std::size_t begin = contents.bodies.size();
+      auto own = copied(item, contents.bodies);
+      if (own.empty()) own = bodies(item, said);
+      for (auto& body : own) {
         body.item = contents.items.size() - 1;
         contents.bodies.push_back(std::move(body));
       }
+      made_.push_back({&item, begin, contents.bodies.size()});
     }
-    lay_beside(says, contents);
     contents.unit = document_.unit;
     contents.notices = std::move(document_.notices);
+    lay_beside(says, contents);
+    for (const auto& part : document_.parts.unread)
+      contents.notices.push_back({"project_part_left_out", fmt::format("{}: {} is not read", source_.path, part)});
     contents.author = document_.parts.author;
     for (const auto& plate : document_.parts.plates)
       contents.plates.push_back({plate.number, plate.name, plate.instances.size()});
@@ -88,6 +89,33 @@ class Build {
       const std::pair instance(item.object.second, seen[item.object.second]++);
       return std::find(chosen->instances.begin(), chosen->instances.end(), instance) == chosen->instances.end();
     });
+  }
+
+  /// The bodies of an item that stands there already, moved by whole microns, where this one is a copy of it: they are
+  /// equal then, and printed as copies. Nothing: it is none.
+  std::vector<Body> copied(const Reference& item, const std::vector<Body>& all) const {
+    const auto same = std::find_if(made_.begin(), made_.end(), [&](const Made& made) {
+      return made.item->object == item.object && made.item->transform.linear() == item.transform.linear();
+    });
+    if (same == made_.end()) return {};
+    const Eigen::Vector3d by =
+        (item.transform.translation() - same->item->transform.translation()) * document_.mm_per_unit * source_.scale;
+    for (const double mm : by)
+      if (!placeable(mm)) return {};  // which is told where it is read
+    const Point3 um{lattice(by.x()), lattice(by.y()), lattice(by.z())};
+    std::vector<Body> out(all.begin() + static_cast<std::ptrdiff_t>(same->begin),
+                          all.begin() + static_cast<std::ptrdiff_t>(same->end));
+    for (auto& body : out) {
+      move(body.mesh, um);
+      for (auto& mark : body.marks) move(mark.mesh, um);
+    }
+    for (const auto& body : out)
+      for (const Point3 p : body.mesh.vertices)
+        if (!placeable(to_mm(p.x)) || !placeable(to_mm(p.y)) || !placeable(to_mm(p.z))) return {};
+    return out;
+  }
+  static void move(Mesh& mesh, Point3 by) {
+    for (Point3& p : mesh.vertices) p = {p.x + by.x, p.y + by.y, p.z + by.z};
   }
 
   const Resource& object(const Reference& reference) const {
@@ -130,6 +158,12 @@ class Build {
     return out;
   }
 
+  void tell_heights(std::uint32_t place, ItemOfFile& what) const {
+    const auto& parts = document_.parts;
+    if (const auto ranges = parts.ranges.find(place); ranges != parts.ranges.end()) what.ranges = ranges->second;
+    if (const auto heights = parts.heights.find(place); heights != parts.heights.end()) what.heights = heights->second;
+  }
+
   /// Are the item's parts kept apart? Where one has settings of its own, or a negative volume cuts some of them only.
   static bool keeps_parts(const ObjectSaid* said) {
     if (!said) return false;
@@ -156,7 +190,9 @@ class Build {
               [](const PartInWork& a, const PartInWork& b) { return a.number() < b.number(); });
     std::vector<Body> out;
     for (auto& part : parts_) {
-      out.push_back({object(item).name, {part.weld.take_vertices(), std::move(part.triangles)}});
+      const auto& named = object(item).name;
+      out.push_back(
+          {named.empty() && said ? said->name : named, {part.weld.take_vertices(), std::move(part.triangles)}});
       if (!part.volume) continue;
       if (!part.volume->name.empty()) out.back().name = part.volume->name;
       out.back().settings = part.volume->settings;
@@ -165,6 +201,7 @@ class Build {
       Mark made{key.kind, key.painted, {mark.weld.take_vertices(), std::move(mark.triangles)}};
       drop_degenerate(made.mesh);
       if (key.kind == MarkKind::tint) made.settings = {mark.tint}, made.author = document_.parts.author;
+      made.name = mark.name;
       if (mark.volume) {
         made.name = mark.volume->name;
         made.settings = mark.volume->settings, made.author = document_.parts.author;
@@ -204,17 +241,36 @@ class Build {
     return out;
   }
 
-  /// Cura's meshes that modify or mark lie beside the others: whatever they meet is meant.
+  /// Cura's meshes that modify or mark lie beside the others: what is meant is whatever they meet, in plan.
   static void lay_beside(const std::vector<Cura>& says, Contents& contents) {
-    std::vector<Mark> marks;
-    for (const auto& body : contents.bodies)
-      if (const auto& cura = says[body.item]; cura.kind)
-        marks.push_back({*cura.kind, false, body.mesh, body.name, cura.settings, Author::cura});
-    if (marks.empty()) return;
+    std::vector<Body> marks;
+    std::vector<Box> items(contents.items.size());
+    for (auto& body : contents.bodies)
+      if (says[body.item].kind)
+        marks.push_back(std::move(body));
+      else
+        items[body.item].add(plan_of(body.mesh));
     std::erase_if(contents.bodies, [&](const Body& body) { return says[body.item].kind.has_value(); });
-    for (std::size_t i = 0; i < contents.bodies.size(); ++i)
-      if (i == 0 || contents.bodies[i].item != contents.bodies[i - 1].item)
-        contents.bodies[i].marks.insert(contents.bodies[i].marks.end(), marks.begin(), marks.end());
+    for (const auto& mark : marks) {
+      const auto& cura = says[mark.item];
+      const Box box = plan_of(mark.mesh);
+      bool met = false;
+      for (std::size_t i = 0; i < contents.bodies.size(); ++i) {
+        auto& body = contents.bodies[i];
+        if ((i > 0 && contents.bodies[i - 1].item == body.item) || !box.overlaps(items[body.item])) continue;
+        body.marks.push_back({*cura.kind, false, mark.mesh, mark.name, cura.settings, Author::cura});
+        met = true;
+      }
+      if (!met)
+        contents.notices.push_back({"project_part_left_out", fmt::format("'{}' changes other models where it meets "
+                                                                         "them: it meets none and is left out",
+                                                                         mark.name)});
+    }
+  }
+  static Box plan_of(const Mesh& mesh) {
+    Box out;
+    for (const auto& p : mesh.vertices) out.add(Point{p.x, p.y});
+    return out;
   }
 
   /// Corners of a triangle as they are wound in a mirrored object, too.
@@ -252,6 +308,7 @@ class Build {
     std::vector<Triangle> triangles;
     const VolumeSaid* volume = nullptr;
     ForeignSetting tint{};  ///< of what is for another extruder
+    std::string name{};     ///< of the volume, or of all of them
   };
 
   void mark(const Resource& resource, const Eigen::Affine3d& transform, const Reference& reference,
@@ -259,6 +316,8 @@ class Build {
     const bool by_volume = *belongs.kind == MarkKind::modifier || *belongs.kind == MarkKind::negative;
     auto& to = marks_[{*belongs.kind, false, by_volume && belongs.volume ? belongs.volume->number : 0}];
     if (by_volume) to.volume = belongs.volume;
+    if (belongs.volume && to.name.find(belongs.volume->name) == std::string::npos)
+      to.name += (to.name.empty() ? "" : ", ") + belongs.volume->name;
     Triangle corners;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto v = resource.triangles[t][i];
@@ -358,6 +417,12 @@ class Build {
   ThreeMf document_;
   std::map<ObjectKey, std::size_t> sizes_;
   static constexpr std::uint32_t unwelded = ~std::uint32_t{0};
+  /// An item that is made, and its bodies.
+  struct Made {
+    const Reference* item;
+    std::size_t begin, end;
+  };
+  std::vector<Made> made_;
   std::map<MarkKey, MarkInWork> marks_;  ///< of the item in work
   std::deque<PartInWork> parts_;         ///< of it; references stay
   bool apart_ = false;                   ///< whether its parts are kept apart

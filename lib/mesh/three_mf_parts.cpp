@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <optional>
 
 namespace weft::mesh {
@@ -156,6 +157,44 @@ void read_ranges(Archive& archive, const std::string& path, const std::string& p
                  }});
 }
 
+/// Parts that say something of the print, of which the reader knows nothing.
+std::vector<std::string> unread_of(const Archive& archive) {
+  // What is read, here or by project.cpp, and what only shows or remembers.
+  constexpr std::array<std::string_view, 19> known{"slic3r_pe.config",
+                                                   "slic3r_pe_model.config",
+                                                   "slic3r_pe_layer_heights_profile.txt",
+                                                   "prusa_slicer_layer_config_ranges.xml",
+                                                   "prusa_slicer_custom_gcode_per_print_z.xml",
+                                                   "prusa_slicer_wipe_tower_information.xml",
+                                                   "model_settings.config",
+                                                   "project_settings.config",
+                                                   "layer_config_ranges.xml",
+                                                   "layer_heights_profile.txt",
+                                                   "custom_gcode_per_layer.xml",
+                                                   "slice_info.config",
+                                                   "prusa_slicer_cut_information.xml",
+                                                   "cut_information.xml",
+                                                   "filament_sequence.json",
+                                                   "slic3r.xml",
+                                                   "core.xml",
+                                                   "model.rels",
+                                                   "model_settings.config.rels"};
+  std::vector<std::string> out;
+  for (const auto& part : archive.parts()) {
+    auto name = part;
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    constexpr std::string_view folder = "metadata/", cura = "cura/", profiles = "Cura/ (its profiles)";
+    if (name.starts_with(cura) && (out.empty() || out.back() != profiles)) out.emplace_back(profiles);
+    if (!name.starts_with(folder) || name.ends_with('/')) continue;
+    const auto file = std::string_view(name).substr(name.rfind('/') + 1);
+    const bool shows = file.ends_with(".png") || file.ends_with(".jpg") || file.ends_with(".rels") ||
+                       (file.starts_with("plate_") && file.ends_with(".json"));
+    if (!shows && std::find(known.begin(), known.end(), file) == known.end()) out.push_back(part);
+  }
+  return out;
+}
+
 void read_profiles(Archive& archive, const std::string& path, const std::string& part, ThreeMfParts& out) {
   if (!archive.has(part)) return;
   std::string text;
@@ -193,6 +232,7 @@ ThreeMfParts parts_of(Archive& archive, const std::string& path) {
   read_ranges(archive, path, "Metadata/layer_config_ranges.xml", out);
   read_profiles(archive, path, "Metadata/Slic3r_PE_layer_heights_profile.txt", out);
   read_profiles(archive, path, "Metadata/layer_heights_profile.txt", out);
+  out.unread = unread_of(archive);
   return out;
 }
 

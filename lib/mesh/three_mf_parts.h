@@ -43,6 +43,7 @@ struct ThreeMfParts {
   std::map<std::uint32_t, std::vector<RangeOfItem>> ranges{};  ///< by the object's place among objects, from 1
   std::map<std::uint32_t, std::vector<HeightAt>> heights{};    ///< likewise
   std::vector<PlateSaid> plates{};
+  std::vector<std::string> unread{};  ///< parts that say something and are not read
 
   const ObjectSaid* of(std::uint32_t object) const;
   /// The volume of triangle `t` of that object; null where nothing is said of it.

@@ -13,7 +13,7 @@ std::vector<AuditOutcome> audit_files(const std::vector<AuditJob>& jobs, unsigne
     AuditOutcome outcome;
     const auto& s = *jobs[i].settings;
     try {
-      outcome.report = audit::examine(s.machine, s.material, s.audit, jobs[i].file);
+      outcome.report = audit::examine(s.machine, s.material, s.audit, jobs[i].file, s.plate);
       if (jobs[i].with_time) outcome.seconds = preview::time_of(FileBytes(jobs[i].file.string()).view(), s).seconds;
     } catch (const Error& error) {
       outcome.error = error;

@@ -4,7 +4,6 @@
 #include "core/convex_hull.h"
 #include "core/error.h"
 #include "geometry/boolean.h"
-#include "settings/tools.h"
 #include "tasks/parallel.h"
 
 #include <algorithm>
@@ -49,39 +48,30 @@ std::map<Um, Regions> silhouettes_above(const Standing& copy, std::vector<Um> he
   return out;
 }
 
-/// A band of an object's layers: the hull of each island, and the lowest height that the nozzle has in it.
+/// A band of an object's layers: where the nozzle is in it, on its ways between islands as well, and the lowest height
+/// that it has there.
 struct Band {
   Um bottom = 0;
-  std::vector<Ring> hulls;
+  Ring hull;
 };
 constexpr std::size_t bands = 8;
 
-std::vector<Band> bands_of(const Standing& copy, Um beside) {
-  const auto layers = layers_of(copy);
+std::vector<Band> bands_of(const Standing& copy) {
   std::vector<Band> out;
   const Um height = std::max<Um>(copy.height, 1);
-  Regions islands;
-  std::optional<Um> bottom;
-  for (std::size_t i = 0; i < layers.size(); ++i) {
-    const auto band =
-        static_cast<std::size_t>(std::int64_t{layers[i]->z - 1} * static_cast<std::int64_t>(bands) / height);
-    if (!bottom) bottom = layers[i]->z;
-    islands.insert(islands.end(), layers[i]->outline.begin(), layers[i]->outline.end());
-    const bool last =
-        i + 1 == layers.size() || static_cast<std::size_t>(std::int64_t{layers[i + 1]->z - 1} *
-                                                           static_cast<std::int64_t>(bands) / height) != band;
-    if (!last) continue;
-    Band made{*bottom, {}};
-    for (const auto& region : geometry::unite(islands)) {
-      std::vector<Point> corners;
-      const Um by = out.empty() ? beside : 0;  // skirt and brim lie on the bed
+  std::vector<Point> corners;
+  std::optional<std::size_t> last;
+  for (const auto* layer : layers_of(copy)) {
+    const auto band = static_cast<std::size_t>(std::int64_t{layer->z - 1} * static_cast<std::int64_t>(bands) / height);
+    if (last != band) out.push_back({layer->z, {}}), corners.clear();
+    last = band;
+    const Um by = out.size() == 1 ? copy.beside : 0;  // skirt and brim lie on the bed
+    for (const auto& region : layer->outline)
       for (const Point p : region.outer)
         for (const Point d : {Point{-by, -by}, Point{by, -by}, Point{by, by}, Point{-by, by}}) corners.push_back(p + d);
-      made.hulls.push_back(convex_hull(std::move(corners)));
-    }
-    out.push_back(std::move(made));
-    islands.clear(), bottom.reset();
+    corners = out.back().hull = convex_hull(std::move(corners));
   }
+  std::erase_if(out, [](const Band& band) { return band.hull.empty(); });
   return out;
 }
 
@@ -93,62 +83,89 @@ Ring sum_of(const Ring& a, const Ring& b) {
   return convex_hull(std::move(corners));
 }
 
-[[noreturn]] void refuse_order(const std::vector<Standing>& copies, const std::vector<std::vector<char>>& may) {
+/// What of the head is in the way: the bar alone, or the head as well.
+std::string_view what_hits(const Standing& a, const Standing& b, std::vector<HeadSlab> head, bool has_bar) {
+  if (!has_bar) return "head";
+  head.pop_back();
+  const auto may = may_follow({a, b}, head);
+  return may[0][1] != 0 || may[1][0] != 0 ? "gantry" : "head";
+}
+
+/// "34.5 mm more in y": how much further apart they can be printed one after the other, the shorter way.
+std::string how_far(const Standing& a, const Standing& b, const std::vector<HeadSlab>& head, Um furthest) {
+  std::string out;
+  Um least = furthest;
+  for (const bool in_x : {true, false}) {
+    const bool up = in_x ? b.by.x >= a.by.x : b.by.y >= a.by.y;
+    const auto fits = [&](Um by) {
+      Standing moved = b;
+      (in_x ? moved.by.x : moved.by.y) += up ? by : -by;
+      const auto may = may_follow({a, moved}, head);
+      return may[0][1] != 0 || may[1][0] != 0;
+    };
+    if (!fits(least)) continue;
+    Um low = 0, high = least;
+    constexpr Um close = 100;
+    while (high - low > close) (fits((low + high) / 2) ? high : low) = (low + high) / 2;
+    if (high < least || out.empty())
+      least = high, out = fmt::format("{:.1f} mm more in {}", to_mm(high), in_x ? "x" : "y");
+  }
+  return out;
+}
+
+[[noreturn]] void refuse_order(const Settings& settings, const std::vector<Standing>& copies,
+                               const std::vector<HeadSlab>& head, const std::vector<std::vector<char>>& may) {
+  const Point bed = weft::box_of(print_surface(settings.machine)).size();
   for (std::size_t i = 0; i < copies.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (!may[i][j] && !may[j][i])
-        throw Error{Error::Kind::audit,
-                    fmt::format("the head hits '{}' while '{}' is printed, and '{}' while '{}' is", copies[j].name,
-                                copies[i].name, copies[i].name, copies[j].name),
-                    "print_sequence", "move them apart, or print all at once"};
+    for (std::size_t j = 0; j < i; ++j) {
+      if (may[i][j] != 0 || may[j][i] != 0) continue;
+      const auto &a = copies[j], &b = copies[i];
+      const auto far = how_far(a, b, head, std::max(bed.x, bed.y));
+      throw Error{Error::Kind::audit,
+                  fmt::format("the {} hits '{}' while '{}' is printed, and '{}' while '{}' is{}",
+                              what_hits(a, b, head, settings.plate.gantry_height.has_value()), a.name, b.name, b.name,
+                              a.name, far.empty() ? "" : "; " + far),
+                  "print_sequence", "move them apart, or print all at once"};
+    }
   throw Error{Error::Kind::audit, "there is no order in which the head passes all that stands already",
               "print_sequence", "move the objects apart, or print all at once"};
 }
 
 }  // namespace
 
-std::vector<HeadSlab> head_of(const PlateSettings& plate, const MachineSettings& machine) {
-  auto out = parse_head_profile(plate.machine_head_profile);
-  if (!plate.gantry_height || out.empty()) return out;
-  Box head;
-  for (const auto& slab : out) head.add(weft::box_of(slab.outline));
-  const Box bed = weft::box_of(print_surface(machine));
-  const Um wide = 2 * std::max(bed.size().x, bed.size().y);
-  Box bar = head;
-  if (plate.gantry_axis == GantryAxis::x)
-    bar.min.x = -wide, bar.max.x = wide;
-  else
-    bar.min.y = -wide, bar.max.y = wide;
-  out.push_back({*plate.gantry_height, {bar.min, {bar.max.x, bar.min.y}, bar.max, {bar.min.x, bar.max.y}}});
-  return out;
-}
-
-std::vector<std::vector<char>> may_follow(const std::vector<Standing>& copies, const std::vector<HeadSlab>& head,
-                                          Um beside) {
-  const auto banded = tasks::parallel_map(copies.size(), [&](std::size_t j) { return bands_of(copies[j], beside); });
+std::vector<std::vector<char>> may_follow(const std::vector<Standing>& copies, const std::vector<HeadSlab>& head) {
+  std::vector<std::size_t> kind;  // of each copy: the first of the same layers
+  for (std::size_t i = 0; i < copies.size(); ++i) {
+    const auto same = [&](const Standing& other) {
+      return other.layers == copies[i].layers && other.beside == copies[i].beside;
+    };
+    kind.push_back(static_cast<std::size_t>(std::find_if(copies.begin(), copies.end(), same) - copies.begin()));
+  }
+  const auto of_kinds = [&](const auto& make) {
+    return tasks::parallel_map(
+        copies.size(), [&](std::size_t i) { return kind[i] == i ? make(copies[i]) : decltype(make(copies[i])){}; });
+  };
+  const auto banded = of_kinds([](const Standing& copy) { return bands_of(copy); });
   std::vector<Ring> slabs;
   for (const auto& slab : head) slabs.push_back(convex_hull({slab.outline.begin(), slab.outline.end()}));
   std::vector<Um> heights;
   for (const auto& list : banded)
     for (const auto& band : list)
       for (const auto& slab : head) heights.push_back(band.bottom + slab.from);
-  const auto above =
-      tasks::parallel_map(copies.size(), [&](std::size_t i) { return silhouettes_above(copies[i], heights); });
+  const auto above = of_kinds([&](const Standing& copy) { return silhouettes_above(copy, heights); });
   return tasks::parallel_map(copies.size(), [&](std::size_t i) {
     std::vector<char> may(copies.size(), 1);
     for (std::size_t j = 0; j < copies.size(); ++j) {
       if (i == j) continue;
       const Point by = copies[j].by - copies[i].by;
-      for (const auto& band : banded[j])
+      for (const auto& band : banded[kind[j]])
         for (std::size_t k = 0; k < head.size() && may[j] != 0; ++k) {
-          const auto& standing = above[i].at(band.bottom + head[k].from);
+          const auto& standing = above[kind[i]].at(band.bottom + head[k].from);
           if (standing.empty()) continue;
-          for (const auto& hull : band.hulls) {
-            Ring swept = sum_of(hull, slabs[k]);
-            for (auto& p : swept) p = p + by;
-            if (!weft::box_of(swept).overlaps(weft::box_of(standing))) continue;
-            if (!geometry::intersect(standing, {{swept, {}}}).empty()) may[j] = 0;
-          }
+          Ring swept = sum_of(band.hull, slabs[k]);
+          for (auto& p : swept) p = p + by;
+          if (!weft::box_of(swept).overlaps(weft::box_of(standing))) continue;
+          if (!geometry::intersect(standing, {{swept, {}}}).empty()) may[j] = 0;
         }
     }
     return may;
@@ -182,16 +199,9 @@ Sequence one_at_a_time(const Settings& settings, const std::vector<Standing>& co
   if (head.empty())
     throw Error{Error::Kind::settings, "one_at_a_time: machine_head_profile does not say how wide the head is",
                 "print_sequence", "as in 0: -10x-10, 10x-10, 10x10, -10x10; 12: -30x-25, 45x-25, 45x60, -30x60"};
-  if (tool_count(settings) > 1)
-    throw Error{Error::Kind::settings, "one_at_a_time: several tools print all at once only", "print_sequence",
-                "print_sequence = all_at_once"};
-  const auto& a = settings.adhesion;
-  const Um nozzle = settings.machine.nozzle_diameter;
-  const Um width = a.skirt_brim_line_width ? a.skirt_brim_line_width->of(nozzle) : nozzle;
-  const Um beside = a.brim_width + (a.skirt_line_count > 0 ? a.skirt_gap + a.skirt_line_count * width : 0);
-  const auto may = may_follow(copies, head, beside);
+  const auto may = may_follow(copies, head);
   const auto order = order_of(copies, may);
-  if (order.size() < copies.size()) refuse_order(copies, may);
+  if (order.size() < copies.size()) refuse_order(settings, copies, head, may);
   Sequence out;
   for (const std::size_t i : order)
     out.push_back({.objects = {static_cast<ObjectId>(i)}, .rise = static_cast<std::uint32_t>(out.size())});

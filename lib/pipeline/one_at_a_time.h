@@ -17,24 +17,20 @@ struct Standing {
   Point by;                                  ///< where the layers are moved to
   std::vector<const PrintedLayers*> layers;  ///< of the object, and of its support
   Um height = 0;                             ///< of what is printed
+  Um beside = 0;                             ///< how far skirt and brim reach beyond it
 };
 
-/// What the head is made of: the slabs of machine_head_profile, and the bar, as wide as the bed.
-std::vector<HeadSlab> head_of(const PlateSettings& plate, const MachineSettings& machine);
-
 /// may[i][j]: may j be printed when i stands? Not where the path of a layer of j, widened by a slab, meets what of i
-/// lies above the slab's underside there. Of paths and slabs the convex hulls are taken, island by island, and layers
-/// of j in bands: where that differs from the truth it refuses.
-/// @param beside how far skirt and brim of an object reach beyond it
-std::vector<std::vector<char>> may_follow(const std::vector<Standing>& copies, const std::vector<HeadSlab>& head,
-                                          Um beside);
+/// lies above the slab's underside there. Of paths and slabs the convex hulls are taken, and layers of j in bands:
+/// where that differs from the truth it refuses.
+std::vector<std::vector<char>> may_follow(const std::vector<Standing>& copies, const std::vector<HeadSlab>& head);
 
 /// An order in which every copy may follow all before it: of those that may be next the lowest, then the nearest to
 /// the last. Empty: there is none. Source: Kahn, "Topological sorting of large networks".
 std::vector<std::size_t> order_of(const std::vector<Standing>& copies, const std::vector<std::vector<char>>& may);
 
-/// One pass and one rise a copy. @throws Error{settings} where nothing is known of the head, or several tools print;
-/// Error{audit} where there is no order, naming two that are in each other's way
+/// One pass and one rise a copy. @throws Error{settings} where nothing is known of the head; Error{audit} where there
+/// is no order, naming two that are in each other's way, and how much further apart they would have to be
 Sequence one_at_a_time(const Settings& settings, const std::vector<Standing>& copies);
 
 }  // namespace weft::pipeline

@@ -10,6 +10,7 @@
 #include "pipeline/lagging_tower.h"
 #include "pipeline/ooze_shield.h"
 #include "pipeline/purge_into.h"
+#include "pipeline/room_around.h"
 #include "settings/first_layer.h"
 #include "settings/tools.h"
 #include "tools/compatible.h"
@@ -28,8 +29,6 @@
 namespace weft::pipeline {
 namespace {
 
-/// Between the tower and what stands beside it: the head passes there with drawn back filament.
-constexpr Um beside_tower = 3000;
 /// No bead is higher than this share of its nozzle.
 constexpr double highest_by_nozzle = 0.75;
 
@@ -62,7 +61,9 @@ tools::ToolSets sets_of(const Settings& plate, ToolScopes& tools, Scopes& scopes
                         std::span<travel::LayerInput> layers) {
   tools::ToolSets out(layers.size());
   const auto adhesion = plate.tools.adhesion_extruder_nr;
-  const std::size_t lies_in = adhesion ? adhesion::layers_needed(adhesion_of(plate.adhesion)) : 0;
+  std::size_t lies_in = 0;
+  for (ScopeId id = 0; adhesion && id < scopes.size(); ++id)
+    lies_in = std::max(lies_in, adhesion::layers_needed(adhesion_of(scopes[id].adhesion)));
   for (std::size_t i = 0; i < layers.size(); ++i) {
     const auto only = only_tool_at(plate.tools, layers[i].z);
     if (adhesion)

@@ -19,6 +19,7 @@
 #include "pipeline/place_heat.h"
 #include "pipeline/plate.h"
 #include "pipeline/provenance.h"
+#include "pipeline/room_around.h"
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
 #include "pipeline/support_object.h"
@@ -32,6 +33,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -206,6 +208,27 @@ void keep(const Sample& sample, std::size_t at_least, PrintedLayers& layers) {
     if (!sample.has(i)) layers[i] = {layers[i].z, layers[i].height, {}, {}, {}, {}, {}, {}};
 }
 
+/// Each object is printed with one tool, in a nozzle of its own: between objects nothing is purged.
+/// @throws Error{settings}
+void check_tools_one_at_a_time(const ToolScopes& tools, const Plate& plate, const std::vector<PrintedLayers>& layers) {
+  std::set<ToolId> all;
+  for (std::size_t o = 0; o < layers.size(); ++o) {
+    std::set<ToolId> own;
+    for (const auto& layer : layers[o])
+      for (const auto& bead : layer.beads)
+        if (bead.tool != any_tool) own.insert(bead.tool);
+    if (own.size() > 1)
+      throw Error{Error::Kind::settings,
+                  fmt::format("one_at_a_time: '{}' is printed with several tools", plate.objects[o].name),
+                  "print_sequence", "print_sequence = all_at_once"};
+    all.insert(own.begin(), own.end());
+  }
+  if (all.size() > 1 && shares_nozzle(tools.tools()))
+    throw Error{Error::Kind::settings,
+                "one_at_a_time: tools that share a nozzle are purged into a tower, and there is none", "print_sequence",
+                "print_sequence = all_at_once"};
+}
+
 /// Are layers of an object to follow its surface?
 bool follows_surface(const Scopes& scopes, const ObjectScopes& object) {
   return std::any_of(object.begin(), object.end(), [&](const ScopesFrom& from) {
@@ -229,20 +252,36 @@ std::vector<contour::Surface> surfaces_of(const Scopes& scopes, const Plate& pla
 }
 
 /// In which order copies are printed: all at once, or one after the other.
-Sequence sequence_of(const Settings& settings, const Plate& plate, const std::vector<PrintedLayers>& layers,
+Sequence sequence_of(const Scopes& scopes, const ToolScopes& tools, const Plate& plate,
+                     const std::vector<ScopeId>& feet, const std::vector<PrintedLayers>& layers,
                      const std::vector<SupportOf>& supports) {
+  const Settings& settings = scopes[0];
   if (settings.plate.print_sequence == PrintSequence::all_at_once || copies_on(plate) < 2)
     return by_layer(copies_on(plate));
+  if (tools.several()) check_tools_one_at_a_time(tools, plate, layers);
   std::vector<Standing> copies;
   for (std::size_t o = 0; o < plate.objects.size(); ++o)
     for (std::size_t c = 0; c < plate.objects[o].copies.size(); ++c) {
       const auto& object = plate.objects[o];
       const auto name = object.copies.size() == 1 ? object.name : fmt::format("{}_{}", object.name, c + 1);
-      copies.push_back({name, object.copies[c], {&layers[o], &supports[o].layers}, 0});
+      copies.push_back({name, object.copies[c], {&layers[o], &supports[o].layers}, 0, beside_of(scopes[feet[o]])});
       for (const auto* list : copies.back().layers)
         for (const auto& layer : *list) copies.back().height = std::max(copies.back().height, layer.z);
     }
   return one_at_a_time(settings, copies);
+}
+
+/// Where the copies stand, and what each has of its own.
+void note_objects(const Plate& plate, const std::vector<ObjectLabel>& labels, Report& report) {
+  std::size_t label = 0;
+  for (const auto& object : plate.objects)
+    for (std::size_t copy = 0; copy < object.copies.size(); ++copy, ++label) {
+      const Point at = labels[label].centre, size = box_of(labels[label].outline).size();
+      auto& out = report.objects.emplace_back();
+      out = {labels[label].name, {to_mm(at.x), to_mm(at.y)}, {to_mm(size.x), to_mm(size.y)}, {}};
+      for (const auto* overlay : {&object.overlay, &object.said})
+        for (const auto& laid : overlay->values) out.settings.emplace_back(laid.row->key, laid.origin.text);
+    }
 }
 
 /// From the plate to its plan.
@@ -277,7 +316,9 @@ Planned plan(const Job& job, Printing& what, const Running& running, PlanFor use
     keep(running.sample, adhesion::layers_needed(job.settings.adhesion), layers.back());
   }
   beside.wait();
-  if (what.sequence.empty()) what.sequence = sequence_of(job.settings, plate, layers, supports);
+  std::vector<ScopeId> feet;
+  for (const auto& own : of_object) feet.push_back(own.front().of_mix.front());
+  if (what.sequence.empty()) what.sequence = sequence_of(scopes, tools, plate, feet, layers, supports);
   if (running.report.figures) tell_surface(plate, layers, *running.report.figures);
   for (auto& object : plate.objects)
     for (auto& volume : object.volumes) volume.mesh = {};
@@ -286,8 +327,9 @@ Planned plan(const Job& job, Printing& what, const Running& running, PlanFor use
   begin<Stage::travel>(running.watch);
   auto& report = running.report;
   out.plate = plan_plate(scopes, tools, plate, what.sequence, std::move(layers), std::move(supports), report,
-                         {use, job.audit == audit::Mode::annotate, std::move(surfaces)});
+                         {use, std::move(feet), job.audit == audit::Mode::annotate, std::move(surfaces)});
   const auto& plan = out.plate.plan;
+  note_objects(plate, plan.objects, report);
   report.layers = plan.layers.size();
   for (const auto& layer : plan.layers)
     report.height_mm = std::max(report.height_mm, to_mm(layer.z - job.settings.machine.z_offset));
@@ -314,7 +356,7 @@ std::optional<audit::Passed> print(const Job& job, Printing what, const Watch& w
   note_statistics(job.settings, statistics, report);
   report.purged = purged;
   begin<Stage::gcode>(watch);
-  audit::Check check(job.settings.machine, job.settings.material, job.settings.audit, job.audit);
+  audit::Check check(job.settings.machine, job.settings.material, job.settings.audit, job.audit, job.settings.plate);
   name_custom_code(job.settings.gcode, check);
   gcode::Job text{job.settings,
                   plan,
@@ -399,6 +441,17 @@ std::optional<audit::Passed> run(const Job& job, const Watch& watch, Report& rep
         return Printing{std::move(plate), {}, parts_of(job.models.front()).front().file};
       },
       [&](Printing what) { return print(job, std::move(what), watch, report, cache); });
+}
+
+std::size_t plates_of(const Job& job, const Watch& watch, StageCache* cache) {
+  if (!job.placement.plates) return 1;
+  Report report;
+  return run_stages(
+      job, watch, report,
+      [&] {
+        return Printing{place_models(job, report, cache), {}, {}};
+      },
+      [&](const Printing&) { return std::max<std::size_t>(report.plates.size(), 1); });
 }
 
 std::size_t estimate(const Job& job, const EstimateOptions& options, const Watch& watch, Report& report,

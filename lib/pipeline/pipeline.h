@@ -55,8 +55,14 @@ struct Placement {
   Um spacing = 6000;     ///< between copies and models
   bool arrange = false;  ///< close together, by their true outlines
   bool fill = false;     ///< the same, with as many copies of each as there is room for
+  bool plates = false;   ///< close together as well, on as many plates as it takes: one is printed, on_plate
+  int on_plate = 1;      ///< of these, from 1
+  double turn_deg = 45;  ///< where things are put close together they may be turned by multiples of it; 0: not at all
   int plate = 0;         ///< of projects of several plates, the one that is printed, from 1; 0: they have one
   Transform transform{};
+
+  /// Are models put close together by their true outlines?
+  bool by_outlines() const { return arrange || fill || plates; }
 };
 
 /// A file, or a box, that marks something of a model: `box:x,y,z,x,y,z` in mm, two opposite corners.
@@ -91,6 +97,10 @@ struct Watch {
 /// @return the G-code, or nothing when the audit rejected it; report.status and report.error say so
 /// @throws Error of any other kind
 std::optional<audit::Passed> run(const Job& job, const Watch& watch, Report& report, StageCache* cache = nullptr);
+
+/// How many plates a job takes (Placement::plates): its models are read and arranged, and no more.
+/// @throws Error as `run` before it slices
+std::size_t plates_of(const Job& job, const Watch& watch = {}, StageCache* cache = nullptr);
 
 /// The same of a plate that is there already: objects in their places, each volume's mesh on z = 0, with overlays of
 /// their own. Of the job the models and their placement are not looked at.

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "adhesion/adhesion.h"
 #include "model/sequence.h"
+#include "pipeline/add_adhesion.h"
 #include "pipeline/add_raft.h"
 #include "pipeline/at_heights.h"
 #include "pipeline/check.h"
 #include "pipeline/collect_figures.h"
 #include "pipeline/conflicts.h"
+#include "pipeline/copies.h"
 #include "pipeline/ironing.h"
 #include "pipeline/labels.h"
 #include "pipeline/ooze_shield.h"
@@ -36,46 +37,6 @@ Beads moved(Beads beads, Point by) {
   for (auto& bead : beads)
     for (auto& junction : bead.path) junction.at = junction.at + by;
   return beads;
-}
-
-/// Where a copy's layers come from. What stands under a copy is a copy of its own, which firmware knows as the same.
-struct Copy {
-  std::size_t of = 0;  ///< index into the lists of layers
-  Point by;
-  bool last = false;   ///< of that list
-  ObjectId label = 0;  ///< of the copy that it is, or stands under
-  bool support = false;
-};
-std::vector<Copy> copies_of(const Plate& plate) {
-  std::vector<Copy> out;
-  for (std::size_t o = 0; o < plate.objects.size(); ++o) {
-    for (const Point by : plate.objects[o].copies) out.push_back({o, by, false, static_cast<ObjectId>(out.size())});
-    if (!plate.objects[o].copies.empty()) out.back().last = true;
-  }
-  return out;
-}
-
-constexpr ObjectId any_object = ~ObjectId{0};  // none
-
-/// Support goes with the copies that it stands under: its layers and copies follow those of the objects.
-Sequence with_supports(Sequence sequence, std::vector<SupportOf> supports, std::vector<Copy>& copies,
-                       std::vector<PrintedLayers>& layers) {
-  const std::size_t own = copies.size();
-  std::vector<ObjectId> below(own, any_object);
-  for (std::size_t o = 0; o < supports.size(); ++o) {
-    if (supports[o].layers.empty()) continue;
-    layers.push_back(std::move(supports[o].layers));
-    for (ObjectId c = 0; c < own; ++c) {
-      if (copies[c].of != o) continue;
-      below[c] = static_cast<ObjectId>(copies.size());
-      copies.push_back({layers.size() - 1, copies[c].by, false, c, true});
-    }
-    copies.back().last = true;
-  }
-  for (auto& pass : sequence)
-    for (std::size_t i = 0, count = pass.objects.size(); i < count; ++i)
-      if (const auto under = below[pass.objects[i]]; under != any_object) pass.objects.push_back(under);
-  return sequence;
 }
 
 /// The scopes of a raft's layers: speeds of their own are laid over the plate's.
@@ -152,7 +113,8 @@ travel::LayerInput plate_layer(const TimelineLayer& moment, const std::vector<Co
                              .top = read.top ? weft::moved(std::move(layer.top), copy.by) : Regions{},
                              .sparse = read.sparse ? weft::moved(std::move(layer.sparse), copy.by) : Regions{},
                              .over_air = weft::moved(std::move(layer.over_air), copy.by),
-                             .support = copy.support});
+                             .support = copy.support,
+                             .seams = copy.seams});
   }
   return input;
 }
@@ -181,47 +143,6 @@ travel::Room room_at(const MachineSettings& machine, Um z) {
   travel::Room room{reach_area(machine), {}, reach_z_max(machine)};
   if (z < exclude_height(machine)) room.no_go = machine.bed_exclude_areas;
   return room;
-}
-
-/// Skirt and brim around everything that rises together, put before the other beads of their layers.
-void add_adhesion(const Settings& settings, std::span<travel::LayerInput> rise, const Regions& tower,
-                  Notices& notices) {
-  constexpr Um thickest = 2000;  // of any layer
-  const auto wanted = adhesion_of(settings.adhesion);
-  const std::size_t needed = adhesion::layers_needed(wanted);
-  if (needed == 0) return;
-  std::vector<adhesion::PlateLayer> plate;
-  std::vector<travel::LayerInput*> bottoms;  // of each height the first that is printed
-  for (auto& layer : rise) {
-    const bool around = layer.time.number < needed;
-    if (!around && layer.z > thickest) break;
-    if (around && layer.time.number == plate.size()) plate.push_back({{}, layer.height}), bottoms.push_back(&layer);
-    if (around && plate.back().outlines.empty()) plate.back().outlines = tower;
-    for (const auto& object : layer.objects) {
-      const auto add = [&](Regions& to) { to.insert(to.end(), object.outline.begin(), object.outline.end()); };
-      if (around) add(plate.back().outlines);
-      // Of an object whose first layer is thicker than others' the top is higher up.
-      const bool lies = layer.z <= (object.height != 0 ? object.height : layer.height);
-      if (lies && layer.time.number > 0) add(plate.front().outlines);
-    }
-  }
-  const Ring surface = print_surface(settings.machine);
-  auto built =
-      adhesion::build(wanted, {.layers = plate, .nozzle = settings.machine.nozzle_diameter, .print_surface = &surface});
-  for (std::size_t i = 0; i < built.layers.size(); ++i) {
-    bottoms[i]->adhesion = std::move(built.layers[i]);
-    for (auto& bead : bottoms[i]->adhesion) bead.scope = bottoms[i]->scope;
-  }
-  std::move(built.notices.begin(), built.notices.end(), std::back_inserter(notices));
-}
-void add_adhesion_to_rises(const Settings& settings, std::span<travel::LayerInput> layers, const Regions& tower,
-                           Notices& notices) {
-  for (std::size_t begin = 0; begin < layers.size();) {
-    std::size_t end = begin + 1;
-    while (end < layers.size() && !layers[end].time.comes_down) ++end;
-    add_adhesion(settings, layers.subspan(begin, end - begin), tower, notices);
-    begin = end;
-  }
 }
 
 /// What each copy with a label looks like, and where it stands.
@@ -307,6 +228,7 @@ PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, c
   const auto& settings = scopes[0];
   const ScopeId on_first_layer = scopes.on_first_layer(0);
   auto copies = copies_of(plate);
+  give_seams(scopes, options.feet, copies);
   auto with_all = with_supports(sequence, std::move(supports), copies, layers);
   put_on_raft(scopes, with_all, copies, layers);
   const auto timeline = timeline_of(with_all, stacks_of(copies, layers));
@@ -325,7 +247,8 @@ PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, c
   auto& plan = out.plan;
   plan.objects = labels_of(plate);
   auto passes = passes_of(settings, tools, scopes, inputs, plan.notices);
-  add_adhesion_to_rises(settings, inputs, beside_objects(settings, passes), plan.notices);
+  add_adhesion(scopes, by_copy(options.feet, copies, copies_on(plate)), inputs, beside_objects(settings, passes),
+               plan.notices);
   give_adhesion(settings, tools, scopes, inputs);
   add_ooze_shield(settings, passes.shield, passes, inputs);
   add_prime_lines(settings, tools, scopes, passes, inputs, plan.notices);

@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "mesh/project.h"
 #include "pipeline/model_parts.h"
+#include "prusaslicer/orca.h"
 #include "settings/catalogue.h"
 #include "settings/tools.h"
 #include "settings/value.h"
@@ -14,6 +15,7 @@
 #include <filesystem>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace weft {
 namespace {
@@ -42,6 +44,61 @@ std::string mark_of(const mesh::ProjectChange& change, mesh::AtHeight kind) {
   }
   const HeightMarks one{{from_mm(change.z_mm) - 1, line}};
   return value::print(one, Unit::none);
+}
+
+/// Its values, as PrusaSlicer's inis have them. What is no JSON has none.
+std::vector<std::pair<std::string, std::string>> values_in(const std::string& text) {
+  using Json = nlohmann::ordered_json;
+  const auto json = Json::parse(text, nullptr, false);
+  std::vector<std::pair<std::string, std::string>> out;
+  if (!json.is_object()) return out;
+  const auto word = [](const Json& v, bool quoted) {
+    const std::string plain = v.is_string() ? v.get<std::string>() : v.is_primitive() ? v.dump() : std::string();
+    std::string line;
+    for (const char c : plain)
+      if (c == '\n')
+        line += "\\n";
+      else if (c != '\r')
+        line += quoted && (c == '"' || c == '\\') ? std::string{'\\', c} : std::string(1, c);
+    return quoted ? '"' + line + '"' : line;
+  };
+  const auto is_text = [](const std::string& key) {
+    return key.ends_with("gcode") || key.ends_with("colour") || key.ends_with("_type") || key.ends_with("_id");
+  };
+  for (const auto& [key, value] : json.items()) {
+    std::string joined;
+    if (!value.is_array()) joined = word(value, false);
+    for (const auto& item : value.is_array() ? value : Json::array()) {
+      if (!joined.empty()) joined += is_text(key) ? ';' : ',';
+      joined += word(item, is_text(key));
+    }
+    out.emplace_back(key, joined);
+  }
+  return out;
+}
+
+/// @return whether there was one
+bool apply_json(Profile& profile, const mesh::Project& project, const std::string& path, const ImportOptions& options) {
+  if (project.json_configuration.empty()) return false;
+  const auto configuration = prusaslicer::orca_configuration(values_in(project.json_configuration));
+  ImportOptions inside = options;
+  apply_text(profile, configuration.ini, path, inside);
+  for (const auto& [key, text] : configuration.ours) apply_value(profile, key, text, path);
+  if (!configuration.left_out.empty()) {
+    std::string names;
+    for (const auto& key : configuration.left_out) names += (names.empty() ? "" : ", ") + key;
+    profile.notices.push_back({"project_setting_left_out", fmt::format("{}: {} settings of its plate are left out: {}",
+                                                                       path, configuration.left_out.size(), names)});
+  }
+  return true;
+}
+
+/// Where its tower stands, where there will be one.
+void apply_tower(Profile& profile, const mesh::Project& project, const std::string& path) {
+  if (!project.tower || tool_count(profile.settings) < 2) return;
+  apply_value(profile, "prime_tower_position_x", value::number(project.tower->x_mm, 3), path);
+  apply_value(profile, "prime_tower_position_y", value::number(project.tower->y_mm, 3), path);
+  apply_value(profile, "prime_tower_angle", value::number(project.tower->angle_deg, 3), path);
 }
 
 void apply_changes(Profile& profile, const mesh::Project& project, const std::string& path, int plate) {
@@ -88,25 +145,25 @@ bool apply_project(Profile& profile, const std::vector<std::string>& models, boo
       if (!may_be_project(part.file)) continue;
       const auto project = mesh::read_project(part.file);
       if (!project) continue;
-      const bool configured = !project->configuration.empty();
+      const bool configured = !project->configuration.empty() || !project->json_configuration.empty();
       said = said || (alone && configured) || !project->changes.empty();
       if (alone && configured) {
         ImportOptions inside = options;
         const auto before = profile.origins.size();
-        apply_text(profile, project->configuration, part.file, inside);
+        if (!apply_json(profile, *project, part.file, options))
+          apply_text(profile, project->configuration, part.file, inside);
         if (profile.origins.size() == before)
           throw Error{Error::Kind::settings, "its settings cannot be read: they are damaged, or of another program",
                       part.file, "name a profile"};
         profile.notices.push_back(
             {"project_settings_taken",
              fmt::format("{}: no profile was named, and the project's own settings hold", part.file)});
-      } else if (configured || (alone && project->other_configuration)) {
+      } else if (configured) {
         profile.notices.push_back(
             {"project_settings_left_out",
-             configured ? fmt::format("{}: a profile was named, and the project's own settings do not hold", part.file)
-                        : fmt::format("{}: the project's own settings are in a form that is not read: name a profile",
-                                      part.file)});
+             fmt::format("{}: a profile was named, and the project's own settings do not hold", part.file)});
       }
+      apply_tower(profile, *project, part.file);
       apply_changes(profile, *project, part.file, plate);
     }
   return said;

@@ -39,6 +39,8 @@ std::string text_of(const Placement& p) {
   if (p.spacing != usual.spacing) out += fmt::format(" spacing={}", p.spacing);
   if (p.arrange) out += " arrange=1";
   if (p.fill) out += " fill=1";
+  if (p.plates) out += fmt::format(" plates=1 on-plate={}", p.on_plate);
+  if (p.turn_deg != usual.turn_deg) out += fmt::format(" turn={}", p.turn_deg);
   if (p.plate != usual.plate) out += fmt::format(" plate={}", p.plate);
   for (const auto& word : pipeline::transform_words())
     if (const auto text = word.text(p); !text.empty() && word.key != "scale")
@@ -105,6 +107,12 @@ Placement placement_from(std::string_view text, const std::string& path) {
       p.arrange = true;
     } else if (key == "fill") {
       p.fill = true;
+    } else if (key == "plates") {
+      p.plates = true;
+    } else if (key == "on-plate") {
+      p.on_plate = within(number<int>(value, path), 1, 10000, "on-plate", path);
+    } else if (key == "turn") {
+      p.turn_deg = within(number<double>(value, path), 0.0, 180.0, "turn", path);
     } else if (key == "plate") {
       p.plate = within(number<int>(value, path), 1, 10000, "plate", path);
     } else {

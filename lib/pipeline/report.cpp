@@ -48,6 +48,27 @@ Json models_of(const Report& r) {
   return out;
 }
 
+Json objects_of(const Report& r) {
+  Json out = Json::array();
+  for (const auto& o : r.objects) {
+    out.push_back({{"name", o.name},
+                   {"at", {rounded3(o.at_mm[0]), rounded3(o.at_mm[1])}},
+                   {"size", {rounded3(o.size_mm[0]), rounded3(o.size_mm[1])}}});
+    for (const auto& [key, text] : o.settings) out.back()["settings"][key] = text;
+  }
+  return out;
+}
+
+Json plates_of(const Report& r) {
+  Json out = Json::array();
+  for (const auto& plate : r.plates) {
+    Json own = Json::array();
+    for (const auto& [file, copies] : plate) own.push_back({{"file", file}, {"copies", copies}});
+    out.push_back(std::move(own));
+  }
+  return out;
+}
+
 Json features_of(const Report& r) {
   Json out = Json::object();
   for (const auto& row : roles) {
@@ -203,6 +224,8 @@ std::string to_json(const Report& r) {
   Json out{{"weft", version}, {"status", name_of(r.status)}};
   if (!r.error.empty()) out["error"] = r.error;
   out["models"] = models_of(r);
+  if (!r.plates.empty()) out["plate"] = r.plate, out["plates"] = plates_of(r);
+  if (!r.objects.empty()) out["objects"] = objects_of(r);
   out["settings_sha256"] = r.settings_sha256;
   out["gcode_sha256"] = r.gcode_sha256;
   out["layers"] = r.layers;

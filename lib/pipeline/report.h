@@ -52,6 +52,17 @@ struct Report {
   struct InfillFile {
     std::string key, file, sha256;
   };
+  /// How many of what stand on a plate.
+  struct OnPlate {
+    std::string file;
+    std::size_t copies = 0;
+  };
+  /// A copy on the bed.
+  struct Standing {
+    std::string name;
+    std::array<double, 2> at_mm{}, size_mm{};                     ///< the middle of its box, and that
+    std::vector<std::pair<std::string, std::string>> settings{};  ///< of its own: key and value
+  };
   struct Feature {
     double mm = 0, mm3 = 0, s = 0;
   };
@@ -122,7 +133,10 @@ struct Report {
   std::vector<Model> models;
   std::vector<Mark> marks;
   std::vector<InfillFile> infill_files;
-  std::string settings_sha256, gcode_sha256;  ///< of the G-code: "" when not asked for (Job), or there is none
+  std::vector<std::vector<OnPlate>> plates{};  ///< of a job that is arranged: what stands on each of its plates
+  int plate = 0;                               ///< and which of them this is, from 1
+  std::vector<Standing> objects{};             ///< as they are labelled
+  std::string settings_sha256, gcode_sha256;   ///< of the G-code: "" when not asked for (Job), or there is none
   std::size_t layers = 0;
   double height_mm = 0, print_time_s = 0;
   double filament_mm = 0, filament_mm3 = 0, filament_g = 0;

@@ -4,6 +4,7 @@
 #include "pipeline/key_bytes.h"
 #include "pipeline/layer_heights.h"
 #include "pipeline/paint_object.h"
+#include "pipeline/weave.h"
 #include "slice/slice.h"
 #include "tasks/parallel.h"
 
@@ -76,11 +77,14 @@ Result<Cuts> slice_object(const Running& job, const Object& object, const Object
     for (std::size_t v = 0; v < cuts.size(); ++v)
       if (object.volumes[v].kind == VolumeKind::tint) cuts[v] = &painted[v];
   }
-  return Result<Cuts>(united(object, scopes, all_scopes, cuts, areas));
+  auto out = united(object, scopes, all_scopes, cuts, areas);
+  if (const auto how = weave_of(scopes, all_scopes)) weave(*how, out, areas);
+  return Result<Cuts>(std::move(out));
 }
 
 std::vector<std::string> slice_hashes(const Object& object, const ObjectScopes& scopes, const Scopes& all_scopes,
                                       const SliceHands& handed) {
+  const auto how = weave_of(scopes, all_scopes);
   const auto planes = layers_of(object, scopes, handed, top_of(object));
   std::vector<std::string> out;
   for (const auto& volume : object.volumes) {
@@ -90,6 +94,9 @@ std::vector<std::string> slice_hashes(const Object& object, const ObjectScopes& 
       const auto reach = reach_of(all_scopes, scopes);
       key.with(reach.depth).with(reach.roof).with(reach.floor).with(reach.least);
     }
+    if (how)
+      for (const auto& from : scopes)
+        for (const ScopeId id : from.of_mix) key.with(Um{how->tool.at(id)});
     out.push_back(key.hash());
   }
   return out;

@@ -60,7 +60,8 @@ struct PlannedPlate {
 enum class PlanFor { writing, figures };
 struct PlanOptions {
   PlanFor use = PlanFor::writing;
-  bool annotate = false;                     ///< what is wrong with it is told, and does not end the job
+  std::vector<ScopeId> feet{};  ///< of each object of the plate: the settings of what it stands on, as its brim
+  bool annotate = false;        ///< what is wrong with it is told, and does not end the job
   std::vector<contour::Surface> surfaces{};  ///< of each object, where layers follow them; empty: nowhere
 };
 

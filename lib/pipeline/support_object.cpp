@@ -96,6 +96,12 @@ struct AreasOfMark {
   std::uint32_t mark = 0;
   std::vector<Regions> by_layer;
 };
+/// Whether anything may ask for support: a volume that is support does, whatever the settings say.
+bool supports(const Settings& settings, const Object& object) {
+  return settings.support.support_enable || settings.support.support_enforce_layers > 0 ||
+         std::any_of(object.marks.begin(), object.marks.end(),
+                     [](const mesh::Mark& mark) { return mark.kind == mesh::MarkKind::support; });
+}
 
 /// Volumes and painted facets as areas of layers.
 std::vector<AreasOfMark> read_marks(const Settings& settings, const Object& object, const std::vector<slice::Cut>& cuts,
@@ -247,16 +253,13 @@ Supports make_supports(const Settings& settings, const Object& object, const std
 
 }  // namespace
 
-bool supports(const Settings& settings) {
-  return settings.support.support_enable || settings.support.support_enforce_layers > 0;
-}
-
 std::vector<SupportOf> rooms_of(const Scopes& scopes, const Plate& plate) {
   const auto& objects = plate.objects;
   const Settings& settings = scopes[0];
   std::vector<SupportOf> out(objects.size());
   bool any = false;
-  for (std::size_t i = 0; i < scopes.size(); ++i) any = any || supports(scopes[static_cast<ScopeId>(i)]);
+  for (std::size_t i = 0; i < scopes.size(); ++i)
+    for (const auto& object : objects) any = any || supports(scopes[static_cast<ScopeId>(i)], object);
   if (!any) return out;
   const Um width = length_or(settings.support.support_line_width, settings.machine.nozzle_diameter,
                              settings.machine.nozzle_diameter);
@@ -279,7 +282,7 @@ void support_object(const Running& job, const Scopes& all, const ObjectScopes& s
   const ScopeId on_first_layer = scopes.front().of_mix.front();
   const ScopeId above = all.above_first_layer(on_first_layer);
   const Settings& settings = all[above];
-  if (!supports(settings)) {
+  if (!supports(settings, object)) {
     if (has_marks(object))
       job.report.warnings.push_back(
           {"support_marks_unused", fmt::format("{}: support that is painted or marked with volumes "
@@ -306,7 +309,7 @@ void support_object(const Running& job, const Scopes& all, const ObjectScopes& s
 void tell_missing_support(const Running& job, const Scopes& all, const ObjectScopes& scopes, const Object& object,
                           const std::vector<slice::Cut>& cuts, const std::vector<WallLayer>& walls) {
   const Settings& settings = all[all.above_first_layer(scopes.front().of_mix.front())];
-  if (supports(settings)) return;
+  if (supports(settings, object)) return;
   const Stopwatch stopwatch(job.report.timings_ms[Stage::support]);
   const auto outlines = outlines_of(settings, cuts);
   std::vector<const Regions*> over_air;

@@ -20,9 +20,6 @@ struct SupportOf {
   std::vector<Regions> held;  ///< of each layer of the object, what rests on support; empty: nothing does
 };
 
-/// Whether anything may ask for support.
-bool supports(const Settings& settings);
-
 /// Where the support of each object may lie: on the bed with all of its copies, off no-go areas and off its neighbours.
 std::vector<SupportOf> rooms_of(const Scopes& scopes, const Plate& plate);
 

@@ -43,6 +43,9 @@ class Layer {
     add(key, value, key);
   }
 
+  /// In weft's words already. @param theirs the key it came from
+  void ours(const std::string& key, const std::string& value, const std::string& theirs) { add(key, value, theirs); }
+
   void prusaslicer(std::vector<IniEntry> own) {
     std::erase_if(own, [&](const IniEntry& entry) { return is_extruder(entry); });
     if (own.empty()) return;
@@ -123,6 +126,10 @@ void lay_foreign(const ForeignSettings& said, const Settings& plate, const std::
     }
     IniEntry line{{}, key, value, static_cast<int>(lines.size()) + 1};
     if (said.dialect == Dialect::orca && key != "extruder") {
+      if (const auto ours = prusaslicer::ours_of_orca(key, value)) {
+        layer.ours(ours->first, ours->second, key);
+        continue;
+      }
       const auto theirs = prusaslicer::from_orca(key, value);
       if (!theirs) {
         layer.left_out(key, value, "weft does not know it");

@@ -247,6 +247,8 @@ class Doubts {
                         to_mm(s_.shells.ironing_line_spacing), to_mm(s_.machine.nozzle_diameter)));
     if (s_.adhesion.brim_ears && s_.adhesion.brim_width == 0)
       doubt("profile_brim", "brim_ears", "brim_width is 0: there is no brim");
+    if (s_.adhesion.brim_narrow_width > 0 && s_.adhesion.brim_width == 0)
+      doubt("profile_brim", "brim_narrow_width", "brim_width is 0: there is no brim");
   }
 
   const Profile& profile_;

@@ -59,16 +59,16 @@ void one_at_a_time(Lines& lines, const Outlet& out) {
   const auto *radius = lines.find("extruder_clearance_radius"), *height = lines.find("extruder_clearance_height");
   if (!wanted || !lines.flag(*wanted)) return;
   out.set("print_sequence", "one_at_a_time", *wanted);
-  if (radius) {
-    // An octagon around the disc, which is no smaller anywhere.
-    const double r = lines.figure(*radius).v, s = r * 0.41421356;
+  constexpr double usual_mm = 20;  // PrusaSlicer's, of both
+  // An octagon around the disc, which is no smaller anywhere.
+  if (const double r = radius ? lines.figure(*radius).v : usual_mm, s = r * 0.41421356; r > 0) {
     const auto corner = [](double x, double y) { return number(x, 3) + "x" + number(y, 3); };
     std::string outline;
     for (const auto& [x, y] : {std::pair(r, -s), {r, s}, {s, r}, {-s, r}, {-r, s}, {-r, -s}, {-s, -r}, {s, -r}})
       outline += (outline.empty() ? "0: " : ", ") + corner(x, y);
-    out.set("machine_head_profile", outline, *radius);
+    out.set("machine_head_profile", outline, radius ? *radius : *wanted);
   }
-  if (height) out.set("gantry_height", number(lines.figure(*height).v, 3), *height);
+  out.set("gantry_height", number(height ? lines.figure(*height).v : usual_mm, 3), height ? *height : *wanted);
 }
 
 void scarfs(Lines& lines, const Outlet& out) {

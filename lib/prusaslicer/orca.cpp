@@ -69,6 +69,88 @@ constexpr std::array rows{
     OrcaKey{"fuzzy_skin_thickness", "fuzzy_skin_thickness"},
     OrcaKey{"brim_width", "brim_width"},
     OrcaKey{"brim_type", "brim_type"},
+    OrcaKey{"print_sequence", "complete_objects"},
+    OrcaKey{"initial_layer_print_height", "first_layer_height"},
+    OrcaKey{"initial_layer_speed", "first_layer_speed"},
+    OrcaKey{"travel_speed", "travel_speed"},
+    OrcaKey{"bridge_speed", "bridge_speed"},
+    OrcaKey{"default_acceleration", "default_acceleration"},
+    OrcaKey{"outer_wall_acceleration", "external_perimeter_acceleration"},
+    OrcaKey{"inner_wall_acceleration", "perimeter_acceleration"},
+    OrcaKey{"top_surface_acceleration", "top_solid_infill_acceleration"},
+    OrcaKey{"initial_layer_acceleration", "first_layer_acceleration"},
+    OrcaKey{"travel_acceleration", "travel_acceleration"},
+    OrcaKey{"skirt_loops", "skirts"},
+    OrcaKey{"skirt_distance", "skirt_distance"},
+    OrcaKey{"skirt_height", "skirt_height"},
+    OrcaKey{"spiral_mode", "spiral_vase"},
+    OrcaKey{"resolution", "gcode_resolution"},
+    OrcaKey{"printable_area", "bed_shape"},
+    OrcaKey{"printable_height", "max_print_height"},
+    OrcaKey{"nozzle_diameter", "nozzle_diameter"},
+    OrcaKey{"gcode_flavor", "gcode_flavor"},
+    OrcaKey{"machine_start_gcode", "start_gcode"},
+    OrcaKey{"machine_end_gcode", "end_gcode"},
+    OrcaKey{"extruder_clearance_radius", "extruder_clearance_radius"},
+    OrcaKey{"extruder_clearance_height_to_rod", "extruder_clearance_height"},
+    OrcaKey{"retraction_length", "retract_length"},
+    OrcaKey{"retraction_speed", "retract_speed"},
+    OrcaKey{"deretraction_speed", "deretract_speed"},
+    OrcaKey{"z_hop", "retract_lift"},
+    OrcaKey{"wipe", "wipe"},
+    OrcaKey{"filament_diameter", "filament_diameter"},
+    OrcaKey{"filament_density", "filament_density"},
+    OrcaKey{"filament_cost", "filament_cost"},
+    OrcaKey{"filament_type", "filament_type"},
+    OrcaKey{"filament_colour", "filament_colour"},
+    OrcaKey{"filament_flow_ratio", "extrusion_multiplier"},
+    OrcaKey{"filament_max_volumetric_speed", "filament_max_volumetric_speed"},
+    OrcaKey{"nozzle_temperature", "temperature"},
+    OrcaKey{"nozzle_temperature_initial_layer", "first_layer_temperature"},
+    OrcaKey{"hot_plate_temp", "bed_temperature"},
+    OrcaKey{"hot_plate_temp_initial_layer", "first_layer_bed_temperature"},
+    OrcaKey{"fan_min_speed", "min_fan_speed"},
+    OrcaKey{"fan_max_speed", "max_fan_speed"},
+    OrcaKey{"overhang_fan_speed", "bridge_fan_speed"},
+    OrcaKey{"fan_cooling_layer_time", "fan_below_layer_time"},
+    OrcaKey{"slow_down_layer_time", "slowdown_below_layer_time"},
+    OrcaKey{"slow_down_min_speed", "min_print_speed"},
+    OrcaKey{"close_fan_the_first_x_layers", "disable_fan_first_layers"},
+    OrcaKey{"enable_prime_tower", "wipe_tower"},
+    OrcaKey{"prime_tower_width", "wipe_tower_width"},
+    OrcaKey{"prime_tower_brim_width", "wipe_tower_brim_width"},
+    OrcaKey{"wipe_tower_x", "wipe_tower_x"},
+    OrcaKey{"wipe_tower_y", "wipe_tower_y"},
+    OrcaKey{"wipe_tower_rotation_angle", "wipe_tower_rotation_angle"},
+    OrcaKey{"ironing_type", "ironing_type"},
+    OrcaKey{"ironing_flow", "ironing_flowrate"},
+    OrcaKey{"ironing_spacing", "ironing_spacing"},
+    OrcaKey{"ironing_speed", "ironing_speed"},
+};
+
+/// What weft has and PrusaSlicer has not.
+struct OwnKey {
+  std::string_view theirs, ours;
+};
+constexpr std::array own_rows{
+    OwnKey{"xy_hole_compensation", "hole_xy_offset"},
+    OwnKey{"brim_object_gap", "brim_gap"},
+    OwnKey{"brim_ears_max_angle", "brim_ears_max_angle"},
+    OwnKey{"interlocking_beam", "interlocking_enable"},
+    OwnKey{"interlocking_beam_width", "interlocking_beam_width"},
+    OwnKey{"interlocking_orientation", "interlocking_orientation"},
+    OwnKey{"interlocking_beam_layer_count", "interlocking_beam_layer_count"},
+    OwnKey{"interlocking_depth", "interlocking_depth"},
+    OwnKey{"interlocking_boundary_avoidance", "interlocking_boundary_avoidance"},
+};
+
+/// Values that are a setting of weft's.
+struct OwnValue {
+  std::string_view theirs, value, ours, text;
+};
+constexpr std::array own_values{
+    OwnValue{"brim_type", "brim_ears", "brim_ears", "on"},
+    OwnValue{"brim_type", "auto_brim", "brim_narrow_width", "8"},
 };
 
 /// Values that are called otherwise; everything else is called the same.
@@ -83,6 +165,9 @@ constexpr std::array values{
     OrcaValue{"top_fill_pattern", "zig-zag", "rectilinear"},
     OrcaValue{"bottom_fill_pattern", "zig-zag", "rectilinear"},
     OrcaValue{"seam_position", "back", "rear"},
+    OrcaValue{"complete_objects", "by object", "1"},
+    OrcaValue{"complete_objects", "by layer", "0"},
+    OrcaValue{"complete_objects", "as_obj_list", "0"},
 };
 
 }  // namespace
@@ -94,6 +179,33 @@ std::optional<std::pair<std::string, std::string>> from_orca(std::string_view ke
     return v.prusaslicer == row->prusaslicer && v.theirs == value;
   });
   return std::pair(std::string(row->prusaslicer), std::string(named == values.end() ? value : named->value));
+}
+
+std::optional<std::pair<std::string, std::string>> ours_of_orca(std::string_view key, std::string_view value) {
+  for (const auto& row : own_values)
+    if (row.theirs == key && row.value == value) return std::pair(std::string(row.ours), std::string(row.text));
+  const auto row = std::find_if(own_rows.begin(), own_rows.end(), [&](const OwnKey& r) { return r.theirs == key; });
+  if (row == own_rows.end()) return std::nullopt;
+  const bool flag = row->ours.ends_with("_enable");
+  return std::pair(std::string(row->ours), std::string(!flag ? value : value == "1" ? "true" : "false"));
+}
+
+OrcaConfiguration orca_configuration(const std::vector<std::pair<std::string, std::string>>& values) {
+  OrcaConfiguration out;
+  out.ini = "# generated by PrusaSlicer\n";
+  for (const auto& [key, value] : values) {
+    if (value.empty() || value == "nil") continue;
+    if (auto ours = ours_of_orca(key, value)) {
+      out.ours.push_back(std::move(*ours));
+      continue;
+    }
+    const auto theirs = from_orca(key, value);
+    if (theirs)
+      out.ini += theirs->first + " = " + theirs->second + "\n";
+    else
+      out.left_out.push_back(key);
+  }
+  return out;
 }
 
 }  // namespace weft::prusaslicer

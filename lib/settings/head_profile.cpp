@@ -2,6 +2,7 @@
 #include "settings/head_profile.h"
 
 #include "settings/groups/machine.h"
+#include "settings/groups/plate.h"
 #include "settings/value.h"
 
 #include <algorithm>
@@ -32,6 +33,22 @@ std::vector<HeadSlab> parse_head_profile(std::string_view text) {
     if (double_area(slab.outline) < 0) std::reverse(slab.outline.begin(), slab.outline.end());
     out.push_back(std::move(slab));
   }
+  return out;
+}
+
+std::vector<HeadSlab> head_of(const PlateSettings& plate, const MachineSettings& machine) {
+  auto out = parse_head_profile(plate.machine_head_profile);
+  if (!plate.gantry_height || out.empty()) return out;
+  Box head;
+  for (const auto& slab : out) head.add(weft::box_of(slab.outline));
+  const Box bed = weft::box_of(print_surface(machine));
+  const Um wide = 2 * std::max(bed.size().x, bed.size().y);
+  Box bar = head;
+  if (plate.gantry_axis == GantryAxis::x)
+    bar.min.x = -wide, bar.max.x = wide;
+  else
+    bar.min.y = -wide, bar.max.y = wide;
+  out.push_back({*plate.gantry_height, {bar.min, {bar.max.x, bar.min.y}, bar.max, {bar.min.x, bar.max.y}}});
   return out;
 }
 

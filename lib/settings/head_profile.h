@@ -17,4 +17,11 @@ struct HeadSlab {
 /// is known of the head. @throws std::invalid_argument with one clause for what is none
 std::vector<HeadSlab> parse_head_profile(std::string_view text);
 
+struct PlateSettings;
+struct MachineSettings;
+
+/// What the head is made of: the slabs of machine_head_profile, and the bar, as wide as the bed. Empty: nothing is
+/// known of it.
+std::vector<HeadSlab> head_of(const PlateSettings& plate, const MachineSettings& machine);
+
 }  // namespace weft

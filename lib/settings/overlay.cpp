@@ -27,12 +27,13 @@ std::string_view holder_of(Scope scope) {
 }
 
 /// Groups that their stage takes once for all that is printed together, wherever their rows would let them differ.
-constexpr std::array<std::string_view, 4> taken_once{"adhesion", "travel", "cooling", "audit"};
+constexpr std::array<std::string_view, 3> taken_once{"travel", "cooling", "audit"};
 
 /// Where a value may differ in truth. Of what holds for layers as a whole an object has its own heights alone: its
 /// travels and its fan are shared with what is printed beside it.
 Scope scope_of(const CatalogueEntry& row) {
   if (row.key == "layer_height") return Scope::layer;
+  if (row.key.starts_with("z_seam_")) return row.scope;  // of the travels an object has its seams alone
   const bool once = std::find(taken_once.begin(), taken_once.end(), row.section) != taken_once.end();
   if (row.scope > Scope::tool && (once || row.scope == Scope::layer)) return Scope::plate;
   return row.scope;

@@ -86,7 +86,7 @@ std::vector<Start> Linker::choose_seams(const Prepared& layer) {
     const std::uint64_t seed = (std::uint64_t{layer.input.time.index} << 32) + s;
     const auto stack = stack_of(layer, seam);
     const auto& below = below_[stack];
-    starts.push_back(choose_seam(settings_, bead, seam.corners,
+    starts.push_back(choose_seam(seams_of(settings_, layer.input, layer.blocks[seam.block]), bead, seam.corners,
                                  {near(below.seams, bead), below.layer ? &below.layer->outline : nullptr}, seed));
     chosen[stack].push_back(starts.back().at);
   }

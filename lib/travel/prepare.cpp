@@ -120,13 +120,14 @@ void add_seams(const TravelSettings& settings, Prepared& layer) {
     auto& seam = layer.seams[s];
     const bool counter_clockwise = double_area(rings[s]) > 0;
     const bool material_left = counter_clockwise != (hole[s] != 0);
-    seam.corners = corners_of(beads_of(layer.input, layer.blocks[seam.block])[seam.bead], settings.z_seam_corner,
+    const auto& own = seams_of(settings, layer.input, layer.blocks[seam.block]);
+    seam.corners = corners_of(beads_of(layer.input, layer.blocks[seam.block])[seam.bead], own.z_seam_corner,
                               material_left, corners_kept);
-    if (settings.z_seam_visibility_weight == 0 || settings.z_seam_type == SeamType::random ||
-        settings.z_seam_type == SeamType::shortest)
+    if (own.z_seam_visibility_weight == 0 || own.z_seam_type == SeamType::random ||
+        own.z_seam_type == SeamType::shortest)
       continue;
     // A corner so much blunter than the best cannot be hidden enough to win: its rays are spared.
-    const double decides = 2 * settings.z_seam_visibility_weight / std::max(0.01, settings.z_seam_corner_weight);
+    const double decides = 2 * own.z_seam_visibility_weight / std::max(0.01, own.z_seam_corner_weight);
     const auto worth = std::find_if(seam.corners.begin(), seam.corners.end(), [&](const Corner& c) {
       return static_cast<double>(c.strength) < static_cast<double>(seam.corners.front().strength) - decides;
     });

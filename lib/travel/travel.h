@@ -27,15 +27,16 @@ class BlockChain;
 /// One copy of one object on one layer, in plate coordinates.
 struct ObjectLayer {
   ObjectId object = 0;
-  std::uint32_t stack = 0;  ///< its seams line up with those of the same stack (model/sequence.h)
-  Um height = 0;            ///< of its layer; 0: as high as the others
-  Beads beads;              ///< walls first, of each part in the order they are to be printed; then fills
-  Regions outline;          ///< of the slice; index = Bead::part
-  Regions skin;             ///< all solid fill: what combing = noskin keeps off
-  Regions top;              ///< what will be seen from above: what combing = no_outer_surfaces keeps off
-  Regions sparse;           ///< sparse infill: what combing = infill keeps to
-  Regions over_air;         ///< where nothing lies below
-  bool support = false;     ///< it stands under the object of that number, and is printed before it
+  std::uint32_t stack = 0;                ///< its seams line up with those of the same stack (model/sequence.h)
+  Um height = 0;                          ///< of its layer; 0: as high as the others
+  Beads beads;                            ///< walls first, of each part in the order they are to be printed; then fills
+  Regions outline;                        ///< of the slice; index = Bead::part
+  Regions skin;                           ///< all solid fill: what combing = noskin keeps off
+  Regions top;                            ///< what will be seen from above: what combing = no_outer_surfaces keeps off
+  Regions sparse;                         ///< sparse infill: what combing = infill keeps to
+  Regions over_air;                       ///< where nothing lies below
+  bool support = false;                   ///< it stands under the object of that number, and is printed before it
+  const TravelSettings* seams = nullptr;  ///< what it has of its own for its seams; null: as everything has it
 };
 
 /// Which areas of an ObjectLayer are read with these settings; the others may be left empty.
@@ -83,6 +84,12 @@ struct Prepared {
   Comb free;                       ///< where the nozzle may go at all; empty: wherever a straight way may lead
   Comb around;  ///< the same less what travels go round, and what is to be kept from it; empty: it is passed over
 };
+
+/// What the seams of a block go by.
+inline const TravelSettings& seams_of(const TravelSettings& all, const LayerInput& layer, const Block& block) {
+  const bool own = block.object != Block::adhesion && layer.objects[block.object].seams != nullptr;
+  return own ? *layer.objects[block.object].seams : all;
+}
 
 /// What the layers have agreed on.
 struct Linked {

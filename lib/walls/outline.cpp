@@ -6,6 +6,7 @@
 #include "model/flow.h"
 
 #include <algorithm>
+#include <numbers>
 
 namespace weft::walls {
 namespace {
@@ -42,6 +43,24 @@ Regions lost(const Region& part, const Regions& moved, Um by) {
   return geometry::subtract({part}, geometry::offset(moved, {.by = by + lattice, .miter_limit = miter}));
 }
 
+/// Each hole by the share of hole_xy_offset that its size leaves: all of it for the smallest, none from
+/// hole_xy_offset_max_diameter on, even by the area between.
+Regions widened_by_size(const WallSettings& settings, const Regions& holes) {
+  const double most = to_mm(*settings.hole_xy_offset_max_diameter), most_mm2 = std::numbers::pi / 4 * most * most;
+  Regions out;
+  for (const Region& hole : holes) {
+    const double share = std::max(0.0, 1 - area_mm2(hole) / most_mm2);
+    const Um by = rounded(share * settings.hole_xy_offset) - settings.xy_offset;
+    if (by == 0) {
+      out.push_back(hole);
+      continue;
+    }
+    const auto widened = geometry::offset({hole}, {.by = by});
+    out.insert(out.end(), widened.begin(), widened.end());
+  }
+  return out;
+}
+
 }  // namespace
 
 Regions offset_outlines(const WallSettings& settings, const Regions& regions) {
@@ -54,7 +73,10 @@ Regions offset_outlines(const WallSettings& settings, const Regions& regions) {
     for (const Ring& hole : region.holes) holes.push_back({Ring(hole.rbegin(), hole.rend()), {}});
   }
   if (by != 0) solid = geometry::offset(solid, {.by = by});
-  if (holes_by != 0) holes = geometry::offset(holes, {.by = holes_by});
+  if (settings.hole_xy_offset_max_diameter && settings.hole_xy_offset != 0)
+    holes = widened_by_size(settings, holes);
+  else if (holes_by != 0)
+    holes = geometry::offset(holes, {.by = holes_by});
   return geometry::subtract(solid, holes);
 }
 

@@ -197,6 +197,60 @@ TEST_CASE("adhesion: what leaves the print surface is kept, or cut with a notice
   CHECK(build(s, middle, 1, &surface).notices.empty());
 }
 
+TEST_CASE("adhesion: a brim where the foot is narrow holds fins, not blocks", "[adhesion]") {
+  AdhesionSettings s;
+  s.skirt_line_count = 0;
+  s.brim_width = 4000, s.brim_narrow_width = 8000;
+  const Regions block{rectangle(0, 0, 40000, 40000)};
+  CHECK(build(s, block).layers[0].empty());
+  // A fin of 3 mm that stands out 25 mm from a block.
+  const Regions fin{
+      {{{0, 0}, {40000, 0}, {40000, 18000}, {65000, 18000}, {65000, 21000}, {40000, 21000}, {40000, 40000}, {0, 40000}},
+       {}}};
+  const auto brim = build(s, fin);
+  REQUIRE_FALSE(brim.layers[0].empty());
+  double length = 0;
+  for (const Bead& bead : brim.layers[0]) {
+    length += length_mm(bead);
+    for (const Junction& j : bead.path) CHECK(j.at.x > 40000 - 4100);
+  }
+  s.brim_narrow_width = 0;
+  double all = 0;
+  const auto whole = build(s, fin);
+  for (const Bead& bead : whole.layers[0]) all += length_mm(bead);
+  CHECK(length > 0.15 * all);
+  CHECK(length < 0.5 * all);
+}
+
+TEST_CASE("adhesion: feet have brims of their own, which keep off each other and off what stands there", "[adhesion]") {
+  AdhesionSettings none;
+  none.skirt_line_count = 0, none.brim_width = 0;
+  auto wide = none, narrow = none;
+  wide.brim_width = 6000, narrow.brim_width = 2000, narrow.brim_gap = 500;
+  const Regions a{rectangle(0, 0, 10000, 10000)}, b{rectangle(14000, 0, 24000, 10000)},
+      c{rectangle(28000, 0, 38000, 10000)};
+  Regions all = a;
+  all.insert(all.end(), b.begin(), b.end()), all.insert(all.end(), c.begin(), c.end());
+  const std::vector<PlateLayer> plate{{all, 200}};
+  const std::vector<adhesion::Foot> feet{{a, wide}, {b, narrow}, {c, none}};
+  const auto built = adhesion::build(none, {plate, 400, nullptr, feet});
+  REQUIRE(built.layers.size() == 1);
+  for (const Bead& bead : built.layers[0]) {
+    for (std::size_t i = 0; i + 1 < bead.path.size(); ++i) {
+      const Point p = bead.path[i].at;
+      for (const auto& region : all) CHECK(side_of(region.outer, p) == Side::outside);
+      CHECK(p.x < 28000);  // none at c
+    }
+  }
+  const auto reaches = [&](Um x) {
+    return std::any_of(built.layers[0].begin(), built.layers[0].end(), [&](const Bead& bead) {
+      return std::any_of(bead.path.begin(), bead.path.end(), [&](const Junction& j) { return j.at.x < x; });
+    });
+  };
+  CHECK(reaches(-5000));  // the wide one
+  CHECK_FALSE(reaches(-6000));
+}
+
 TEST_CASE("adhesion: nothing to print, nothing around it", "[adhesion]") {
   AdhesionSettings s;
   s.brim_width = 4000;

@@ -103,7 +103,7 @@ TEST_CASE("weft slice: --place puts an object there, turned, and the others besi
   CHECK(boxes.slice({"base.stl", "--place", "base=195"}).status == 2);
   CHECK_THAT(boxes.slice({"base.stl", "--place", "top=5,5"}).err, Contains("no object and no part is called 'top'"));
   CHECK_THAT(boxes.slice({"base.stl", "--place", "base=50,50", "--copies", "base=2"}).err,
-             Contains("'base' is to stand in one place, 2 times"));
+             Contains("'base' is to stand in 1 place, 2 times"));
 }
 
 TEST_CASE("weft slice: --copies NAME=N copies one model, N all others") {
@@ -243,4 +243,142 @@ TEST_CASE("objects: a skirt goes around one whose first layer is thicker, too") 
   const auto report =
       boxes.sliced({"base.stl", "lid.stl", "--for", "lid", "layer_height=0.3", "-s", "skirt_line_count=1"});
   CHECK(report["features"]["skirt"]["mm"].get<double>() > 2 * 46 + 2 * 20);  // mm: both stand beside each other
+}
+
+TEST_CASE("weft slice: --place said twice prints two copies, each turned as it is told") {
+  const Boxes boxes;
+  boxes.scratch.write("bar.stl", box_stl(40, 10, 2));
+  const auto report = boxes.sliced({"bar.stl", "--place", "bar=50,50", "--place", "bar=50,120,90"});
+  REQUIRE(report["objects"].size() == 2);
+  CHECK(report["objects"][0]["size"] == json{40.0, 10.0});
+  CHECK(report["objects"][1]["size"] == json{10.0, 40.0});
+  CHECK(report["objects"][1]["at"] == json{50.0, 120.0});
+  boxes.check_verified();
+}
+
+TEST_CASE("weft slice: --plates prints all, a file a plate, and says what is where") {
+  const Boxes boxes;
+  boxes.scratch.write("big.stl", box_stl(60, 60, 1));
+  const auto run = boxes.slice({"big.stl", "base.stl", "--copies", "big=11", "--copies", "base=4", "--plates",
+                                "--spacing", "4", "-s", "skirt_line_count=0"});
+  INFO(run.err);
+  REQUIRE(run.status == 0);
+  CHECK_FALSE(boxes.scratch.has("out.gcode"));
+  std::size_t big = 0, base = 0;
+  for (int plate = 1; plate <= 2; ++plate) {
+    const auto name = "out_plate_" + std::to_string(plate) + ".gcode";
+    const auto gcode = boxes.scratch.read(name);
+    big += count_of(gcode, "EXCLUDE_OBJECT_DEFINE NAME=big");
+    base += count_of(gcode, "EXCLUDE_OBJECT_DEFINE NAME=base");
+    const auto report = json::parse(boxes.scratch.read("report_plate_" + std::to_string(plate) + ".json"));
+    CHECK(report["plate"] == plate);
+    REQUIRE(report["plates"].size() == 2);
+    CHECK(report["plates"][0][0] == json{{"file", "big.stl"}, {"copies", 9}});
+    const auto verified = weft({"verify", name, "-q"}, boxes.scratch.path());
+    INFO(verified.err);
+    CHECK(verified.status == 0);
+  }
+  CHECK(big == 11);
+  CHECK(base == 4);
+  CHECK_FALSE(boxes.scratch.has("out_plate_3.gcode"));
+  boxes.sliced({"big.stl", "--plates"});  // one is enough
+  CHECK(boxes.scratch.has("out.gcode"));
+  boxes.scratch.write("huge.stl", box_stl(210, 20, 1));
+  const auto never = boxes.slice({"huge.stl", "--plates", "--turn", "0"});
+  CHECK(never.status == 5);
+  CHECK_THAT(never.err, Contains("huge.stl: there is no room for it; it does not fit on an empty bed"));
+  CHECK(boxes.slice({"big.stl", "--plates", "--fill"}).status == 2);
+  CHECK(
+      weft({"slice", "big.stl", "--copies", "11", "--plates", "-p", "p.ini", "-o", "-"}, boxes.scratch.path()).status ==
+      2);
+}
+
+TEST_CASE("weft slice: what has room only when it is turned is turned, unless it is to be kept") {
+  const Boxes boxes;
+  boxes.scratch.write("bar.stl", box_stl(190, 15, 1));
+  boxes.scratch.write("narrow.ini",
+                      "machine_width = 60\nmachine_depth = 200\nhome_position = 0x0\n"
+                      "machine_start_gcode = G28\nskirt_line_count = 0\n");
+  const auto slice = [&](const char* degrees) {
+    return weft({"slice", "bar.stl", "--arrange", "--copies", "2", "--turn", degrees, "-p", "narrow.ini", "-o",
+                 "out.gcode", "-q"},
+                boxes.scratch.path());
+  };
+  CHECK(slice("90").status == 0);
+  boxes.check_verified();
+  CHECK(slice("0").status == 5);
+}
+
+TEST_CASE("weft batch: a queue of parts becomes a job a plate") {
+  const Boxes boxes;
+  boxes.scratch.write("big.stl", box_stl(60, 60, 1));
+  boxes.scratch.write("jobs.jsonl",
+                      R"({"id": "night", "profile": "p.ini", "set": {"skirt_line_count": 0}, "spacing": 4, "fill": )"
+                      R"([{"file": "big.stl", "copies": 11}, {"file": "lid.stl", "copies": 2, )"
+                      R"("set": {"infill_sparse_density": 70}}]})"
+                      "\n");
+  const auto run = weft({"batch", "jobs.jsonl", "-o", "out", "-q"}, boxes.scratch.path());
+  INFO(run.err);
+  REQUIRE(run.status == 0);
+  const auto first = boxes.scratch.read("out/night_plate_1.gcode"),
+             second = boxes.scratch.read("out/night_plate_2.gcode");
+  CHECK(count_of(first, "EXCLUDE_OBJECT_DEFINE NAME=big") + count_of(second, "EXCLUDE_OBJECT_DEFINE NAME=big") == 11);
+  CHECK(count_of(first, "EXCLUDE_OBJECT_DEFINE NAME=lid") + count_of(second, "EXCLUDE_OBJECT_DEFINE NAME=lid") == 2);
+  const auto report = boxes.scratch.read("out/report.jsonl");
+  CHECK_THAT(report, Contains("\"night_plate_1\"") && Contains("\"night_plate_2\""));
+  const auto again = weft({"batch", "jobs.jsonl", "-o", "out"}, boxes.scratch.path());
+  CHECK_THAT(again.err, Contains("2 unchanged"));
+}
+
+TEST_CASE("weft slice: objects have brims and seams of their own") {
+  const Boxes boxes;
+  const std::vector<std::string> two{"base.stl", "lid.stl", "--spacing", "20", "-s", "skirt_line_count=0"};
+  auto words = two;
+  words.insert(words.end(), {"--for", "lid", "brim_width=5"});
+  const double one = boxes.sliced(words)["features"]["brim"]["mm3"];
+  words = two;
+  words.insert(words.end(), {"-s", "brim_width=5"});
+  const double both = boxes.sliced(words)["features"]["brim"]["mm3"];
+  CHECK(one == Approx(both / 2).epsilon(0.01));
+  words.insert(words.end(), {"--for", "lid", "brim_width=0"});
+  CHECK(boxes.sliced(words)["features"]["brim"]["mm3"].get<double>() == Approx(both / 2).epsilon(0.01));
+  words = two;
+  words.insert(words.end(), {"-s", "brim_width=5", "-s", "brim_ears=on"});
+  const double ears = boxes.sliced(words)["features"]["brim"]["mm3"];
+  CHECK(ears > 0.1 * both);
+  CHECK(ears < 0.7 * both);
+  boxes.sliced(two);
+  const auto plain = boxes.gcode();
+  words = two;
+  words.insert(words.end(), {"--for", "lid", "z_seam_type=random"});
+  boxes.sliced(words);
+  CHECK(boxes.gcode() != plain);
+}
+
+TEST_CASE("weft slice: parts of two filaments are woven into each other where they touch") {
+  const Boxes boxes;
+  boxes.scratch.write("two.ini", boxes.scratch.read("p.ini") +
+                                     "tool_nozzles = 0,1\nextruders_enabled_count = 2\nskirt_line_count = 0\n"
+                                     "prime_tower_enable = false\n");
+  boxes.scratch.write("left.stl", box_stl(20, 20, 12));
+  const auto run = [&](const std::string& on) {
+    return weft({"slice", "left.stl", "--modifier", "box:10,0,0,21,21,12", "extruder_nr=1", "-p", "two.ini", "-s",
+                 "interlocking_enable=" + on, "-o", on + ".gcode", "-q"},
+                boxes.scratch.path());
+  };
+  REQUIRE(run("false").status == 0);
+  REQUIRE(run("true").status == 0);
+  CHECK(5 * boxes.scratch.read("true.gcode").size() > 6 * boxes.scratch.read("false.gcode").size());
+}
+
+TEST_CASE("weft slice: the audit knows the head, and refuses end G-code that leads it into the print") {
+  const Boxes boxes;
+  const std::vector<std::string> words{
+      "base.stl", "-s", "machine_head_profile=0: -10x-10, 10x-10, 10x10, -10x10; 12: -30x-25, 45x-25, 45x60, -30x60"};
+  CHECK(boxes.slice(words).status == 0);
+  auto low = words;
+  low.insert(low.end(), {"-s", "machine_end_gcode=G1 Z1 F600\\nG1 X100 Y100 F3000"});
+  const auto run = boxes.slice(low);
+  CHECK(run.status == 5);
+  CHECK_THAT(run.err, Contains("into what is printed") && Contains("machine_end_gcode"));
 }

@@ -32,7 +32,7 @@ MachineSettings machine_for(std::uint8_t choice) {
 }
 
 audit::Report in_pieces(const MachineSettings& machine, std::string_view text, std::size_t piece) {
-  audit::Auditor auditor(machine, {}, {}, false);
+  audit::Auditor auditor(machine, {}, {}, {}, false);
   for (std::size_t i = 0; i < text.size(); i += piece) {
     const std::string own(text.substr(i, piece));  // so that reading past a piece is seen
     auditor.feed(own);

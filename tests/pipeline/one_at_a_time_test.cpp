@@ -90,7 +90,7 @@ TEST_CASE("one at a time: an order is found exactly when brute force finds one")
                        {number(5, 20) * 1_mm / 2 * 2, number(5, 20) * 1_mm / 2 * 2},
                        number(3, 45) * 1_mm});
     const Set set(boxes);
-    const auto may = may_follow(set.copies, head, 0);
+    const auto may = may_follow(set.copies, head);
     for (std::size_t i = 0; i < count; ++i)
       for (std::size_t j = 0; j < count; ++j) {
         const bool hit =

@@ -207,12 +207,17 @@ TEST_CASE(
   right = {.what = "volume 'right'", .scope = Scope::region};
   right.add("infill_sparse_density", "100", "one.3mf");
   right.add("wall_line_count", "1", "one.3mf");
+  const auto together = printed(job, {{parts}});
+  // One wall around both; the others are the earlier one's alone.
+  const auto outer_of = [](const Outcome& out) { return length_of(out.text, "External perimeter", 0, 0.21)["one"]; };
+  CHECK(outer_of(together) == Approx(outer_of(as_whole)).margin(0.1));
+  CHECK(length_of(together.text, "Perimeter", 0, 0.21)["one"] < length_of(as_whole.text, "Perimeter", 0, 0.21)["one"]);
+  CHECK(together.report.filament_mm3 > as_whole.report.filament_mm3);
+
+  right.add("wall_line_width_0", "0.6", "one.3mf");
   const auto apart = printed(job, {{parts}});
-  // Either is outlined: 10 × 10 twice instead of 20 × 10 once, and the later one's walls are single.
-  const auto outer = length_of(apart.text, "External perimeter", 0, 0.21)["one"];
-  CHECK(outer > length_of(as_whole.text, "External perimeter", 0, 0.21)["one"] + 15);
-  CHECK(length_of(apart.text, "Perimeter", 0, 0.21)["one"] < length_of(as_whole.text, "Perimeter", 0, 0.21)["one"]);
-  CHECK(apart.report.filament_mm3 > as_whole.report.filament_mm3);
+  // Either is outlined: 10 × 10 twice instead of 20 × 10 once.
+  CHECK(outer_of(apart) > outer_of(as_whole) + 15);
 }
 
 TEST_CASE("plate: a stage is made again only where it is handed other settings") {

@@ -6,6 +6,8 @@
 #include "pipeline/pipeline.h"
 #include "pipeline/project.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -280,6 +282,32 @@ TEST_CASE("project: one of Cura has objects with settings, and meshes that chang
                           "which files of this machine are read"));
 }
 
+TEST_CASE("project: Cura's support mesh is printed though support is off, and what meets nothing is told") {
+  const Folder folder;
+  const auto says = [](const std::string& key) {
+    return "<metadatagroup><metadata name=\"cura:" + key + "\" type=\"xs:string\">True</metadata></metadatagroup>";
+  };
+  const auto of = [&](int id, const std::string& name, const std::string& more, const Pieces& pieces) {
+    return "<object id=\"" + std::to_string(id) + "\" name=\"" + name + "\" type=\"model\">" + more + mesh_of(pieces) +
+           "</object>";
+  };
+  const Pieces gate{
+      {"", "", {-15, -5, 0}, {-10, 5, 8}}, {"", "", {10, -5, 0}, {15, 5, 8}}, {"", "", {-15, -5, 8}, {15, 5, 10}}};
+  const Pieces prop{{"", "", {-3, -3, 0}, {3, 3, 7}}};
+  const auto sliced = [&](const std::string& kind, const std::string& at) {
+    const auto items = "<item objectid=\"1\"/><item objectid=\"2\" transform=\"1 0 0 0 1 0 0 0 1 " + at + "\"/>";
+    return printed(plain_job(folder.write(
+        "s.3mf", fixtures::three_mf(model(of(1, "gate", "", gate) + of(2, "prop", says(kind), prop), items)))));
+  };
+  CHECK(sliced("support_mesh", "0 0 0").text.find(";TYPE:Support") != std::string::npos);
+  CHECK(sliced("anti_overhang_mesh", "0 0 0").text.find(";TYPE:Support") == std::string::npos);
+  const auto apart = sliced("support_mesh", "60 0 0");
+  CHECK(apart.text.find(";TYPE:Support") == std::string::npos);
+  CHECK(std::any_of(apart.report.warnings.begin(), apart.report.warnings.end(), [](const auto& warning) {
+    return warning.message.find("'prop' changes other models where it meets them: it meets none") != std::string::npos;
+  }));
+}
+
 TEST_CASE("project: a negative volume cuts the parts before it and no other") {
   const Folder folder;
   auto first = body, second = body;
@@ -295,6 +323,52 @@ TEST_CASE("project: a negative volume cuts the parts before it and no other") {
                behind = solid({first, second, cut});
   CHECK(whole - between == Approx(5 * 10 * 6).epsilon(0.1));  // half of it lies in the first
   CHECK(whole - behind == Approx(10 * 10 * 6).epsilon(0.1));
+}
+
+TEST_CASE("project: copies of an object are sliced once, and what is not read is told by name") {
+  const Folder folder;
+  const std::string resources = "<object id=\"1\" name=\"a\" type=\"model\">" + mesh_of({body}) + "</object>";
+  const auto item = [](const std::string& at) {
+    return "<item objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 " + at + " 0\"/>";
+  };
+  const auto file = folder.write(
+      "c.3mf", fixtures::three_mf(model(resources, item("20 20") + item("80.0000004 20") + item("20 80")),
+                                  {{"Metadata/Secret_plans.xml", "<plans/>"}, {"Metadata/thumbnail.png", "x"}}));
+  const auto out = printed(plain_job(file));
+  CHECK(out.report.objects.size() == 3);
+  bool told = false, pictures = false;
+  for (const auto& notice : out.report.warnings) {
+    told = told || notice.message.find("Metadata/Secret_plans.xml is not read") != std::string::npos;
+    pictures = pictures || notice.message.find("thumbnail") != std::string::npos;
+  }
+  CHECK(told);
+  CHECK_FALSE(pictures);
+}
+
+TEST_CASE("project: OrcaSlicer's own configuration holds where no profile is named") {
+  const Folder folder;
+  const auto file =
+      folder.write("o.3mf", of_orca({body}, {},
+                                    {{"Metadata/project_settings.config",
+                                      R"({"layer_height": "0.24", "wall_loops": "4", "sparse_infill_density": "35%",
+                             "nozzle_temperature": ["221"], "printable_area": ["0x0", "180x0", "180x180", "0x180"],
+                             "machine_start_gcode": "G28\nG1 Z5", "brim_type": "brim_ears", "brim_width": "6",
+                             "some_new_thing": "1"})"}}));
+  Profile alone, with_profile;
+  apply_project(alone, {file}, true, 0);
+  apply_project(with_profile, {file}, false, 0);
+  const auto& s = alone.settings;
+  CHECK(s.layers.layer_height == 240);
+  CHECK(s.walls.wall_line_count == 4);
+  CHECK(s.infill.infill_sparse_density == 35);
+  CHECK(s.material.material_print_temperature == 221);
+  CHECK(box_of(print_surface(s.machine)).size() == Point{180_mm, 180_mm});
+  CHECK(s.gcode.machine_start_gcode == "G28\nG1 Z5");
+  CHECK(s.adhesion.brim_ears);
+  CHECK(with_profile.settings.layers.layer_height == 200);
+  std::string told;
+  for (const auto& notice : alone.notices) told += notice.message + "\n";
+  CHECK_THAT(told, Contains("some_new_thing") && Contains("the project's own settings hold"));
 }
 
 TEST_CASE("project: what weft does not know or cannot have there is left out and told by name") {

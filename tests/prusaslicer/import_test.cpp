@@ -247,11 +247,11 @@ TEST_CASE("prusaslicer: filament G-code is laid between the printer's and the pr
 
 TEST_CASE("prusaslicer: what has no effect is listed when it would change the print, and only then") {
   const auto t = translated(
-      "interlocking_beam = 1\nextra_perimeters_on_overhangs = 0\navoid_crossing_curled_overhangs = 1\nperimeters = "
+      "over_bridge_speed = 30\nextra_perimeters_on_overhangs = 0\navoid_crossing_curled_overhangs = 1\nperimeters = "
       "2\nprinter_notes = mine\nno_such_key = "
       "1\nfilament_retract_length = nil\n");
   REQUIRE(t.unsupported.size() == 2);
-  CHECK(t.unsupported[0].key == "interlocking_beam");
+  CHECK(t.unsupported[0].key == "over_bridge_speed");
   CHECK(t.unsupported[1].key == "avoid_crossing_curled_overhangs");
   REQUIRE(t.unknown.size() == 1);
   CHECK(t.unknown[0].line == 6);

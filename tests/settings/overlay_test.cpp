@@ -50,13 +50,15 @@ TEST_CASE("overlay: a value where it may not differ is refused, and the message 
   CHECK_THAT(refused(of_object(), "machine_width", "100"), Contains("machine_width holds for the whole machine"));
   CHECK_THAT(refused(of_object(), "retraction_amount", "1"), Contains("retraction_amount holds for a whole tool"));
   const Overlay range{.what = "height range 1 … 2", .scope = Scope::layer};
-  CHECK_THAT(refused(range, "xy_offset", "0.1"), Contains("height range 1 … 2: xy_offset holds for a whole object"));
+  CHECK_THAT(refused(range, "slicing_mode", "even_odd"),
+             Contains("height range 1 … 2: slicing_mode holds for a whole object"));
   const Overlay modifier{.what = "modifier 'grip'", .scope = Scope::region};
   CHECK_THAT(refused(modifier, "layer_height", "0.1"), Contains("layer_height holds for a whole layer"));
   const Overlay tool{.what = "tool 1", .scope = Scope::tool};
   CHECK_THAT(refused(tool, "layer_height", "0.3"), Contains("tool 1: layer_height holds for a whole layer"));
   CHECK_THAT(refused(tool, "slicing_mode", "even_odd"), Contains("tool 1: slicing_mode holds for a whole object"));
-  CHECK_THAT(refused(of_object(), "z_seam_type", "random"), Contains("z_seam_type holds for the whole plate"));
+  CHECK_THAT(refused(of_object(), "infill_before_walls", "true"),
+             Contains("infill_before_walls holds for the whole plate"));
   CHECK_THAT(refused(of_object(), "speed_travel", "100"), Contains("speed_travel holds for the whole plate"));
   CHECK_THAT(refused(of_object(), "wall_line_cont", "1"), Contains("did you mean 'wall_line_count'"));
   CHECK_THAT(refused(of_object(), "wall_line_count", "-1"), Contains("wall_line_count: -1 is outside"));

@@ -43,6 +43,7 @@ struct AdhesionSettings {
   BrimLocation brim_location = BrimLocation::outside;
   bool brim_ears = false;
   double brim_ears_max_angle = 125;
+  Um brim_narrow_width = 0_mm;
   std::optional<LengthOrShare> skirt_brim_line_width;
   AdhesionOutside adhesion_outside = AdhesionOutside::keep;
 };
@@ -69,6 +70,8 @@ inline constexpr Rows adhesion_schema{
             "nothing elsewhere."),
     setting("brim_ears_max_angle", Scope::object, &AdhesionSettings::brim_ears_max_angle, Unit::degrees, 0, 180,
             "What is sharper than this is a tip, rounded or not."),
+    setting("brim_narrow_width", Scope::object, &AdhesionSettings::brim_narrow_width, Unit::mm, 0_mm, 200_mm,
+            "The brim is only where the foot of the part is narrower than this; 0: everywhere."),
     setting("skirt_brim_line_width", Scope::plate, &AdhesionSettings::skirt_brim_line_width, Unit::mm, 0.05_mm, 5_mm,
             "Line width of skirt and brim; auto keeps the cross-section of the nozzle; a share is of nozzle_diameter."),
     setting("adhesion_outside", Scope::plate, &AdhesionSettings::adhesion_outside,

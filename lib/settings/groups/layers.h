@@ -34,6 +34,12 @@ struct LayerSettings {
   SlicingMode slicing_mode = SlicingMode::regular;
   bool magic_spiralize = false;
   bool smooth_spiralized_contours = true;
+  bool interlocking_enable = false;
+  Um interlocking_beam_width = 0.8_mm;
+  double interlocking_orientation = 22.5;
+  int interlocking_beam_layer_count = 2;
+  int interlocking_depth = 2;
+  int interlocking_boundary_avoidance = 2;
   double spiral_smoothing = 200;
   double spiral_start_flow = 0;
   double spiral_finish_flow = 0;
@@ -75,6 +81,19 @@ inline constexpr Rows layer_schema{
             "Above its bottom layers the object is one wall that rises without an end, and without a seam: a vase."),
     setting("smooth_spiralized_contours", Scope::plate, &LayerSettings::smooth_spiralized_contours,
             "Each turn of a vase passes over into the next along all of its way; off: at its end."),
+    setting("interlocking_enable", Scope::object, &LayerSettings::interlocking_enable,
+            "Where parts of one object that are printed with different tools touch, beams of one are woven into the "
+            "other."),
+    setting("interlocking_beam_width", Scope::object, &LayerSettings::interlocking_beam_width, Unit::mm, 0.1_mm, 20_mm,
+            "Width of such a beam."),
+    setting("interlocking_orientation", Scope::object, &LayerSettings::interlocking_orientation, Unit::degrees, 0, 360,
+            "Direction of the beams; every other set of layers has them across."),
+    setting("interlocking_beam_layer_count", Scope::object, &LayerSettings::interlocking_beam_layer_count, Unit::layers,
+            1, 100, "Layers that have their beams in one direction."),
+    setting("interlocking_depth", Scope::object, &LayerSettings::interlocking_depth, Unit::none, 1, 50,
+            "How far beams reach into the other part, in widths of a beam."),
+    setting("interlocking_boundary_avoidance", Scope::object, &LayerSettings::interlocking_boundary_avoidance,
+            Unit::none, 0, 50, "How far beams keep off what is seen from outside, in widths of a beam."),
     setting("spiral_smoothing", Scope::plate, &LayerSettings::spiral_smoothing, Unit::percent, 0, 1000,
             "How far apart, in widths of their wall, turns of a vase may be that pass over into each other: what is "
             "further apart is a step of the model."),

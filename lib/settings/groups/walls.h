@@ -101,6 +101,7 @@ struct WallSettings {
   Um xy_offset = 0_mm;
   Um xy_offset_layer_0 = 0_mm;
   Um hole_xy_offset = 0_mm;
+  std::optional<Um> hole_xy_offset_max_diameter;
 };
 
 inline constexpr Rows wall_schema{
@@ -185,12 +186,17 @@ inline constexpr Rows wall_schema{
             "How often half as large ones, half as high, are laid over them; not over plates."),
     setting("fuzzy_skin_seed", Scope::region, &WallSettings::fuzzy_skin_seed, Unit::none, 0, 1000000,
             "Another number gives other rough walls."),
-    setting("xy_offset", Scope::object, &WallSettings::xy_offset, Unit::mm, -10_mm, 10_mm,
+    setting("xy_offset", Scope::region, &WallSettings::xy_offset, Unit::mm, -10_mm, 10_mm,
             "Moves all outlines outwards (a negative value inwards)."),
-    setting("xy_offset_layer_0", Scope::object, &WallSettings::xy_offset_layer_0, Unit::mm, -10_mm, 10_mm,
+    setting("xy_offset_layer_0", Scope::region, &WallSettings::xy_offset_layer_0, Unit::mm, -10_mm, 10_mm,
             "Moves the outlines of the first layer further outwards; negative against an elephant foot."),
-    setting("hole_xy_offset", Scope::object, &WallSettings::hole_xy_offset, Unit::mm, -10_mm, 10_mm,
+    setting("hole_xy_offset", Scope::region, &WallSettings::hole_xy_offset, Unit::mm, -10_mm, 10_mm,
             "Widens holes (a negative value narrows them), besides xy_offset."),
+    setting(
+        "hole_xy_offset_max_diameter", Scope::region, &WallSettings::hole_xy_offset_max_diameter, Unit::mm, 0.1_mm,
+        1000_mm,
+        "Small holes shrink most: hole_xy_offset holds less the larger a hole is, and not at all from this diameter "
+        "on; auto: it holds for all holes."),
 };
 static_assert(complete<WallSettings>(wall_schema));
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/nest.h"
+#include "plate/nest.h"
 
 #include "cuboid.h"
 #include "geometry/boolean.h"
 #include "geometry/offset.h"
+#include "plate/silhouette.h"
 
 #include <cmath>
 #include <random>
@@ -12,7 +13,7 @@
 
 using namespace weft;
 using namespace weft::literals;
-using namespace weft::pipeline;
+using namespace weft::plate;
 
 namespace {
 
@@ -31,16 +32,23 @@ Regions disc(Um radius) {
         {rounded(radius * std::cos(i * 6.283185307 / 48)), rounded(radius * std::sin(i * 6.283185307 / 48))});
   return {out};
 }
+/// By quarters, counter-clockwise.
+Regions turned(Regions outline, int quarters) {
+  for (; quarters > 0; --quarters)
+    for (auto& region : outline)
+      for (Point& p : region.outer) p = {-p.y, p.x};
+  return outline;
+}
 Ring square_bed(Um side) {
   return {{0, 0}, {side, 0}, {side, side}, {0, side}};
 }
 
 /// Every two are as far apart as they are to be, and all lie on the surface and off what is kept out.
 void check_apart(const std::vector<NestKind>& kinds, const NestBed& bed,
-                 const std::vector<std::vector<Point>>& places) {
+                 const std::vector<std::vector<Nested>>& places) {
   std::vector<Regions> standing;
   for (std::size_t k = 0; k < kinds.size(); ++k)
-    for (const Point at : places[k]) standing.push_back(moved(kinds[k].outline, at));
+    for (const auto& [at, turn] : places[k]) standing.push_back(moved(kinds[k].outlines[turn], at));
   constexpr Um rounding = 5;
   for (std::size_t i = 0; i < standing.size(); ++i) {
     CHECK(geometry::subtract(
@@ -70,10 +78,10 @@ TEST_CASE("nest: what is placed is apart, on the surface and off what is kept ou
     std::vector<NestKind> kinds;
     for (int i = number(1, 4); i > 0; --i) {
       const int which = number(0, 2);
-      kinds.push_back({which == 0   ? rectangle(number(8, 30) * 1_mm, number(8, 30) * 1_mm)
-                       : which == 1 ? angle(number(12, 40) * 1_mm)
-                                    : disc(number(5, 15) * 1_mm),
-                       static_cast<std::size_t>(number(1, 5))});
+      const auto outline = which == 0   ? rectangle(number(8, 30) * 1_mm, number(8, 30) * 1_mm)
+                           : which == 1 ? angle(number(12, 40) * 1_mm)
+                                        : disc(number(5, 15) * 1_mm);
+      kinds.push_back({{outline, turned(outline, 1), turned(outline, 2)}, static_cast<std::size_t>(number(1, 5))});
     }
     NestBed bed{square_bed(200_mm), {}, {100_mm, 100_mm}, number(1, 6) * 1_mm, number(0, 3) * 1_mm};
     if (run % 2 == 0) bed.keep_out.push_back({{90_mm, 90_mm}, {120_mm, 90_mm}, {120_mm, 130_mm}, {90_mm, 130_mm}});
@@ -89,7 +97,7 @@ TEST_CASE("nest: what is placed is apart, on the surface and off what is kept ou
 TEST_CASE("nest: as many as there is room for, and more than in rows of boxes") {
   const NestBed bed{square_bed(200_mm), {}, {100_mm, 100_mm}, 2_mm, 0};
   const auto count = [&](const Regions& outline) {
-    const std::vector<NestKind> kinds{{outline, 0}};
+    const std::vector<NestKind> kinds{{{outline}, 0}};
     const auto places = nest(kinds, bed);
     check_apart(kinds, bed, places);
     return places.front().size();
@@ -100,6 +108,48 @@ TEST_CASE("nest: as many as there is room for, and more than in rows of boxes") 
     return n * n;
   };
   CHECK(static_cast<double>(count(angle(40_mm))) >= 1.15 * static_cast<double>(rows(40_mm)));
+}
+
+TEST_CASE("nest: boxes stand in rows, and no fewer than rows hold") {
+  const NestBed bed{{{0, 0}, {250_mm, 0}, {250_mm, 210_mm}, {0, 210_mm}}, {}, {125_mm, 105_mm}, 6_mm, 0};
+  for (const Um side : {20_mm, 33_mm, 48_mm}) {
+    const std::vector<NestKind> kinds{{{rectangle(side, side)}, 0}};
+    const auto places = nest(kinds, bed);
+    check_apart(kinds, bed, places);
+    const auto in_row = [&](Um length) { return static_cast<std::size_t>((length + 6_mm) / (side + 6_mm)); };
+    INFO("side " << side);
+    CHECK(places.front().size() == in_row(250_mm) * in_row(210_mm));
+  }
+}
+
+TEST_CASE("nest: what has room as it lies is not turned, and what has none is") {
+  const NestBed bed{{{0, 0}, {100_mm, 0}, {100_mm, 30_mm}, {0, 30_mm}}, {}, {50_mm, 15_mm}, 1_mm, 0};
+  const auto upright = rectangle(20_mm, 90_mm), small = rectangle(20_mm, 20_mm);
+  const std::vector<NestKind> kinds{{{upright, turned(upright, 1)}, 1}};
+  const auto lying = nest(kinds, bed);
+  REQUIRE(lying.front().size() == 1);
+  CHECK(lying.front().front().turn == 1);
+  const std::vector<NestKind> fits{{{small, turned(small, 1)}, 2}};
+  const auto standing = nest(fits, bed);
+  for (const auto& [at, turn] : standing.front()) CHECK(turn == 0);
+}
+
+TEST_CASE("nest: triangles stand in pairs, and as densely as a lattice of them is") {
+  const NestBed bed{square_bed(200_mm), {}, {100_mm, 100_mm}, 1_mm, 0};
+  const Regions one{{{{-10_mm, -10_mm}, {10_mm, -10_mm}, {-10_mm, 10_mm}}, {}}};
+  const std::vector<NestKind> kinds{{{one, turned(one, 1), turned(one, 2), turned(one, 3)}, 0}};
+  const auto places = nest(kinds, bed);
+  check_apart(kinds, bed, places);
+  CHECK(places.front().size() >= 150);  // rows of boxes have 81; 1 mm apart, each takes 240 mm²
+}
+
+TEST_CASE("nest: pairs that are turned lie in each other") {
+  const NestBed bed{square_bed(200_mm), {}, {100_mm, 100_mm}, 2_mm, 0};
+  const auto one = angle(60_mm);
+  const std::vector<NestKind> kept{{{one}, 0}}, may_turn{{{one, turned(one, 1), turned(one, 2), turned(one, 3)}, 0}};
+  const auto places = nest(may_turn, bed);
+  check_apart(may_turn, bed, places);
+  CHECK(places.front().size() > nest(kept, bed).front().size());
 }
 
 TEST_CASE("nest: the silhouette of a mesh is what its triangles cover") {
