@@ -11,6 +11,7 @@
 #include <compare>
 #include <deque>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -149,12 +150,19 @@ class Build {
     return nullptr;
   }
 
-  /// Ranges of heights go by the place of an object among those with a mesh or with parts.
+  /// Ranges of heights go by the place of an object among those that something is said of; where nothing is said of
+  /// any, among those that are printed.
   std::map<std::uint32_t, std::uint32_t> places_of_objects() const {
     std::map<std::uint32_t, std::uint32_t> out;
+    std::set<std::uint32_t> printed;
+    for (const Reference& item : document_.items)
+      if (item.object.first == document_.root) printed.insert(item.object.second);
+    const bool is_said = !document_.parts.objects.empty();
     std::uint32_t place = 0;
     for (const auto& [key, resource] : document_.objects)
-      if (key.first == document_.root && document_.parts.of(key.second)) out[key.second] = ++place;
+      if (key.first == document_.root &&
+          (is_said ? document_.parts.of(key.second) != nullptr : printed.count(key.second) > 0))
+        out[key.second] = ++place;
     return out;
   }
 

@@ -192,6 +192,14 @@ void layer_heights(Lines& lines, const Outlet& out) {
   }
 }
 
+/// PrusaSlicer's arcs stand off their moves by as much as it simplifies these.
+void arcs(Lines& lines, const Outlet& out) {
+  constexpr double least_mm = 0.001, most_mm = 0.1;
+  const auto *fitting = lines.look("arc_fitting"), *resolution = lines.find("gcode_resolution");
+  if (!fitting || !resolution || fitting->value == "disabled" || fitting->value == "0") return;
+  out.set("arc_tolerance", number(std::clamp(lines.figure(*resolution).v, least_mm, most_mm), 3), *resolution);
+}
+
 /// Limits of silent mode: the second values of each limit, where all of them have one.
 void silent_limits(Lines& lines, const Outlet& out) {
   const auto* wanted = lines.find("silent_mode");
@@ -275,6 +283,7 @@ void import_single_keys(Lines& lines, double infill_mm_s, double solid_mm_s, con
   flow_slopes(lines, out);
   at_heights(lines, out);
   layer_heights(lines, out);
+  arcs(lines, out);
   silent_limits(lines, out);
   for (const auto& row : remarked)
     if (const auto* e = lines.find(row.key); e && !says_one_of(row.neutral, e->key, e->value))
