@@ -233,9 +233,15 @@ macro::Template template_of(const HeightMark& mark) {
 }
 
 void set_tool_change(Variables& variables, ToolId from, ToolId to, Um z) {
-  variables["previous_extruder"] = count(from);
-  variables["next_extruder"] = variables["current_extruder"] = variables["filament_extruder_id"] = count(to);
+  variables["previous_extruder"] = variables["current_extruder"] = variables["filament_extruder_id"] = count(from);
+  variables["next_extruder"] = count(to);
   variables["toolchange_z"] = macro::variable(to_mm(z));
+}
+void set_filament(Variables& variables, ToolId tool) {
+  variables["filament_extruder_id"] = count(tool);
+}
+void set_current_tool(Variables& variables, ToolId tool) {
+  variables["current_extruder"] = variables["filament_extruder_id"] = count(tool);
 }
 
 bool has_command(std::string_view code, std::string_view command) {

@@ -21,6 +21,13 @@ Variable number(double v) {
   return macro::variable_of(value::number(v));
 }
 
+/// `[name]` of a flag is 1 or 0.
+Variable in_brackets(const std::string& text) {
+  auto out = macro::variable_of(text);
+  if (out.values.size() == 1 && std::holds_alternative<bool>(out.values[0])) out.text.clear();
+  return out;
+}
+
 /// A setting's value as expressions see it.
 Variable variable(const CatalogueEntry& entry, const std::string& text) {
   Variable out;
@@ -80,7 +87,10 @@ Variable in_their_words(const prusaslicer::Key& row, const Variable& ours, const
   if (flag) out.text.assign(1, std::get<bool>(ours.values[0]) ? '1' : '0');
   if (ours.text.ends_with('%') && row.initial && !row.initial->ends_with('%')) out.text.pop_back();
   // What is for weft to find out has the value there that nobody has chosen.
-  if (!ours.missing.empty() && row.initial) return macro::variable_of(*row.initial);
+  if (!ours.missing.empty()) {
+    if (row.initial) return macro::variable_of(*row.initial);
+    out.missing.clear(), out.values = {macro::Nil{}};
+  }
   return out;
 }
 
@@ -111,14 +121,12 @@ Variables variables_of(const Settings& settings) {
     std::string values;
     for (const auto& e : further.elements)
       values += (values.empty() ? "" : ", ") + (e.quoted ? quoted_variable(e.text) : e.text);
-    auto value = macro::variable_of(values);
-    if (value.values.size() == 1 && std::holds_alternative<bool>(value.values[0])) value.text.clear();
-    out.emplace(further.name, std::move(value));  // a setting of that name is nearer
+    out.emplace(further.name, in_brackets(values));  // a setting of that name is nearer
   }
   // What no profile says otherwise is as PrusaSlicer has it; where the tower stands is found here.
   for (const auto& row : prusaslicer::keys())
-    if (row.initial && !row.name.starts_with("wipe_tower_") && !out.contains(row.name))
-      out.emplace(std::string(row.name), macro::variable_of(prusaslicer::in_macro_words(row.name, *row.initial)));
+    if (row.initial && row.name != "wipe_tower_x" && row.name != "wipe_tower_y" && !out.contains(row.name))
+      out.emplace(std::string(row.name), in_brackets(prusaslicer::in_macro_words(row.name, *row.initial)));
   return out;
 }
 

@@ -108,8 +108,10 @@ void Writer::expand_custom_code() {
       const ToolId from = loaded.value_or(change.tool);
       set_tool_change(variables, from, change.tool, layers[i].z);
       if (!loaded && !used_.empty()) variables["previous_extruder"] = macro::variable(std::int64_t{-1});
-      tool_changes_[i].push_back((loaded && !used_.empty() ? expanded(of_tool(from).unload) : std::string()) +
-                                 expanded(code.tool_change));
+      auto text = loaded && !used_.empty() ? expanded(of_tool(from).unload) : std::string();
+      set_filament(variables, change.tool);
+      tool_changes_[i].push_back(text + expanded(code.tool_change));
+      set_current_tool(variables, change.tool);
       loaded_[i].push_back(used_.empty() ? std::string() : expanded(of_tool(change.tool).load));
       loaded = change.tool;
     }

@@ -164,9 +164,10 @@ class Evaluation {
     const auto* flag = std::get_if<bool>(&value);
     return flag == nullptr ? text_of(value) : *flag ? "1" : "0";
   }
-  /// Of a list without an index: that of the extruder that prints, or the first.
+  /// Of a list without an index: that of the filament in question, or the extruder that prints, or the first.
   const Scalar& of_current(const Variable& v) const {
-    const auto* current = find("current_extruder");
+    const auto* current = find("filament_extruder_id");
+    if (!current) current = find("current_extruder");
     const auto* index = current && !current->values.empty() ? std::get_if<std::int64_t>(&current->values[0]) : nullptr;
     const auto i = index && *index >= 0 ? static_cast<std::size_t>(*index) : 0;
     return v.values[i < v.values.size() ? i : 0];

@@ -52,11 +52,11 @@ void check_lag(const Settings& plate, const Passes& passes, std::span<const trav
   if (!any) return;
   const auto head = head_of(plate.plate, plate.machine);
   if (head.empty())
-    throw Error{
-        Error::Kind::settings,
-        "prime_tower_sparse: the nozzle goes down to the tower beside what is printed, and machine_head_profile "
-        "does not say how wide the head is",
-        "prime_tower_sparse", "as in 0: -10x-10, 10x-10, 10x10, -10x10; 12: -30x-25, 45x-25, 45x60, -30x60; or true"};
+    throw Error{Error::Kind::settings,
+                "the nozzle goes down to the tower beside what is printed, and machine_head_profile "
+                "does not say how wide the head is",
+                "prime_tower_sparse",
+                "as in 0: -10x-10, 10x-10, 10x10, -10x10; 12: -30x-25, 45x-25, 45x60, -30x60; or true"};
   const auto tower = tools::tower_outline(plate.tools, passes.size, passes.corner);
   for (const auto& slab : head) {
     const Regions there{{swept(tower, slab.outline), {}}};

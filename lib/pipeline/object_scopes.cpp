@@ -183,9 +183,9 @@ class Union {
     if (!index) return;
     // Where it changes nothing it divides nothing, unless what is said of it by name may hold over another's.
     if (scopes[*index] == pieces[i].scope && object_.volumes[modifier].said.empty()) return;
-    Regions inside = geometry::intersect(pieces[i].regions, by);
+    auto [inside, outside] = geometry::cut(pieces[i].regions, by);
     if (inside.empty()) return;
-    pieces[i].regions = geometry::subtract(pieces[i].regions, by);
+    pieces[i].regions = std::move(outside);
     pieces.push_back({*index, scopes[*index], std::move(inside)});
   }
   /// Walls and skins of a piece run through; but what is solid throughout has nothing sparse that could be other.

@@ -190,25 +190,39 @@ void plan_tower(const std::vector<Settings>& tools, std::span<const travel::Laye
   passes.size = tools::tower_size(tools.front().tools, passes.tower, nozzle);
 }
 
+/// Over which side of the bed a tower reaches, by how much, and where it would stand along it.
+struct Overrun {
+  std::string_view key, side, bound;
+  Um by, within;
+};
+Overrun overrun_of(const Box& tower, const Box& bed, Point corner) {
+  const Um right = tower.max.x - bed.max.x, left = bed.min.x - tower.min.x;
+  const Um behind = tower.max.y - bed.max.y, before = bed.min.y - tower.min.y;
+  const std::array sides{Overrun{"prime_tower_position_x", "+x", "most", right, corner.x - right},
+                         Overrun{"prime_tower_position_x", "-x", "least", left, corner.x + left},
+                         Overrun{"prime_tower_position_y", "+y", "most", behind, corner.y - behind},
+                         Overrun{"prime_tower_position_y", "-y", "least", before, corner.y + before}};
+  return *std::max_element(sides.begin(), sides.end(), [](const auto& a, const auto& b) { return a.by < b.by; });
+}
+
 /// @throws Error{audit} where a tower of that size, standing where it is told to, leaves the print surface
 void refuse_outside(const Settings& plate, const tools::TowerSize& size, Point corner) {
   const Ring surface = print_surface(plate.machine);
   const auto outline = tools::tower_outline(plate.tools, size, corner);
   const auto outside = tools::outside_of(outline, surface);
   if (outside.by <= plate.audit.audit_tolerance) return;
-  const Box bed = box_of(surface);
-  const auto side = outside.at.x > bed.max.x   ? "+x"
-                    : outside.at.x < bed.min.x ? "-x"
-                    : outside.at.y > bed.max.y ? "+y"
-                    : outside.at.y < bed.min.y ? "-y"
-                                               : "the edge";
-  throw Error{Error::Kind::audit,
-              fmt::format("prime_tower_position_x: the tower with its brim, {:.1f} × {:.1f} mm at ({:g}, {:g}), leaves "
-                          "the print surface by {:.1f} mm at {}",
-                          to_mm(box_of(outline).size().x), to_mm(box_of(outline).size().y), to_mm(corner.x),
-                          to_mm(corner.y), to_mm(outside.by), side),
-              {},
-              "auto puts it where there is room"};
+  const Box tower = box_of(outline), bed = box_of(surface);
+  const auto over = overrun_of(tower, bed, corner);
+  const bool fits = tower.size().x <= bed.size().x && tower.size().y <= bed.size().y;
+  throw Error{
+      Error::Kind::audit,
+      fmt::format("{}: the tower with its brim, {:.1f} × {:.1f} mm at ({:g}, {:g}), leaves the print surface by "
+                  "{:.1f} mm at {}",
+                  over.key, to_mm(tower.size().x), to_mm(tower.size().y), to_mm(corner.x), to_mm(corner.y),
+                  to_mm(outside.by), over.by > 0 ? over.side : "the edge"),
+      {},
+      over.by > 0 && fits ? fmt::format("auto, or at {} {:g}", over.bound, to_mm(over.within))
+                          : std::string("auto puts it where there is room")};
 }
 
 std::optional<Point> told_corner(const ToolSettings& t) {

@@ -73,15 +73,13 @@ std::string quoted(const std::string& text) {
 }
 
 /// How a value of theirs becomes one of weft's.
-enum class As { number, length, flag, chosen, extruder, position };
+enum class As { number, length, flag, chosen, extruder };
 struct Row {
   std::string_view theirs, ours;
   As as;
 };
 constexpr std::array rows{
     Row{"wipe_tower", "prime_tower_enable", As::chosen},
-    Row{"wipe_tower_x", "prime_tower_position_x", As::position},
-    Row{"wipe_tower_y", "prime_tower_position_y", As::position},
     Row{"wipe_tower_width", "prime_tower_width", As::length},
     Row{"wipe_tower_rotation_angle", "prime_tower_angle", As::number},
     Row{"wipe_tower_brim_width", "prime_tower_brim_width", As::length},
@@ -137,6 +135,7 @@ class Tools {
     volumes();
     waiting();
     paint();
+    place();
     tower();
     multitool_ramming(shared);
     load_time();
@@ -153,10 +152,7 @@ class Tools {
         return out_.set(row.ours, number(lines_.figure(*e).v), *e);
       case As::length:
         return out_.set(row.ours, number(lines_.figure(*e).v, 3), *e);
-      case As::position:  // a default of PrusaSlicer's own is no place that anybody has chosen
-        if (e->line != 0) out_.set(row.ours, number(lines_.figure(*e).v, 3), *e);
-        return;
-      case As::chosen:  // the same of an answer: PrusaSlicer's window asks for it where it is needed
+      case As::chosen:  // a default is no answer: PrusaSlicer's window asks for it where it is needed
         if (e->line == 0) return;
         [[fallthrough]];
       case As::flag:
@@ -234,6 +230,19 @@ class Tools {
     if (!e || e->line == 0) return;
     const double mm = lines_.figure(*e).v;
     out_.set("paint_depth", mm > 0 ? number(mm, 3) : "1000", *e);
+  }
+
+  /// A default of PrusaSlicer's own is no place that anybody has chosen, unless one half of it is.
+  void place() {
+    const auto *x = lines_.find("wipe_tower_x"), *y = lines_.find("wipe_tower_y");
+    const auto* said = x && x->line != 0 ? x : y;
+    if (!said || said->line == 0) return;
+    const auto set = [&](const char* ours, const IniEntry* e, const char* theirs) {
+      const auto text = e ? number(lines_.figure(*e).v, 3) : std::string(*find_key(theirs)->initial);
+      out_.set(ours, text, e ? *e : *said);
+    };
+    set("prime_tower_position_x", x, "wipe_tower_x");
+    set("prime_tower_position_y", y, "wipe_tower_y");
   }
 
   void tower() {

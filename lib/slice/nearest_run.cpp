@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 namespace weft::slice {
@@ -91,6 +92,24 @@ class Cells {
   std::vector<bool> seen_;
 };
 
+/// The kind that all of an outline is of; nothing where it has several.
+std::optional<int> kind_of_all(const Region& region, const std::function<int(Point)>& kind_at) {
+  std::optional<int> out;
+  const auto other = [&](Point p) {
+    const int kind = kind_at(p);
+    return std::exchange(out, kind).value_or(kind) != kind;
+  };
+  const auto differs = [&](const Ring& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Point a = ring[i], b = ring[(i + 1) % ring.size()];
+      if (other(a) || other({(a.x + b.x) / 2, (a.y + b.y) / 2})) return true;
+    }
+    return false;
+  };
+  if (differs(region.outer) || std::any_of(region.holes.begin(), region.holes.end(), differs)) return std::nullopt;
+  return out;
+}
+
 }  // namespace
 
 std::vector<Regions> nearest_to(const Region& region, int count, std::span<const Point> borders,
@@ -98,18 +117,16 @@ std::vector<Regions> nearest_to(const Region& region, int count, std::span<const
   std::vector<Regions> out(static_cast<std::size_t>(count));
   Region with_borders{divided(region.outer, borders), {}};
   for (const Ring& hole : region.holes) with_borders.holes.push_back(divided(hole, borders));
+  if (const auto kind = kind_of_all(with_borders, kind_at)) {
+    out[static_cast<std::size_t>(*kind)] = {region};
+    return out;
+  }
   const auto axis = geometry::medial_axis(with_borders);
   if (!axis.valid) return {};
   std::vector<int> kinds;
-  bool one = true;
   for (const auto& site : axis.sites) {
     const Place middle{(site.a.x + site.b.x) / 2, (site.a.y + site.b.y) / 2};
     kinds.push_back(kind_at({axis.origin.x + rounded(middle.x), axis.origin.y + rounded(middle.y)}));
-    one = one && kinds.back() == kinds.front();
-  }
-  if (one) {
-    out[static_cast<std::size_t>(kinds.front())] = {region};
-    return out;
   }
   auto rings = Cells(axis, std::move(kinds), out.size()).rings();
   for (std::size_t k = 0; k < out.size(); ++k) out[k] = geometry::regions_from_rings(rings[k]);

@@ -182,8 +182,10 @@ TEST_CASE("cli: a tower that is told to stand outside the bed is refused with ho
   const auto error = boxes.slice({"a.stl", "b.stl@T1", "-s", "tool_nozzles=0,0", "-s", "prime_tower_position_x=215",
                                   "-s", "prime_tower_position_y=100"},
                                  5);
-  CHECK_THAT(error, Contains("prime_tower_position_x: the tower with its brim") && Contains("at +x"));
+  CHECK_THAT(error, Contains("prime_tower_position_x: the tower with its brim") && Contains("at +x; auto, or at most"));
   CHECK_FALSE(boxes.scratch.has("out.gcode"));
+  const auto half = boxes.slice({"a.stl", "b.stl@T1", "-s", "tool_nozzles=0,0", "-s", "prime_tower_position_y=5"}, 3);
+  CHECK_THAT(half, Contains("prime_tower_position_y: prime_tower_position_x is auto; say where it stands along both"));
 }
 
 TEST_CASE("cli: the last place where the tower fits passes, and the next one is refused") {
@@ -196,7 +198,7 @@ TEST_CASE("cli: the last place where the tower fits passes, and the next one is 
   };
   // 40 mm and a brim of four lines of 0.5 mm.
   CHECK_THAT(at("158", 0), Contains(";TYPE:Wipe tower"));
-  CHECK_THAT(at("158.5", 5), Contains("leaves the print surface by 0.5 mm at +x"));
+  CHECK_THAT(at("158.5", 5), Contains("leaves the print surface by 0.5 mm at +x; auto, or at most 158"));
 }
 
 TEST_CASE("cli: a tool that there is not is refused by name") {

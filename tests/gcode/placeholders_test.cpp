@@ -63,6 +63,15 @@ TEST_CASE("gcode: names that no profile has are as PrusaSlicer has them") {
   CHECK(expanded("[printer_notes][duplicate_distance] {single_extruder_multi_material}") == "6 false");
 }
 
+TEST_CASE("gcode: what is purged, and where, has PrusaSlicer's names too") {
+  Settings s;
+  s.tools.prime_tower_width = 35_mm;
+  s.tools.purge_into_infill = true;
+  s.tools.switch_extruder_retraction_amount = 4_mm;
+  CHECK(expanded("[wipe_tower_width] [wipe_into_infill] {retract_length_toolchange[0]}", s) == "35 1 4");
+  CHECK(expanded("{if is_nil(idle_temperature[0])}off{endif} [wipe_tower_no_sparse_layers]") == "off 0");
+}
+
 TEST_CASE("gcode: under PrusaSlicer's names values have PrusaSlicer's units and words") {
   Settings s;
   s.walls.wall_order = WallOrder::outside_in;

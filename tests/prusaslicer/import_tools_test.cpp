@@ -151,6 +151,11 @@ TEST_CASE("prusaslicer: a tower that nobody asked for or forbade stands where fi
   CHECK(value_of(translated(shared + "wipe_tower = 0\n"), "prime_tower_enable") == "false");
 }
 
+TEST_CASE("prusaslicer: a tower stands where a profile says it, of which one half may be PrusaSlicer's own") {
+  CHECK(value_of(translated(shared), "prime_tower_position_y") == "(absent)");
+  CHECK(value_of(translated(shared + "wipe_tower_x = 60\n"), "prime_tower_position_y") == "140");
+}
+
 TEST_CASE("prusaslicer: what a tower stands by, its layers without a change, and how deep paint goes") {
   const auto t = translated(shared +
                             "wipe_tower_cone_angle = 25\nwipe_tower_no_sparse_layers = 1\n"
