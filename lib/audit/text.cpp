@@ -175,10 +175,13 @@ std::string remedy(const Report& r) {
       return f->setting.empty() ? "slice it again or copy it again: the file is not as its slicer wrote it"
                                 : "mend " + f->setting;
     case Finding::Kind::no_go:
+      if (f->feature.starts_with("support"))
+        return "support_outside = route, or move the part away from bed_exclude_areas";
       return "move the part away from bed_exclude_areas, or give exclude_height if the nozzle may pass above them";
     case Finding::Kind::surface:
       if (f->feature == "skirt") return "use a smaller skirt or brim, adhesion_outside = clip, or move the part";
       if (f->feature == "brim") return "use a narrower brim, adhesion_outside = clip, or move the part";
+      if (f->feature.starts_with("support")) return "support_outside = route, or move the part";
       return "move or turn the part, or take a larger printer";
     case Finding::Kind::head:
       return f->feature == "custom" ? fmt::format("raise the nozzle first in {}",

@@ -104,7 +104,9 @@ class Fitter {
     return piece * piece <= 8 * radius * rules_.tolerance;
   }
 
-  double laid(std::size_t i) const { return path_[i].width * static_cast<double>(path_[i].flow); }
+  /// Along the piece from junction i, which is extruded evenly.
+  double laid(std::size_t i) const { return (laid_at(path_[i]) + laid_at(path_[i + 1])) / 2; }
+  static double laid_at(const Junction& j) { return j.width * static_cast<double>(j.flow); }
   bool has_room(Point p) const {
     return rules_.room.empty() || (p.x >= rules_.room.min.x && p.x <= rules_.room.max.x && p.y >= rules_.room.min.y &&
                                    p.y <= rules_.room.max.y);
@@ -112,14 +114,14 @@ class Fitter {
 
   /// How far one speed, one band and the room go, up to junction `last`.
   std::size_t furthest(std::size_t first, std::size_t last) const {
+    if (!has_room(path_[first].at)) return first;
     double least = laid(first), most = least;
     std::size_t i = first;
-    if (!has_room(path_[i].at)) return first;
     while (i < last) {
       const std::size_t next = i + 1;
       if (!bead_.segment_speed_mm_s.empty() && bead_.segment_speed_mm_s[next - 1] != bead_.segment_speed_mm_s[first])
         break;
-      least = std::min(least, laid(next)), most = std::max(most, laid(next));
+      least = std::min(least, laid(i)), most = std::max(most, laid(i));
       if (most - least > tolerances::band_step || !has_room(path_[next].at) || path_[next].at == path_[i].at) break;
       i = next;
     }

@@ -2,6 +2,7 @@
 #include "motion/extrusion_rate.h"
 
 #include "core/tolerances.h"
+#include "model/moves.h"
 #include "motion/speeds.h"
 
 #include <algorithm>
@@ -15,6 +16,9 @@ namespace {
 constexpr double short_travel_um = 3000;
 /// A change of flow is told in steps of that share of it.
 constexpr double flow_step = 0.05;
+/// What differs by less is one flow. Two such differences, within what is told at once and from there to what follows,
+/// are a step.
+constexpr double same_flow = flow_step / 2;
 
 /// How fast flow may change, mm³/s².
 struct Slopes {
@@ -35,29 +39,51 @@ Slopes slopes_of(const Rules& rules, const Rules& layer) {
   return out;
 }
 
-/// A piece of a bead, along which it is extruded evenly.
+/// A move of a bead, along which it is extruded evenly; in parts it would not be, where its ends differ in width.
 struct Piece {
+  std::size_t from, to;  ///< junctions of the bead
   double length_mm, area_mm2, speed_mm_s;
+  double begin_mm2 = area_mm2, end_mm2 = area_mm2;  ///< at its ends; their mean is its area
   double volume() const { return length_mm * area_mm2; }
   double flow() const { return area_mm2 * speed_mm_s; }
+  /// Up to which share of its length so much of it is laid.
+  double share_of(double volume_mm3) const {
+    const double mm2 = volume_mm3 / length_mm;
+    return 2 * mm2 / (begin_mm2 + std::sqrt(std::max(begin_mm2 * begin_mm2 + 2 * (end_mm2 - begin_mm2) * mm2, 0.0)));
+  }
 };
+
+/// @param flow what material_flow makes of a volume
+Piece piece_of(const Extrude& bead, std::size_t from, const BeadMove& move, double flow) {
+  double um = 0;
+  for (std::size_t i = from + 1; i <= move.to; ++i) um += distance(bead.path[i - 1].at, bead.path[i].at);
+  const double speed =
+      bead.segment_speed_mm_s.empty() ? bead.speed_mm_s : static_cast<double>(bead.segment_speed_mm_s[move.piece - 1]);
+  Piece out{from, move.to, um / 1000, move.volume_mm3 * flow / (um / 1000), speed};
+  const auto laid = [](const Junction& j) { return j.width * static_cast<double>(j.flow); };
+  const double a = laid(bead.path[from]), b = laid(bead.path[move.to]);
+  if (move.to == from + 1 && a + b > 0)
+    out.begin_mm2 = 2 * out.area_mm2 * a / (a + b), out.end_mm2 = 2 * out.area_mm2 * b / (a + b);
+  return out;
+}
 
 /// The beads that follow each other, and all their pieces.
 struct Chain {
   Slopes slopes;
   std::vector<Extrude*> beads;
+  std::vector<std::size_t> counts;  ///< of pieces, by bead
   std::vector<Piece> pieces;
 
   bool empty() const { return beads.empty(); }
   void add(Extrude& bead) {
     beads.push_back(&bead);
-    const double height_mm = to_mm(bead.height);
-    for (std::size_t i = 1; i < bead.path.size(); ++i) {
-      const auto &a = bead.path[i - 1], &b = bead.path[i];
-      const double speed =
-          bead.segment_speed_mm_s.empty() ? bead.speed_mm_s : static_cast<double>(bead.segment_speed_mm_s[i - 1]);
-      pieces.push_back({distance(a.at, b.at) / 1000, mean_area_mm2(a, b, height_mm) * slopes.flow, speed});
-    }
+    std::size_t from = 0;
+    counts.push_back(pieces.size());
+    for_each_move(bead.path, to_mm(bead.height), [&](const BeadMove& move) {
+      pieces.push_back(piece_of(bead, from, move, slopes.flow));
+      from = move.to;
+    });
+    counts.back() = pieces.size() - counts.back();
   }
 };
 
@@ -73,7 +99,7 @@ std::vector<Run> runs_of(const std::vector<Piece>& pieces) {
   double least = 0, most = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const double flow = pieces[i].flow();
-    if (out.empty() || std::max(most, flow) > (1 + flow_step) * std::min(least, flow)) {
+    if (out.empty() || std::max(most, flow) > (1 + same_flow) * std::min(least, flow)) {
       out.emplace_back();
       least = most = flow;
     }
@@ -112,8 +138,8 @@ class Profile {
                                                             : begin * begin + 2 * slopes.up * up_));
   }
 
-  /// Is all of it as asked for, but for less than a step?
-  bool stays() const { return (1 + flow_step) * std::min(begin_, end_) >= asked_; }
+  /// Is all of it as asked for, but for what is one flow?
+  bool stays() const { return (1 + same_flow) * std::min(begin_, end_) >= asked_; }
   /// Where it stops to grow, and where it begins to fall.
   double grown() const { return up_; }
   double falls() const { return volume_ - down_; }
@@ -152,21 +178,18 @@ class Cutter {
     const double begin = at_, end = at_ + piece.volume();
     at_ = end;
     if (profile_.stays() || (begin >= profile_.grown() && end <= profile_.falls())) return {{1, piece.speed_mm_s}};
-    std::vector<double> ends{end};
-    for (const double turn : {profile_.grown(), profile_.falls()})
-      if (turn > begin && turn < end) ends.push_back(turn);
-    std::sort(ends.begin(), ends.end());
     std::vector<Cut> out;
-    double from = begin;
-    for (const double to : ends) {
-      const double a = profile_.flow_at(from), b = profile_.flow_at(to),
-                   length_um = 1000 * (to - from) / piece.area_mm2;
+    double from = begin, done = 0;  // volume, and share of the length
+    for (const double to : ends_of_parts(piece, begin, end)) {
+      const double a = profile_.flow_at(from), b = profile_.flow_at(to), share = piece.share_of(to - begin);
       const double wanted = std::abs(b - a) / (flow_step * std::max({a, b, 1e-9}));
-      const int steps =
-          std::max(1, static_cast<int>(std::min(std::ceil(wanted), length_um / tolerances::shortest_piece)));
+      const double room = 1000 * piece.length_mm * (share - done) / tolerances::shortest_piece;
+      const int steps = std::max(1, static_cast<int>(std::min(std::ceil(wanted), room)));
       for (int k = 1; k <= steps; ++k) {  // parts of equal volume: where flow is low they are not shorter
         const double v0 = from + (to - from) * (k - 1) / steps, v1 = from + (to - from) * k / steps;
-        out.push_back({(v1 - begin) / piece.volume(), speed(piece, profile_.flow_at((v0 + v1) / 2))});
+        const double next = piece.share_of(v1 - begin), area_mm2 = (v1 - v0) / (piece.length_mm * (next - done));
+        out.push_back({next, speed(piece, profile_.flow_at((v0 + v1) / 2) / area_mm2)});
+        done = next;
       }
       from = to;
     }
@@ -175,9 +198,23 @@ class Cutter {
   }
 
  private:
-  double speed(const Piece& piece, double flow) const {
-    const double least = std::min(slopes_.least_mm_s, piece.speed_mm_s);
-    return std::clamp(flow / piece.area_mm2, least, piece.speed_mm_s);
+  double speed(const Piece& piece, double mm_s) const {
+    return std::clamp(mm_s, std::min(slopes_.least_mm_s, piece.speed_mm_s), piece.speed_mm_s);
+  }
+
+  /// A piece is cut where its flow stops to grow, and where it begins to fall, unless that leaves a part too short to
+  /// be printed at a speed of its own.
+  std::vector<double> ends_of_parts(const Piece& piece, double begin, double end) const {
+    std::vector<double> out;
+    double done = 0;
+    for (const double turn : {profile_.grown(), profile_.falls()}) {
+      if (turn <= begin || turn >= end) continue;
+      const double share = piece.share_of(turn - begin), least = tolerances::shortest_piece / (1000 * piece.length_mm);
+      if (share - done < least || 1 - share < least) continue;
+      out.push_back(turn), done = share;
+    }
+    out.push_back(end);
+    return out;
   }
 
   const Profile& profile_;
@@ -193,36 +230,46 @@ class Rebuilt {
     if (!bead.below.empty()) below_.push_back(bead.below.front());
   }
 
-  /// Piece i of the bead as it was.
-  void add(std::size_t i, const std::vector<Cut>& cuts) {
-    const Junction &a = bead_.path[i], &b = bead_.path[i + 1];
-    for (std::size_t k = 0; k < cuts.size(); ++k) {
-      const double t = k + 1 == cuts.size() ? 1 : cuts[k].to;
-      const Junction j = t == 1 ? b
-                                : Junction{lerp(a.at, b.at, t), rounded(a.width + t * (b.width - a.width)),
-                                           static_cast<float>(a.flow + t * static_cast<double>(b.flow - a.flow))};
-      if (t < 1 && j.at == path_.back().at) continue;
-      path_.push_back(j);
-      if (!below_.empty())
-        below_.push_back(rounded(bead_.below[i] + t * (static_cast<double>(bead_.below[i + 1]) - bead_.below[i])));
-      speeds_.push_back(static_cast<float>(cuts[k].speed_mm_s));
+  void add(const Piece& piece, const std::vector<Cut>& cuts) {
+    auto cut = cuts.begin();
+    double done = 0;  // mm of it
+    for (std::size_t i = piece.from; i < piece.to; ++i) {
+      const double mm = distance(bead_.path[i].at, bead_.path[i + 1].at) / 1000;
+      for (; cut + 1 != cuts.end() && cut->to * piece.length_mm < done + mm; ++cut)
+        add_place(i, (cut->to * piece.length_mm - done) / mm, cut->speed_mm_s);
+      add_place(i, 1, cut->speed_mm_s);
+      done += mm;
     }
+    next_ = piece.to;
   }
 
   void put() {
+    for (; next_ + 1 < bead_.path.size(); ++next_) add_place(next_, 1, static_cast<double>(speeds_.back()));
     bead_.path = std::move(path_), bead_.below = std::move(below_);
     const auto [least, most] = std::minmax_element(speeds_.begin(), speeds_.end());
-    if (*least == *most) {
-      bead_.segment_speed_mm_s.clear();
-      bead_.speed_mm_s = static_cast<double>(*least);
-      return;
-    }
     bead_.speed_mm_s = static_cast<double>(*least);
-    bead_.segment_speed_mm_s = std::move(speeds_);
+    if (*least == *most)
+      bead_.segment_speed_mm_s.clear();
+    else
+      bead_.segment_speed_mm_s = std::move(speeds_);
   }
 
  private:
+  /// The place at share t between junction i and the next, and how fast what leads there is.
+  void add_place(std::size_t i, double t, double mm_s) {
+    const Junction &a = bead_.path[i], &b = bead_.path[i + 1];
+    const Junction j = t >= 1 ? b
+                              : Junction{lerp(a.at, b.at, t), rounded(a.width + t * (b.width - a.width)),
+                                         static_cast<float>(a.flow + t * static_cast<double>(b.flow - a.flow))};
+    if (t < 1 && j.at == path_.back().at) return;
+    path_.push_back(j);
+    if (!below_.empty())
+      below_.push_back(rounded(bead_.below[i] + t * (static_cast<double>(bead_.below[i + 1]) - bead_.below[i])));
+    speeds_.push_back(static_cast<float>(mm_s));
+  }
+
   Extrude& bead_;
+  std::size_t next_ = 0;  // junction that is not there yet, less one
   std::vector<Junction> path_;
   std::vector<Um> below_;
   std::vector<float> speeds_;
@@ -244,18 +291,15 @@ void limit(Chain& chain) {
         cuts[i] = {{1, piece.speed_mm_s}};
     }
   }
-  std::size_t next = 0;  // piece
-  for (Extrude* bead : chain.beads) {
-    const std::size_t first = next, count = bead->path.size() - 1;
-    next += count;
-    const bool stays = std::all_of(cuts.begin() + static_cast<std::ptrdiff_t>(first),
-                                   cuts.begin() + static_cast<std::ptrdiff_t>(next), [&](const auto& own) {
-                                     const auto& piece = chain.pieces[static_cast<std::size_t>(&own - cuts.data())];
-                                     return own.size() == 1 && own[0].speed_mm_s == piece.speed_mm_s;
-                                   });
+  std::size_t first = 0;  // piece of the bead
+  for (std::size_t b = 0; b < chain.beads.size(); first += chain.counts[b++]) {
+    const std::size_t end = first + chain.counts[b];
+    bool stays = true;
+    for (std::size_t k = first; k < end; ++k)
+      stays = stays && cuts[k].size() == 1 && cuts[k][0].speed_mm_s == chain.pieces[k].speed_mm_s;
     if (stays) continue;
-    Rebuilt rebuilt(*bead);
-    for (std::size_t i = 0; i < count; ++i) rebuilt.add(i, cuts[first + i]);
+    Rebuilt rebuilt(*chain.beads[b]);
+    for (std::size_t k = first; k < end; ++k) rebuilt.add(chain.pieces[k], cuts[k]);
     rebuilt.put();
   }
 }
@@ -277,7 +321,7 @@ void limit_extrusion_rate(const AllRules& all, LayerPlan& layer) {
   std::optional<Point> at;
   const auto end_chain = [&] {
     if (!chain.empty()) limit(chain);
-    chain = Chain{slopes_of(of_tool(all, tool, rules), rules), {}, {}};
+    chain = Chain{slopes_of(of_tool(all, tool, rules), rules), {}, {}, {}};
   };
   end_chain();
   const overloaded see{[&](Extrude& bead) {

@@ -60,12 +60,15 @@ inline constexpr auto fields<pipeline::PrintedLayer> =
 template <>
 inline constexpr auto fields<support::Figures> = listed(&support::Figures::needed_mm2, &support::Figures::bridged_mm2,
                                                         &support::Figures::left_mm2, &support::Figures::left_at,
+                                                        &support::Figures::left_to_part_mm2,
                                                         &support::Figures::contact_mm2, &support::Figures::on_part_mm2,
                                                         &support::Figures::islands, &support::Figures::tips,
-                                                        &support::Figures::trunks, &support::Figures::slenderest);
+                                                        &support::Figures::trunks, &support::Figures::trapped_mm3,
+                                                        &support::Figures::slenderest);
 template <>
 inline constexpr auto fields<pipeline::Supports> = listed(&pipeline::Supports::layers, &pipeline::Supports::held,
-                                                          &pipeline::Supports::figures);
+                                                          &pipeline::Supports::figures,
+                                                          &pipeline::Supports::idle_enforcers);
 
 }  // namespace weft
 

@@ -33,6 +33,7 @@ struct Supports {
   PrintedLayers layers;
   std::vector<Regions> held;  ///< of each layer of the object, what rests on it; empty: nothing does
   support::Figures figures;
+  std::vector<std::uint32_t> idle_enforcers{};  ///< marks that ask for nothing, by number
 };
 
 // Of the types that codec.cpp lists at its end, each made of the fields that it lists (core/fields.h).

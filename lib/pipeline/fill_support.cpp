@@ -3,14 +3,19 @@
 
 #include "core/stop.h"
 #include "geometry/boolean.h"
+#include "geometry/convex.h"
 #include "geometry/offset.h"
+#include "geometry/simplify.h"
 #include "geometry/spatial_index.h"
+#include "geometry/touching.h"
 #include "infill/solid.h"
 #include "infill/sparse.h"
 #include "model/flow.h"
+#include "support/lengths.h"
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
 
 namespace weft::pipeline {
 namespace {
@@ -58,13 +63,14 @@ class Filler {
   }
 
  private:
+  static constexpr double dense = 0.995;  // a share that leaves nothing between beads
+  static constexpr int most_loops = 1000;
+
   /// What of an area is wider than twice that. Its corners may be as coarse as support is.
-  static Regions wider(const Regions& area, Um by) {
-    const auto grown = [](const Regions& from, Um how) {
-      constexpr Um coarse = 50;
-      return geometry::offset(from, {.by = how, .corner = geometry::Corner::round, .arc_tolerance = coarse});
-    };
-    return grown(grown(area, -by), by);
+  static Regions wider(const Regions& area, Um by) { return coarsely(coarsely(area, -by), by); }
+  static Regions coarsely(const Regions& from, Um by) {
+    constexpr Um coarse = 50;
+    return geometry::offset(from, {.by = by, .corner = geometry::Corner::round, .arc_tolerance = coarse});
   }
   static double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
@@ -75,17 +81,26 @@ class Filler {
              s_.support_infill_angle, Role::support);
       return;
     }
-    // Between lines that far apart a narrow column would have none: it gets a loop.
-    const double apart = share > 0 ? band_ / share : band_ * 10;
-    const Regions wide = wider(layer_.columns, rounded(0.6 * apart));
-    if (wide.empty()) {
-      loops(layer_.columns, 1, Role::support);
-      return;
+    const Um half = support::hollow_column(band_, share);
+    for (const Region& column : geometry::simplified(layer_.columns, support::outline_bound)) {
+      const Box box = box_of(column.outer);
+      const Regions wide = std::min(box.size().x, box.size().y) > 2 * half ? wider({column}, half) : Regions{};
+      if (wide.empty()) {
+        loops({column}, 1, Role::support, true);
+        continue;
+      }
+      sparse(wide, share, s_.support_pattern, s_.support_infill_angle, Role::support);
+      if (reaches_further(column, wide, half))
+        loops(geometry::opening(geometry::subtract({column}, coarsely(wide, half)), band_ / 4), 1, Role::support, true);
     }
-    sparse(wide, share, s_.support_pattern, s_.support_infill_angle, Role::support);
-    const Regions narrow = geometry::opening(
-        geometry::subtract(layer_.columns, geometry::offset(wide, {.by = rounded(0.6 * apart)})), band_ / 4);
-    loops(narrow, 1, Role::support);
+  }
+  /// Whether any corner is further than that from what lies within.
+  static bool reaches_further(const Region& region, const Regions& within, Um by) {
+    const geometry::SegmentIndex edge(within);
+    const auto far = [&](Point p) { return !edge.nearest(p, by); };
+    return std::any_of(region.outer.begin(), region.outer.end(), far) ||
+           std::any_of(region.holes.begin(), region.holes.end(),
+                       [&](const Ring& hole) { return std::any_of(hole.begin(), hole.end(), far); });
   }
 
   /// Hollow, or nearly: loops, two around thick ones, and what support_tree_infill_rate puts inside.
@@ -94,7 +109,8 @@ class Filler {
     const double thick_mm2 = double_mm > 0 ? std::numbers::pi / 4 * double_mm * double_mm : 1e9;
     for (const Region& branch : layer_.branches) {
       const int usual = area_mm2(branch) > thick_mm2 ? 2 : 1;
-      const Regions inside = loops({branch}, s_.support_wall_count.value_or(usual), Role::support);
+      const Regions inside =
+          loops({branch}, s_.support_wall_count.value_or(usual), Role::support, s_.support_tree_infill_rate <= 0);
       sparse(inside, s_.support_tree_infill_rate / 100, s_.support_pattern, s_.support_infill_angle, Role::support);
     }
   }
@@ -102,12 +118,29 @@ class Filler {
   void interface(const Regions& areas) {
     const double share = s_.support_interface_density / 100;
     const Regions inner = loops(areas, s_.support_roof_wall_count, Role::support_interface);
-    sparse(inner, share, s_.support_interface_pattern, s_.support_infill_angle + 90, Role::support_interface);
+    if (share < dense) {
+      sparse(inner, share, s_.support_interface_pattern, s_.support_infill_angle + 90, Role::support_interface);
+      return;
+    }
+    // Strands from rim to rim of what is that narrow would lie on little; beads along it cross what is below.
+    constexpr Um half = 1500;
+    for (const Region& area : inner) {
+      const Box box = box_of(area.outer);
+      const Regions wide = std::min(box.size().x, box.size().y) > 2 * half ? wider({area}, half) : Regions{};
+      if (wide.empty()) {
+        loops({area}, most_loops, Role::support_interface);
+        continue;
+      }
+      const Regions reached = coarsely(wide, half / 2);
+      solid(geometry::intersect({area}, reached), s_.support_infill_angle + 90, Role::support_interface,
+            row_of(pattern_rows, s_.support_interface_pattern).connect);
+      loops(geometry::opening(geometry::subtract({area}, reached), band_ / 4), most_loops, Role::support_interface);
+    }
   }
 
   /// The rim, and lines from branch to branch.
   void joists() {
-    loops(layer_.joists.area, 1, Role::support);
+    loops(layer_.joists.area, 1, Role::support, true);
     for (const Polyline& line : layer_.joists.lines) {
       Bead bead;
       bead.role = Role::support;
@@ -117,34 +150,49 @@ class Filler {
   }
 
   /// Loops along the edge, from outside in; what is too thin for one gets a bead along its middle.
+  /// @param hollow  nobody asks for what is left inside
   /// @return what is left inside
-  Regions loops(const Regions& areas, int count, Role role) {
+  Regions loops(const Regions& areas, int count, Role role, bool hollow = false) {
     Regions left = areas;
     for (int n = 0; n < count && !left.empty(); ++n) {
       stop_if_asked();
-      const Regions middle = geometry::offset(left, {.by = -band_ / 2});
-      const Regions laid = geometry::offset(middle, {.by = band_ / 2 + 10});
-      const Regions thin = geometry::opening(geometry::subtract(left, laid), band_ / 5);
-      for (const Region& region : middle) {
-        loop(region.outer, n, role);
-        for (const Ring& hole : region.holes) loop(hole, n, role);
-      }
-      solid(thin, 0, role);
-      left = geometry::offset(middle, {.by = -band_ / 2});
+      Regions next;
+      for (const Region& region : left)
+        for (Region& inside : loops_of(region, n, role, hollow && n + 1 == count)) next.push_back(std::move(inside));
+      left = std::move(next);
     }
     return left;
+  }
+  Regions loops_of(const Region& region, int inset, Role role, bool hollow) {
+    if (region.holes.empty())  // most branches: nothing of them is thin
+      if (auto middle = geometry::inset_of_convex(region.outer, band_ / 2)) {
+        loop(*middle, inset, role);
+        if (hollow) return {};
+        if (auto inside = geometry::inset_of_convex(region.outer, band_)) return {{*std::move(inside), {}}};
+        return geometry::offset({{*std::move(middle), {}}}, {.by = -band_ / 2});
+      }
+    const Regions middle = geometry::offset({region}, {.by = -band_ / 2});
+    for (const Region& part : middle) {
+      loop(part.outer, inset, role);
+      for (const Ring& hole : part.holes) loop(hole, inset, role);
+    }
+    if (reaches_further(region, middle, band_ * 8 / 10)) {  // than corners do
+      const Regions laid = geometry::offset(middle, {.by = band_ / 2 + 10});
+      solid(geometry::opening(geometry::subtract({region}, laid), band_ / 5), 0, role);
+    }
+    return hollow ? Regions{} : geometry::offset(middle, {.by = -band_ / 2});
   }
   void loop(const Ring& ring, int inset, Role role) {
     Bead bead;
     bead.role = role, bead.closed = true, bead.inset = static_cast<std::uint16_t>(inset);
-    for (const Point p : ring) bead.path.push_back({p, band_, 1.F});
+    for (const Point p : geometry::simplified(ring, support::outline_bound)) bead.path.push_back({p, band_, 1.F});
     beads_.push_back(std::move(bead));
   }
 
   void sparse(const Regions& areas, double share, SupportPattern pattern, double angle, Role role) {
     if (share <= 0 || areas.empty()) return;
     const auto& row = row_of(pattern_rows, pattern);
-    if (share >= 0.995) return solid(areas, angle, role, row.connect);
+    if (share >= dense) return solid(areas, angle, role, row.connect);
     const std::size_t from = beads_.size();
     const infill::SparseStyle style{.pattern = row.as,
                                     .density = share,
@@ -199,7 +247,7 @@ PrintedLayer fill_support(const Settings& settings, const support::SupportLayer&
   Regions all = layer.columns;
   append(all, layer.branches), append(all, layer.roof), append(all, layer.bottom);
   append(all, layer.joists.area);
-  out.outline = geometry::unite(all);
+  out.outline = geometry::joined(all);
   if (out.outline.size() > 1) {
     const geometry::SegmentIndex index(out.outline);
     for (auto& bead : out.beads)

@@ -72,7 +72,7 @@ class Mover {
         contours_(contours_of(of.scopes)),
         departures_(prepared_.size()),
         figured_(what.with_figures ? layers() : 0),
-        turns_(of.vase.end),
+        turns_(of.vases.empty() ? 0 : of.vases.back().end),
         spiral_(spiral_style(settings_.layers)),
         primes_(primes_after_ironing(of.scopes)) {
     if (of.tools.several())
@@ -97,7 +97,10 @@ class Mover {
   /// What hangs on the layer before.
   Begun begun(std::size_t layer, LayerPlan plan) {
     const auto& passes = of_.passes;
-    if (of_.vase.has(layer)) wind(of_.vase, layer, turns_[layer], spiral_, plan);
+    if (const Vase* vase = vase_at(of_.vases, layer)) {
+      if (layer == vase->begin) spiral_ = travel::Spiral(spiral_style(settings_.layers));
+      wind(*vase, layer, turns_[layer], spiral_, plan);
+    }
     if (primes_) prime_after_ironing(of_.scopes, plan, owed_mm3_);
     const ToolId loaded = layer > 0 ? passes.passes[passes.begin[layer] - 1].tool : any_tool;
     if (plan.time.comes_down && at_) go_over(settings_.machine, of_.standing[layer], *at_, plan);
@@ -131,7 +134,7 @@ class Mover {
     travel::prepare_ways(settings_.travel, layer);
     const auto& retraction = of_.scopes[of_.tools.several() ? layer.input.scope : 0].retraction;
     auto routed = travel::route(settings_.travel, retraction, layer, ordered_[pass], from_[pass]);
-    if (of_.vase.has(index)) turns_[index] = wall_of(layer.input);
+    if (vase_at(of_.vases, index) != nullptr) turns_[index] = wall_of(layer.input);
     auto over_air = over_air_of(layer.input);
     const Regions asked = what_.with_figures ? over_air : Regions{};
     overhangs::mark(strands_, std::move(over_air), routed.plan);

@@ -34,7 +34,7 @@ struct MovesOf {
   const Passes& passes;
   const std::vector<std::vector<Pause>>& pauses;  ///< of each layer
   std::vector<Um> standing;                       ///< of each layer, how high what is printed before it reaches
-  const Vase& vase;
+  const Vases& vases;
   std::vector<contour::Standing> standing_on;  ///< what objects with labels look like; empty: nothing follows them
 };
 

@@ -262,7 +262,7 @@ PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, c
   add_ooze_shield(settings, passes.shield, passes, inputs);
   give_room(settings, inputs);
   for (auto& notice : check(settings)) plan.notices.push_back(std::move(notice));
-  const Vase vase = settings.layers.magic_spiralize ? vase_of(settings, inputs, plan.notices) : Vase{};
+  const Vases vases = settings.layers.magic_spiralize ? vases_of(settings, inputs, plan.notices) : Vases{};
   inputs = split(passes, settings, tools, scopes, std::move(inputs));
   check_conflicts(inputs, plan.objects, settings.plate.conflict_tolerance, options.annotate, report.warnings);
   auto [prepared_passes, linked_passes] = prepared_and_linked(settings.travel, std::move(inputs));
@@ -273,7 +273,7 @@ PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, c
   if (report.tours) *report.tours = tours_of(prepared, ordered);
   const auto pauses = pauses_of(settings.tools, timeline, plan.notices);
   auto planned = plan_moves(
-      {scopes, tools, passes, pauses, heights_before(timeline, settings.machine.z_offset), vase,
+      {scopes, tools, passes, pauses, heights_before(timeline, settings.machine.z_offset), vases,
        standing_of(options.surfaces, copies, copies_on(plate), raft_lift(settings) + settings.machine.z_offset)},
       std::move(prepared), std::move(ordered), plan.notices, {use, report.figures.has_value()});
   out.purge_wanted_mm3 = passes.purged.wanted_mm3;

@@ -137,6 +137,7 @@ Json support_of(const Report& r) {
           {"tips", s.tips},
           {"trunks", s.trunks},
           {"slenderest", rounded3(s.slenderest)},
+          {"trapped_mm3", rounded3(s.trapped_mm3)},
           {"mm3", rounded3(mm3)},
           {"s", rounded3(seconds)}};
 }
@@ -239,7 +240,7 @@ std::string to_json(const Report& r) {
   if (r.infill.mm3 > 0) out["infill"] = infill_of(r.infill);
   for (const auto& file : r.infill_files)
     out["infill_files"].push_back({{"key", file.key}, {"file", file.file}, {"sha256", file.sha256}});
-  if (r.support.needed_mm2 > 0 || r.support.bridged_mm2 > 0) out["support"] = support_of(r);
+  if (r.support.needed_mm2 > 0 || r.support.bridged_mm2 > 0 || r.support.layers > 0) out["support"] = support_of(r);
   if (r.arcs.count > 0)
     out["arcs"] = {{"count", r.arcs.count}, {"moves", r.arcs.pieces}, {"worst_um", rounded3(r.arcs.worst_um)}};
   out["travel"] = {{"mm", rounded3(r.travel.mm)},

@@ -94,6 +94,8 @@ struct Report {
     std::size_t islands = 0;                               ///< places that begin in the air
     std::size_t tips = 0, trunks = 0;                      ///< of branches: where they begin, and on what they stand
     double slenderest = 0;                                 ///< of trunks: height by width
+    double trapped_mm3 = 0;                                ///< plastic that no tool gets to
+    std::size_t layers = 0;                                ///< that are printed under objects
   };
   /// Of the object with most sparse infill; bounds are shares of the plastic's own (infill/figures.h).
   struct Infill {

@@ -58,7 +58,7 @@ inline constexpr std::tuple stage_table{
     stage<Supports>(Stage::support, "support", "", 0.1, 1, WholeGroup{&Settings::support, support_schema},
                     WholeGroup{&Settings::layers, layer_schema},
                     OneValue{&Settings::machine, &MachineSettings::nozzle_diameter},
-                    OneValue{&Settings::walls, &WallSettings::wall_line_width_0}),
+                    WholeGroup{&Settings::walls, wall_schema}),
     stage<std::vector<WallLayer>>(Stage::walls, "walls", "walls", 0.15, 2, WholeGroup{&Settings::walls, wall_schema},
                                   OneValue{&Settings::machine, &MachineSettings::nozzle_diameter}),
     stage<std::vector<FilledLayer>>(

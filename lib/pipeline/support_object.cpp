@@ -12,6 +12,7 @@
 #include "slice/shadow.h"
 #include "support/support.h"
 #include "tasks/parallel.h"
+#include "walls/walls.h"
 
 #include <algorithm>
 
@@ -58,21 +59,28 @@ Regions barred_for(const Settings& settings, const std::vector<Object>& objects,
   return out.empty() ? out : geometry::unite(out);
 }
 
+constexpr double worth_telling_mm2 = 0.5;
+
 void tell(const Settings& settings, const Object& object, const support::Figures& figures, Report& report) {
   auto& total = report.support;
   total.needed_mm2 += figures.needed_mm2, total.bridged_mm2 += figures.bridged_mm2;
   total.left_mm2 += figures.left_mm2;
   total.contact_mm2 += figures.contact_mm2, total.on_part_mm2 += figures.on_part_mm2;
+  total.trapped_mm3 += figures.trapped_mm3;
   total.islands += figures.islands, total.tips += figures.tips, total.trunks += figures.trunks;
   total.slenderest = std::max(total.slenderest, figures.slenderest);
-  if (figures.left_mm2 < 0.5) return;
+  if (figures.left_mm2 < worth_telling_mm2) return;
   const Point at = Point{figures.left_at.x, figures.left_at.y} + object.copies.front();
+  std::string why;
+  if (settings.support.support_type == SupportType::buildplate)
+    why = " from the plate" +
+          (figures.left_to_part_mm2 < worth_telling_mm2
+               ? std::string()
+               : fmt::format("; support_type = everywhere would reach {:.1f} mm²", figures.left_to_part_mm2));
   report.warnings.push_back(
-      {"support_left", fmt::format("{}: {:.1f} mm² of overhang, first at ({:.3f}, {:.3f}, {:.3f}), cannot be reached{}",
-                                   object.name, figures.left_mm2, to_mm(at.x), to_mm(at.y), to_mm(figures.left_at.z),
-                                   settings.support.support_type == SupportType::buildplate
-                                       ? " from the plate; support_type = everywhere may reach more"
-                                       : "")});
+      {"support_left",
+       fmt::format("{}: {:.1f} mm² of overhang, first at ({:.3f}, {:.3f}, {:.3f}), cannot be reached{}", object.name,
+                   figures.left_mm2, to_mm(at.x), to_mm(at.y), to_mm(figures.left_at.z), why)});
 }
 
 bool says_support(const mesh::Mark& mark) {
@@ -90,30 +98,40 @@ bool supports(const Settings& settings, const Object& object) {
                      [](const mesh::Mark& mark) { return mark.kind == mesh::MarkKind::support; });
 }
 
+/// What one mark marks.
+struct AreasOfMark {
+  std::uint32_t mark = 0;
+  std::vector<Regions> by_layer;
+};
+
 /// Volumes and painted facets as areas of layers.
-void read_marks(const Settings& settings, const Object& object, const std::vector<slice::Cut>& cuts, SupportOf& out) {
-  if (!has_marks(object)) return;
+std::vector<AreasOfMark> read_marks(const Settings& settings, const Object& object, const std::vector<slice::Cut>& cuts,
+                                    SupportOf& out) {
+  std::vector<AreasOfMark> of_marks;
+  if (!has_marks(object)) return of_marks;
   std::vector<slice::Plane> planes;  // in the middle of layers, as those of the part
   for (const auto& cut : cuts) planes.push_back({cut.layer.z, cut.layer.height, cut.layer.z - cut.layer.height / 2});
-  for (const auto& mark : object.marks) {
+  for (std::uint32_t m = 0; m < object.marks.size(); ++m) {
+    const auto& mark = object.marks[m];
     if (!says_support(mark)) continue;
+    auto& own = of_marks.emplace_back(AreasOfMark{m, {}}).by_layer;
+    if (mark.painted) {
+      own = slice::shadows(mark.mesh, planes);
+    } else {
+      const slice::Cutter cutter(mark.mesh, planes);
+      own = tasks::parallel_map(planes.size(),
+                                [&](std::size_t i) { return std::move(cutter.cut(i, settings.layers).layer.regions); });
+    }
     auto& to = mark.kind == mesh::MarkKind::support_enforcer  ? out.enforced
                : mark.kind == mesh::MarkKind::support_blocker ? out.blocked
                                                               : out.given;
     to.resize(planes.size());
-    if (mark.painted) {
-      auto areas = slice::shadows(mark.mesh, planes);
-      for (std::size_t i = 0; i < areas.size(); ++i) to[i].insert(to[i].end(), areas[i].begin(), areas[i].end());
-      continue;
-    }
-    const slice::Cutter cutter(mark.mesh, planes);
-    auto marked = tasks::parallel_map(planes.size(), [&](std::size_t i) { return cutter.cut(i, settings.layers); });
-    for (std::size_t i = 0; i < marked.size(); ++i)
-      to[i].insert(to[i].end(), marked[i].layer.regions.begin(), marked[i].layer.regions.end());
+    for (std::size_t i = 0; i < own.size(); ++i) to[i].insert(to[i].end(), own[i].begin(), own[i].end());
   }
   for (auto* by_layer : {&out.enforced, &out.blocked, &out.given})
     for (auto& regions : *by_layer)
       if (regions.size() > 1) regions = geometry::unite(regions);
+  return of_marks;
 }
 
 /// The outlines that support knows, and those of layers.
@@ -133,6 +151,64 @@ Outlines outlines_of(const Settings& settings, const std::vector<slice::Cut>& cu
   return out;
 }
 
+/// Whether walls make anything of a region that small: the tips of what hangs down are thinner than any bead.
+bool is_printed(const Settings& settings, const SlicedLayer& layer, std::size_t index, const Region& region) {
+  const SlicedLayer alone{layer.z, layer.height, {region}};
+  const auto walls = walls::build(
+      settings.walls, {.layer = alone, .index = index, .nozzle_diameter = settings.machine.nozzle_diameter});
+  return !walls.beads.empty() || !walls.inside.empty();
+}
+
+/// What is too small to be printed asks for no support and lies on none: what is printed first above it does.
+/// @param kept  takes the layers that have less
+void leave_out_specks(const Settings& settings, Outlines& outlines, std::vector<SlicedLayer>& kept) {
+  const Um least = outlines.object.outer_line;
+  const auto speck = [&](const Region& region) {
+    const Point size = box_of(region.outer).size();
+    return std::max(size.x, size.y) < least;
+  };
+  kept.resize(outlines.layers.size());
+  tasks::for_each_index(outlines.layers.size(), [&](std::size_t i) {
+    const SlicedLayer& layer = *outlines.layers[i];
+    if (std::none_of(layer.regions.begin(), layer.regions.end(),
+                     [&](const Region& region) { return speck(region) && !is_printed(settings, layer, i, region); }))
+      return;
+    kept[i] = layer;
+    std::erase_if(kept[i].regions,
+                  [&](const Region& region) { return speck(region) && !is_printed(settings, layer, i, region); });
+  });
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    if (kept[i].height > 0) outlines.layers[i] = &kept[i];
+  outlines.object.layers = outlines.layers;
+}
+
+/// Enforcers of which nothing is held: they lie where nothing overhangs.
+std::vector<std::uint32_t> idle_enforcers(const Object& object, const std::vector<AreasOfMark>& areas,
+                                          const support::Demand& demand) {
+  std::vector<std::uint32_t> out;
+  for (const auto& mark : areas) {
+    if (object.marks[mark.mark].kind != mesh::MarkKind::support_enforcer) continue;
+    bool holds = false;
+    for (std::size_t i = 0; i < std::min(demand.size(), mark.by_layer.size()) && !holds; ++i)
+      holds = !mark.by_layer[i].empty() && !demand[i].wanted.empty() &&
+              !geometry::intersect(demand[i].wanted, mark.by_layer[i]).empty();
+    if (!holds) out.push_back(mark.mark);
+  }
+  return out;
+}
+
+double plastic_mm3(const PrintedLayer& layer) {
+  double um2 = 0;
+  for (const Bead& bead : layer.beads) {
+    const std::size_t n = bead.path.size();
+    for (std::size_t i = 1; i < n + (bead.closed ? 1 : 0); ++i) {
+      const Junction &a = bead.path[i - 1], &b = bead.path[i % n];
+      um2 += distance(a.at, b.at) * (a.width + b.width) / 2;
+    }
+  }
+  return um2 * layer.height * 1e-9;
+}
+
 /// What a stage of support reads besides settings.
 StageKey support_key(const std::string& settings, const std::vector<std::string>& sliced, const Object& object,
                      const SupportOf& of) {
@@ -150,18 +226,29 @@ StageKey support_key(const std::string& settings, const std::vector<std::string>
 
 Supports make_supports(const Settings& settings, const Object& object, const std::vector<slice::Cut>& cuts,
                        SupportOf& of) {
-  read_marks(settings, object, cuts, of);
+  const auto marks = read_marks(settings, object, cuts, of);
   auto outlines = outlines_of(settings, cuts);
+  std::vector<SlicedLayer> without_specks;
+  leave_out_specks(settings, outlines, without_specks);
   auto& o = outlines.object;
   o.floor = of.floor, o.on_raft = of.on_raft, o.room = of.bounded ? &of.room : nullptr;
   o.enforced = of.enforced, o.blocked = of.blocked, o.given = of.given;
-  auto plan = support::plan(settings.support, o, support::demand(settings.support, o));
+  const auto demand = support::demand(settings.support, o);
+  auto plan = support::plan(settings.support, o, demand);
+  if (settings.support.support_type == SupportType::buildplate && plan.figures.left_mm2 >= worth_telling_mm2) {
+    SupportSettings anywhere = settings.support;  // what the user could have instead
+    anywhere.support_type = SupportType::everywhere;
+    plan.figures.left_to_part_mm2 = plan.figures.left_mm2 - support::plan(anywhere, o, demand).figures.left_mm2;
+  }
   const Point origin = outlines.box.empty() ? Point{} : outlines.box.centre();
   Supports out;
   out.layers = tasks::parallel_map(plan.layers.size(),
                                    [&](std::size_t k) { return fill_support(settings, plan.layers[k], origin); });
+  for (std::size_t k = 0; k < plan.trapped.size(); ++k)
+    plan.figures.trapped_mm3 += plan.trapped[k] * plastic_mm3(out.layers[k]);
   if (!plan.layers.empty()) out.held = std::move(plan.held);
   out.figures = plan.figures;
+  out.idle_enforcers = idle_enforcers(object, marks, demand);
   return out;
 }
 
@@ -208,6 +295,12 @@ void support_object(const Running& job, const Scopes& all, const ObjectScopes& s
       job, [&] { return support_key(row_of<Stage::support>().reads.bytes_of(settings), sliced_by(), object, out); },
       [&] { return make_supports(settings, object, cuts, out); });
   tell(settings, object, (*made).figures, job.report);
+  job.report.support.layers += (*made).layers.size();
+  for (const auto mark : (*made).idle_enforcers)
+    job.report.warnings.push_back(
+        {"support_enforcer_idle",
+         fmt::format("{}: meets no downward face, so it asks for nothing",
+                     object.marks[mark].name.empty() ? object.name : object.marks[mark].name)});
   Supports own = std::move(made).take();
   out.layers = std::move(own.layers), out.held = std::move(own.held);
   for (std::size_t k = 0; k < out.layers.size(); ++k)

@@ -34,6 +34,28 @@ std::size_t bottom_of(const ShellSettings& shells, std::span<const travel::Layer
   return out;
 }
 
+/// Takes everything but walls out of the layers [begin, end) of a rise that are above its bottom, and finds its turns.
+Vase vase_of(const ShellSettings& shells, std::span<travel::LayerInput> layers, std::size_t begin, std::size_t end) {
+  Vase out;
+  out.begin = begin + bottom_of(shells, layers.subspan(begin, end - begin));
+  for (std::size_t i = out.begin; i < end; ++i)
+    for (auto& object : layers[i].objects) {
+      std::erase_if(object.beads, [](const Bead& bead) { return !is_wall(bead) || bead.inset > 0; });
+      object.skin.clear(), object.top.clear(), object.sparse.clear();
+    }
+  while (out.begin < end && !layers[out.begin].adhesion.empty()) ++out.begin;
+  out.end = out.begin;
+  while (out.end < end && is_turn(layers[out.end])) ++out.end;
+  return out;
+}
+
+Notice ends_at(const travel::LayerInput& layer) {
+  const std::size_t walls = layer.objects.empty() ? 0 : layer.objects.front().beads.size();
+  return {"spiral_ends", fmt::format("magic_spiralize: at z {:.3f} there {} {} wall{}, not a single closed "
+                                     "one: from there on layers are plain",
+                                     to_mm(layer.z), walls == 1 ? "is" : "are", walls, walls == 1 ? "" : "s")};
+}
+
 }  // namespace
 
 Settings of_vase(Settings s) {
@@ -53,9 +75,9 @@ void check_vase(const Settings& settings, const Plate& plate) {
   const auto refuse = [](const std::string& what, const char* hint) {
     throw Error{Error::Kind::settings, "magic_spiralize: " + what, {}, hint};
   };
-  if (objects != 1)
+  if (objects != 1 && settings.plate.print_sequence != PrintSequence::one_at_a_time)
     refuse(fmt::format("{} objects on the plate; a spiral takes one", objects),
-           "print them one after the other, each in a file of its own");
+           "print_sequence = one_at_a_time, or each in a file of its own");
   if (tool_count(settings) > 1) refuse(fmt::format("{} tools; a spiral takes one", tool_count(settings)), "");
   if (settings.support.support_enable)
     refuse("support_enable is on; a spiral is never interrupted", "switch one of the two off");
@@ -66,26 +88,22 @@ travel::SpiralStyle spiral_style(const LayerSettings& layers) {
           layers.spiral_finish_flow / 100};
 }
 
-Vase vase_of(const Settings& settings, std::span<travel::LayerInput> layers, Notices& notices) {
-  Vase out;
-  out.begin = bottom_of(settings.shells, layers);
-  for (std::size_t i = out.begin; i < layers.size(); ++i)
-    for (auto& object : layers[i].objects) {
-      std::erase_if(object.beads, [](const Bead& bead) { return !is_wall(bead) || bead.inset > 0; });
-      object.skin.clear(), object.top.clear(), object.sparse.clear();
-    }
-  while (out.begin < layers.size() && !layers[out.begin].adhesion.empty()) ++out.begin;
-  out.end = out.begin;
-  while (out.end < layers.size() && is_turn(layers[out.end])) ++out.end;
-  if (out.end < layers.size()) {
-    const auto& layer = layers[out.end];
-    const std::size_t walls = layer.objects.empty() ? 0 : layer.objects.front().beads.size();
-    notices.push_back(
-        {"spiral_ends", fmt::format("magic_spiralize: at z {:.3f} there {} {} wall{}, not a single closed "
-                                    "one: from there on layers are plain",
-                                    to_mm(layer.z), walls == 1 ? "is" : "are", walls, walls == 1 ? "" : "s")});
+Vases vases_of(const Settings& settings, std::span<travel::LayerInput> layers, Notices& notices) {
+  Vases out;
+  for (std::size_t begin = 0; begin < layers.size();) {
+    std::size_t end = begin + 1;
+    while (end < layers.size() && !layers[end].time.comes_down) ++end;
+    out.push_back(vase_of(settings.shells, layers, begin, end));
+    if (out.back().end < end) notices.push_back(ends_at(layers[out.back().end]));
+    begin = end;
   }
   return out;
+}
+
+const Vase* vase_at(const Vases& vases, std::size_t layer) {
+  const auto after =
+      std::partition_point(vases.begin(), vases.end(), [&](const Vase& vase) { return vase.end <= layer; });
+  return after != vases.end() && after->has(layer) ? &*after : nullptr;
 }
 
 const Bead& wall_of(const travel::LayerInput& layer) {

@@ -194,9 +194,9 @@ void layer_heights(Lines& lines, const Outlet& out) {
 
 /// Limits of silent mode: the second values of each limit, where all of them have one.
 void silent_limits(Lines& lines, const Outlet& out) {
-  const auto* wanted = lines.look("silent_mode");  // custom G-code may ask for it, too
+  const auto* wanted = lines.find("silent_mode");
   const auto* flavor = lines.look("gcode_flavor");
-  if (!wanted || !lines.flag(*wanted) || !flavor || flavor->value != "marlin") return;
+  if (!wanted || !lines.flag(*wanted) || !flavor || !flavor->value.starts_with("marlin")) return;
   std::string all;
   for (const auto* key :
        {"machine_max_feedrate_x", "machine_max_feedrate_y", "machine_max_feedrate_z", "machine_max_feedrate_e",

@@ -296,7 +296,7 @@ constexpr auto rows = std::to_array<Key>({
         .initial = "0"},
     Key{.name = "silent_mode",
         .form = Form::reckoned,
-        .fate = "machine_silent_limits: the second values of machine_max_…, with gcode_flavor = marlin",
+        .fate = "machine_silent_limits: the second values of machine_max_…, with Marlin",
         .written = Written::flag,
         .initial = "1"},
     Key{.name = "min_layer_height",

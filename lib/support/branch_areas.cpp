@@ -4,6 +4,8 @@
 #include "core/stop.h"
 #include "geometry/boolean.h"
 #include "geometry/spatial_index.h"
+#include "geometry/touching.h"
+#include "geometry/trimmed.h"
 #include "support/columns.h"
 #include "support/lengths.h"
 #include "tasks/parallel.h"
@@ -11,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
 namespace weft::support {
@@ -21,7 +22,7 @@ namespace {
 struct Piece {
   Region region;
   Box box;
-  bool cut = false;  ///< it is not the discs as they are
+  std::vector<Disc> discs;  ///< that it is; none: it is not all of them
 };
 using Pieces = std::vector<Piece>;
 
@@ -29,103 +30,101 @@ Box box_of(const Disc& disc) {
   return Box{disc.at, disc.at}.grown(rounded(disc.radius) + 1);
 }
 
-/// Discs whose boxes meet, directly or by others, together.
-std::vector<std::vector<std::size_t>> clusters(const std::vector<Disc>& discs) {
-  std::vector<std::size_t> order(discs.size()), root(discs.size());
-  std::iota(order.begin(), order.end(), std::size_t{0}), std::iota(root.begin(), root.end(), std::size_t{0});
-  const auto left = [&](std::size_t i) { return std::pair(discs[i].at.x - rounded(discs[i].radius), i); };
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return left(a) < left(b); });
-  const auto find = [&](std::size_t i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const Box box = box_of(discs[order[i]]);
-    for (std::size_t j = i + 1; j < order.size() && left(order[j]).first <= box.max.x; ++j)
-      if (box.overlaps(box_of(discs[order[j]]))) {
-        const auto a = find(order[i]), b = find(order[j]);
-        root[std::max(a, b)] = std::min(a, b);
-      }
-  }
-  std::vector<std::vector<std::size_t>> by_root(discs.size()), out;
-  for (std::size_t i = 0; i < discs.size(); ++i) by_root[find(i)].push_back(i);
-  for (auto& cluster : by_root)
-    if (!cluster.empty()) out.push_back(std::move(cluster));
-  return out;
+bool covers(const Piece& piece, Point p) {
+  return piece.box.contains(p) && side_of(piece.region.outer, p) != Side::outside;
 }
 
-/// Tells which discs are free of what is kept out, so that nothing is to be cut from them.
+/// Tells which discs are free of the part and in the object's room, so that nothing is to be cut from them.
 class Free {
  public:
-  Free(const KeepOut& out, const Object& object)
-      : barred_(barred(out)), room_(object.room ? *object.room : Regions{}), bounded_(object.room != nullptr) {}
+  Free(const Room& room, const Stack::Level& level, const Box& near)
+      : beside_(beside(room.settings(), room.object()) + 10), boundary_(room.object().room != nullptr) {
+    const auto& s = room.settings();
+    const auto& o = room.object();
+    const Box wide = near.grown(beside_);
+    part_ = geometry::SegmentIndex(room.part(level.bottom(), level.z, wide));
+    Regions over = room.part(level.z, level.z + top_gap(s), near);
+    if (level.bottom() > o.floor) {
+      const Um step = std::max(s.support_bottom_stair_step_height, 0);  // a stair may begin so far below
+      append(over, room.part(level.bottom() - bottom_gap(s) - step, level.bottom(), near));
+    }
+    if (s.support_blockers_avoided) append(over, blocked_between(o, level.bottom(), level.z));
+    over_ = geometry::SegmentIndex(over);
+    if (boundary_) bounds_ = geometry::SegmentIndex(geometry::trimmed(*o.room, near));
+  }
   bool is(const Disc& disc) const {
     const double radius = disc.radius * 1.05 + 2;  // corners lie outside of the circle
-    if (barred_.box().grown(rounded(radius)).overlaps(box_of(disc)) &&
-        (barred_.nearest(disc.at, radius) || barred_.winding(disc.at).value_or(1) != 0))
-      return false;
-    return !bounded_ || (room_.region_at(disc.at) && !room_.nearest(disc.at, radius));
+    return clear(part_, disc.at, radius + beside_) && clear(over_, disc.at, radius) &&
+           (!boundary_ || (bounds_.region_at(disc.at) && !bounds_.nearest(disc.at, radius)));
   }
 
  private:
-  static Regions barred(const KeepOut& out) {
-    Regions all = out.over;
-    append(all, out.touch), append(all, out.near);
-    return all;
+  static bool clear(const geometry::SegmentIndex& index, Point at, double radius) {
+    if (!index.box().grown(rounded(radius) + 1).contains(at)) return true;
+    return !index.nearest(at, radius) && index.winding(at).value_or(1) == 0;
   }
-  geometry::SegmentIndex barred_, room_;
-  bool bounded_;
+  Um beside_;
+  bool boundary_;
+  geometry::SegmentIndex part_, over_, bounds_;
 };
 
-Pieces pieces_of(const SupportSettings& s, const Object& object, const KeepOut& out, const Regions& contacts,
-                 const std::vector<Disc>& discs) {
+Pieces pieces_of(const Room& room, const Stack::Level& level, const Regions& contacts, const std::vector<Disc>& discs) {
   Pieces pieces;
   if (discs.empty()) return pieces;
-  const Free free(out, object);
-  Regions to_cut;
-  for (const auto& cluster : clusters(discs)) {
+  Box all;
+  for (const Disc& disc : discs) all.add(box_of(disc));
+  const Free free(room, level, all.grown(200));
+  const Um thin = line_width(room.settings(), room.object().nozzle) * 4 / 10;
+  std::vector<Box> boxes;
+  for (const Disc& disc : discs) boxes.push_back(box_of(disc));
+  for (const auto& cluster : geometry::touching(boxes)) {
     const bool whole = std::all_of(cluster.begin(), cluster.end(), [&](std::size_t i) { return free.is(discs[i]); });
     std::vector<Ring> rings;
     for (const std::size_t i : cluster) rings.push_back(circle_around(discs[i]));
     Regions regions = rings.size() == 1 ? Regions{{std::move(rings.front()), {}}} : geometry::regions_from_rings(rings);
-    if (!whole) {
-      append(to_cut, regions);
-      continue;
+    if (!whole) regions = geometry::opening(room.free_part(regions, level, contacts), thin);
+    for (auto& region : regions) {
+      Piece piece{std::move(region), {}, {}};
+      piece.box = weft::box_of(piece.region.outer);
+      if (whole)
+        for (const std::size_t i : cluster)
+          if (covers(piece, discs[i].at)) piece.discs.push_back(discs[i]);
+      pieces.push_back(std::move(piece));
     }
-    for (auto& region : regions) pieces.push_back({std::move(region), {}, false});
   }
-  if (!to_cut.empty())
-    for (auto& region :
-         geometry::opening(free_part(to_cut, out, contacts, object), line_width(s, object.nozzle) * 4 / 10))
-      pieces.push_back({std::move(region), {}, true});
-  for (auto& piece : pieces) piece.box = weft::box_of(piece.region.outer);
   return pieces;
 }
 
-/// What of a level rests on the one below, or on the part. Whole discs lean so little that they do where those below
-/// are whole.
-void let_rest(const SupportSettings& s, const Object& object, const Stack& stack, std::size_t k, Pieces& here,
-              const Pieces& below) {
+/// Whether a disc reaches no further than that beyond one of a piece below.
+bool lies_on(const Disc& disc, const Piece& below, Um reach) {
+  return std::any_of(below.discs.begin(), below.discs.end(), [&](const Disc& under) {
+    return distance(disc.at, under.at) + disc.radius <= under.radius + reach;
+  });
+}
+
+/// What of a level rests on the one below, or on the part.
+void let_rest(const Room& room, const Stack::Level& level, Pieces& here, const Pieces& below) {
   Pieces out;
   Regions doubtful;
   for (auto& piece : here) {
-    const Box box = piece.box.grown(stack.levels[k].height);
-    bool on_whole = false, on_cut = false;
-    for (const auto& b : below)
-      if (box.overlaps(b.box)) (b.cut ? on_cut : on_whole) = true;
-    if (!piece.cut && on_whole && !on_cut)
+    const bool rests = std::all_of(piece.discs.begin(), piece.discs.end(), [&](const Disc& disc) {
+      return std::any_of(below.begin(), below.end(),
+                         [&](const Piece& b) { return b.box.contains(disc.at) && lies_on(disc, b, level.height); });
+    });
+    if (!piece.discs.empty() && rests)
       out.push_back(std::move(piece));
     else
       doubtful.push_back(std::move(piece.region));
   }
   if (!doubtful.empty()) {
-    std::vector<Regions> two(2);
-    for (const auto& b : below) two[0].push_back(b.region);
-    two[1] = doubtful;
-    rest_on(s, object, stack.levels[k], two[0], two[1]);
-    for (auto& region : two[1]) {
+    const Box near = weft::box_of(doubtful).grown(level.height);
+    Regions base;
+    for (const auto& b : below)
+      if (b.box.overlaps(near)) base.push_back(b.region);
+    rest_on(room, level, base, doubtful);
+    for (auto& region : doubtful) {
       const Box box = weft::box_of(region.outer);
-      out.push_back({std::move(region), box, true});
+      out.push_back({std::move(region), box, {}});
     }
   }
   here = std::move(out);
@@ -144,17 +143,14 @@ Ring circle_around(const Disc& disc) {
   return out;
 }
 
-std::vector<Regions> branch_areas(const SupportSettings& settings, const Object& object, const Stack& stack,
-                                  const std::vector<KeepOut>& keep_out, const std::vector<Regions>& contacts,
+std::vector<Regions> branch_areas(const Room& room, const Stack& stack, const std::vector<Regions>& contacts,
                                   const std::vector<std::vector<Disc>>& discs) {
-  auto levels = tasks::parallel_map(discs.size(), [&](std::size_t k) {
-    stop_if_asked();
-    return pieces_of(settings, object, keep_out[k], contacts[k], discs[k]);
-  });
+  auto levels = tasks::parallel_map(
+      discs.size(), [&](std::size_t k) { return pieces_of(room, stack.levels[k], contacts[k], discs[k]); });
   std::vector<Regions> out(levels.size());
   for (std::size_t k = 0; k < levels.size(); ++k) {
     stop_if_asked();
-    if (k > 0 && !levels[k].empty()) let_rest(settings, object, stack, k, levels[k], levels[k - 1]);
+    if (k > 0 && !levels[k].empty()) let_rest(room, stack.levels[k], levels[k], levels[k - 1]);
     if (k == 0) continue;
     for (const auto& piece : levels[k - 1]) out[k - 1].push_back(piece.region);
   }

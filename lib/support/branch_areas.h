@@ -17,8 +17,7 @@ Ring circle_around(const Disc& disc);
 
 /// The areas of branches by level: discs less what is kept out, and what of them rests.
 /// Cost: discs that stand free of each other and of the part cost nothing but their corners.
-std::vector<Regions> branch_areas(const SupportSettings& settings, const Object& object, const Stack& stack,
-                                  const std::vector<KeepOut>& keep_out, const std::vector<Regions>& contacts,
+std::vector<Regions> branch_areas(const Room& room, const Stack& stack, const std::vector<Regions>& contacts,
                                   const std::vector<std::vector<Disc>>& discs);
 
 }  // namespace weft::support

@@ -5,14 +5,16 @@
 #include "geometry/boolean.h"
 #include "geometry/offset.h"
 #include "geometry/simplify.h"
-#include "geometry/spatial_index.h"
 #include "support/columns.h"
 #include "support/lengths.h"
+#include "support/patches.h"
+#include "support/tree.h"
+#include "tasks/parallel.h"
 
 #include <algorithm>
-#include <numbers>
 
 namespace weft::support {
+using namespace weft::literals;
 namespace {
 
 double perimeter_mm(const Regions& regions) {
@@ -24,115 +26,86 @@ double perimeter_mm(const Regions& regions) {
   return um / 1000;
 }
 
-/// What the beads of an area of columns take, mm³: lines inside, or a loop where it is narrow.
-double column_mm3(const SupportSettings& s, const Regions& area, Um line, Um height) {
-  const double mm2 = area_mm2(area), loop = 0.5 * perimeter_mm(area) * to_mm(line);
-  return to_mm(height) * std::min(mm2, std::max(mm2 * s.support_infill_rate / 100, loop));
-}
+/// What the columns of a patch would take, mm³.
+class Guess {
+ public:
+  Guess(const Room& room, const Stack& stack)
+      : room_(room), stack_(stack), s_(room.settings()), line_(line_width(s_, room.object().nozzle)) {}
 
-/// What the loops of a branch take, mm² on a level.
-double walls_mm2(const SupportSettings& s, const Region& branch, Um line) {
-  const double thick_mm = to_mm(s.support_tree_branch_diameter_double_wall);
-  const bool two = thick_mm > 0 && area_mm2(branch) > std::numbers::pi / 4 * thick_mm * thick_mm;
-  const double loop_mm = perimeter_mm({branch}) - std::numbers::pi * to_mm(line);  // half a line further in
-  return std::min(area_mm2(branch), s.support_wall_count.value_or(two ? 2 : 1) * loop_mm * to_mm(line));
-}
-
-/// Columns as they would stand, every two millimetres of height: visit(region, height that it stands for), and
-/// land(region) for what of them comes to stand on the part.
-/// @return what stands on the lowest level
-template <class Visit, class Land>
-Regions guess_columns(const SupportSettings& s, const Object& object, const Stack& stack,
-                      const std::vector<KeepOut>& keep_out, const std::vector<Regions>& contacts, Visit visit,
-                      Land land) {
-  using namespace weft::literals;
-  constexpr Um step = 2_mm, coarse = 0.1_mm;
-  Regions falling;
-  Um height = 0;
-  for (std::size_t k = stack.levels.size(); k-- > 0;) {
-    append(falling, contacts[k]);
-    height += stack.levels[k].height;
-    if (falling.empty() || (height < step && k > 0)) continue;
-    stop_if_asked();
-    falling = geometry::simplified(geometry::unite(falling), coarse);
-    if (s.support_join_distance > 0) falling = geometry::closing(falling, s.support_join_distance / 2);
-    if (s.support_type == SupportType::everywhere)
-      for (const Region& region :
-           geometry::intersect(falling, outlines_between(object, stack.levels[k].bottom(), stack.levels[k].z)))
-        land(region);
-    falling = opened(geometry::subtract(falling, keep_out[k].near), line_width(s, object.nozzle) / 2);
-    for (const Region& region : falling) visit(region, height);
-    height = 0;
+  double columns_mm3(const Patch& patch) const {
+    constexpr Um step = 2_mm, coarse = 0.1_mm;
+    double mm3 = 0;
+    Regions falling;
+    Um height = 0;
+    auto next = patch.contacts.rbegin();
+    for (std::size_t k = next->first + 1; k-- > 0;) {
+      if (next != patch.contacts.rend() && next->first == k) append(falling, (next++)->second);
+      height += stack_.levels[k].height;
+      if (falling.empty() || (height < step && k > 0)) continue;
+      stop_if_asked();
+      falling = geometry::simplified(geometry::unite(falling), coarse);
+      if (s_.support_join_distance > 0) falling = geometry::closing(falling, s_.support_join_distance / 2);
+      mm3 += lost(k, falling);
+      for (const Region& region : falling) mm3 += column_mm3(region, height);
+      height = 0;
+    }
+    return mm3 + foot_mm3(falling) - roof_mm3(patch);
   }
-  return falling;
-}
 
-/// What the first layer of what stands there takes, with what spreads around it.
-double foot_mm3(const SupportSettings& s, const Regions& standing, Um height) {
-  return area_mm2(grown(geometry::unite(standing), s.support_brim_width)) * to_mm(height) *
-         s.support_initial_layer_density / 100;
-}
+ private:
+  /// Takes away what the part keeps off on a level. @return what of it stands on the part, as so much plastic
+  double lost(std::size_t k, Regions& falling) const {
+    constexpr double mm3_by_scar_mm2 = 1;  // what stands on the part is filed off
+    double mm3 = 0;
+    const auto& level = stack_.levels[k];
+    const Box near = box_of(falling).grown(1);
+    if (s_.support_type == SupportType::everywhere)
+      if (const Regions part = room_.part(level.bottom(), level.z, near); !part.empty())
+        mm3 += mm3_by_scar_mm2 * area_mm2(geometry::intersect(falling, part));
+    if (const Regions kept_off = room_.keep_out(level, near).near; !kept_off.empty())
+      falling = opened(geometry::subtract(falling, kept_off), line_ / 2);
+    return mm3;
+  }
+  /// What the beads of an area of columns take: a loop where it is narrow, else lines and what joins them at every
+  /// other end.
+  double column_mm3(const Region& area, Um height) const {
+    const double mm2 = area_mm2(area), loop = perimeter_mm({area}) * to_mm(line_);
+    const bool narrow = geometry::offset({area}, {.by = -hollow_column(line_, s_.support_infill_rate / 100)}).empty();
+    return to_mm(height) * std::min(mm2, narrow ? loop : mm2 * s_.support_infill_rate / 100 + loop / 2);
+  }
+  /// What the first layer of what stands there takes, with what spreads around it.
+  double foot_mm3(const Regions& standing) const {
+    return area_mm2(grown(standing, s_.support_brim_width)) * to_mm(stack_.levels.front().height) *
+           s_.support_initial_layer_density / 100;
+  }
+  /// Either has a roof. On a column it takes the place of what fills it; on branches most of its lowest level is free.
+  double roof_mm3(const Patch& patch) const {
+    if (!s_.support_roof_enable || s_.support_roof_height <= 0) return 0;
+    constexpr double joists = 0.2;
+    double mm2 = 0;
+    for (const auto& [k, regions] : patch.contacts) mm2 += area_mm2(regions);
+    return mm2 * (to_mm(s_.support_roof_height) * s_.support_infill_rate / 100 -
+                  (1 - joists) * to_mm(room_.object().nozzle) / 2);
+  }
+
+  const Room& room_;
+  const Stack& stack_;
+  const SupportSettings& s_;
+  Um line_;
+};
 
 }  // namespace
 
-Split cheaper(const SupportSettings& s, const Object& object, const Stack& stack, const std::vector<KeepOut>& keep_out,
-              const std::vector<Regions>& contacts) {
-  const Um line = line_width(s, object.nozzle);
-  Regions all;
-  for (const auto& regions : contacts) append(all, regions);
-  const Regions patches = grown(geometry::unite(all), std::max<Um>(s.support_join_distance / 2, line));
-  const geometry::SegmentIndex index(patches);
-  const auto patch_of = [&](const Region& region) { return index.region_at(region.outer.front()).value_or(0); };
-  std::vector<double> columns_mm3(patches.size(), 0), branches_mm3(patches.size(), 0);
-
-  constexpr double mm3_by_scar_mm2 = 1;  // what stands on the part is filed off
-  const Regions standing = guess_columns(
-      s, object, stack, keep_out, contacts,
-      [&](const Region& region, Um height) { columns_mm3[patch_of(region)] += column_mm3(s, {region}, line, height); },
-      [&](const Region& region) { columns_mm3[patch_of(region)] += mm3_by_scar_mm2 * area_mm2(region); });
-  const Um first = stack.levels.front().height;
-  for (const Region& region : standing) columns_mm3[patch_of(region)] += foot_mm3(s, {region}, first);
-  auto branches = tree(s, object, stack, keep_out, contacts);
-  double tree_mm3 = foot_mm3(s, branches.areas[0], first);
-  for (std::size_t k = 1; k < stack.levels.size(); ++k) {
-    stop_if_asked();
-    for (const Region& region : branches.areas[k])
-      tree_mm3 += walls_mm2(s, region, line) * to_mm(stack.levels[k].height);
-  }
-  // Either has a roof. On a column it takes the place of what fills it; on branches most of its lowest level is free.
-  constexpr double joists = 0.2;
-  const double roof =
-      s.support_roof_enable && s.support_roof_height > 0
-          ? to_mm(s.support_roof_height) * s.support_infill_rate / 100 - (1 - joists) * to_mm(object.nozzle) / 2
-          : 0;
-  for (const auto& regions : contacts)
-    for (const Region& region : regions) columns_mm3[patch_of(region)] -= area_mm2(region) * roof;
-  // Branches that meet are shared: each tip pays by its height.
-  double heights = 0;
-  for (const Point3 tip : branches.tips_at) heights += tip.z - object.floor;
-  for (const Point3 tip : branches.tips_at)
-    if (const auto patch = index.region_at({tip.x, tip.y}))
-      branches_mm3[*patch] += tree_mm3 * (tip.z - object.floor) / std::max(1.0, heights);
-  for (std::size_t k = 0; k < branches.left.size(); ++k) {  // what no branch gets near stands on columns of its own
-    if (branches.left[k].empty()) continue;
-    Regions held = branches.areas[k];
-    append(held, branches.roofs[k]);
-    if (k + 1 < branches.roofs.size())  // what lies on the tips of that level
-      append(held, branches.roofs[k + 1]), append(held, branches.joists[k + 1].area);
-    for (const Region& region : opened(geometry::subtract(branches.left[k], grown(geometry::unite(held), reached)), 50))
-      branches_mm3[patch_of(region)] += column_mm3(s, {region}, line, stack.levels[k].z - object.floor);
-  }
-
-  Split out{std::vector<Regions>(contacts.size()), std::vector<Regions>(contacts.size()), std::nullopt};
-  bool columns_too = false;
-  for (std::size_t k = 0; k < contacts.size(); ++k)
-    for (const Region& region : contacts[k]) {
-      const auto patch = patch_of(region);
-      const bool by_branches = branches_mm3[patch] < columns_mm3[patch];
-      (by_branches ? out.for_branches : out.for_columns)[k].push_back(region);
-      columns_too = columns_too || !by_branches;
-    }
-  if (!columns_too) out.branches = std::move(branches);
+Split cheaper(const Room& room, const Stack& stack, const Field& field, const std::vector<Regions>& contacts) {
+  const Patches patches(contacts, apart(room.settings(), room.object().nozzle));
+  const Guess guess(room, stack);
+  const auto& all = patches.all();
+  const auto columns_mm3 = tasks::parallel_map(all.size(), [&](std::size_t i) { return guess.columns_mm3(all[i]); });
+  const auto by_branches_mm3 = branches_mm3(room, stack, field, contacts, patches);
+  Split out{std::vector<Regions>(contacts.size()), std::vector<Regions>(contacts.size())};
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (const auto& [k, regions] : all[i].contacts)
+      append((by_branches_mm3[i] < columns_mm3[i] ? out.for_branches : out.for_columns)[k], regions);
   return out;
 }
 

@@ -5,11 +5,15 @@
 #include "geometry/boolean.h"
 #include "geometry/clip_lines.h"
 #include "geometry/simplify.h"
+#include "geometry/trimmed.h"
 #include "support/branch_areas.h"
 #include "support/lengths.h"
+#include "support/patches.h"
+#include "tasks/parallel.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <set>
 #include <utility>
@@ -40,15 +44,11 @@ Regions squares(const Regions& area, Um cell) {
   return geometry::unite(out);
 }
 
-/// What columns look like that hold an area: gaps are closed, and nothing is too thin to stand.
+/// What columns look like that hold an area.
 Regions shaped(const SupportSettings& s, const Object& object, const Regions& contact) {
-  const Um line = line_width(s, object.nozzle);
-  Regions out = s.support_join_distance > 0 ? geometry::closing(contact, s.support_join_distance / 2) : contact;
-  if (s.support_normal_shape == SupportShape::grid) {
-    const double share = std::max(0.02, s.support_infill_rate / 100);
-    return squares(out, std::clamp<Um>(rounded(line / share), 1000, 10000));
-  }
-  return out;
+  if (s.support_normal_shape == SupportShape::snug) return contact;
+  const double share = std::max(0.02, s.support_infill_rate / 100);
+  return squares(contact, std::clamp<Um>(rounded(line_width(s, object.nozzle) / share), 1000, 10000));
 }
 
 bool on_tower(const SupportSettings& s, const Region& region) {
@@ -143,7 +143,12 @@ namespace {
 
 /// What of a level hangs, but for slivers along edges: an area that was opened by 0.4 lines is none.
 Regions hanging(const Regions& here, const Regions& below) {
-  Regions out = geometry::subtract(here, below);
+  Regions out;
+  for (const Region& region : here) {
+    const Regions under = geometry::trimmed(below, box_of(region.outer).grown(1));
+    if (under.size() == 1 && under.front() == region) continue;
+    append(out, under.empty() ? Regions{region} : geometry::subtract({region}, under));
+  }
   std::erase_if(out, [](const Region& piece) {
     constexpr double least_mm2 = 0.05, least_wide_mm = 0.06;
     const double mm2 = area_mm2(piece);
@@ -154,88 +159,161 @@ Regions hanging(const Regions& here, const Regions& below) {
 
 }  // namespace
 
-void rest_on(const SupportSettings& s, const Object& object, const Stack::Level& level, const Regions& below,
-             Regions& here) {
+void rest_on(const Room& room, const Stack::Level& level, const Regions& below, Regions& here) {
   constexpr Um sinks = 0.6_mm;  // what hangs so far above the part comes to lie on it
   if (here.empty()) return;
+  const auto& s = room.settings();
   const Regions hangs = hanging(here, below);
   if (hangs.empty()) return;
-  const Um reach = std::max(line_width(s, object.nozzle) * 6 / 10, level.height);
-  const Regions near = boxes_around(hangs, 2 * reach);
-  Regions base = geometry::intersect(below, near);
-  if (s.support_type == SupportType::everywhere) {
-    const auto run = layers_between(object, level.bottom() - bottom_gap(s) - sinks, level.bottom());
-    for (std::size_t i = run.from; i < run.to; ++i) append(base, geometry::intersect(object.layers[i]->regions, near));
+  const Um reach = std::max(line_width(s, room.object().nozzle) * 6 / 10, level.height);
+  Regions free;
+  for (const Region& piece : hangs) {
+    const Box near = box_of(piece.outer).grown(2 * reach);
+    Regions base = geometry::trimmed(below, near);
+    if (s.support_type == SupportType::everywhere)
+      append(base, room.part(level.bottom() - bottom_gap(s) - sinks, level.bottom(), near));
+    if (base.empty())
+      free.push_back(piece);
+    else
+      append(free, geometry::subtract({piece}, grown(base, reach)));
   }
-  const Regions free = base.empty() ? hangs : geometry::subtract(hangs, grown(geometry::unite(base), reach));
   if (!free.empty()) here = geometry::subtract(here, free);
-}
-
-void let_rest(const SupportSettings& s, const Object& object, const Stack& stack, std::vector<Regions>& levels) {
-  for (std::size_t k = 1; k < levels.size(); ++k) {
-    stop_if_asked();
-    rest_on(s, object, stack.levels[k], levels[k - 1], levels[k]);
-  }
-}
-
-Regions free_part(const Regions& area, const KeepOut& out, const Regions& contacts, const Object& object) {
-  Regions left = area;
-  if (object.room != nullptr) left = geometry::intersect(left, *object.room);
-  if (left.empty()) return left;
-  Regions barred = out.over;
-  append(barred, out.touch);
-  if (contacts.empty())
-    append(barred, out.near);
-  else
-    append(barred, geometry::subtract(out.near, grown(contacts, object.nozzle)));  // a strip alone could not be printed
-  return barred.empty() ? left : geometry::subtract(left, barred);
 }
 
 namespace {
 
-constexpr Um corner_bound = 15_um;
+constexpr Um corner_bound = 40_um;
 
 /// What is thinner than twice the radius goes. Other corners stay as they are: opened level by level, they would be cut
 /// a little each time.
 Regions without_thin(const Regions& area, Um radius) {
-  return geometry::intersect(area, grown(opened(area, radius), radius / 2));
+  return geometry::offset(geometry::offset(area, {.by = -radius}), {.by = radius, .miter_limit = 8});
 }
+
+/// Columns of one patch.
+class Falling {
+ public:
+  Falling(const Room& room, const Stack& stack, const std::vector<Regions>& shadow)
+      : s_(room.settings()),
+        room_(room),
+        stack_(stack),
+        shadow_(shadow),
+        line_(line_width(s_, room.object().nozzle)),
+        towers_(s_),
+        levels_(stack.levels.size()),
+        less_(stack.levels.size(), 0) {}
+
+  /// From the highest level down.
+  std::vector<Regions> under(const Patch& patch, const std::vector<Regions>* given) && {
+    auto next = patch.contacts.rbegin();
+    static const Regions none;
+    for (std::size_t k = stack_.levels.size(); k-- > 0;) {
+      const bool contact = next != patch.contacts.rend() && next->first == k;
+      const Regions& held = contact ? (next++)->second : none;
+      if (falling_.empty() && held.empty() && (given == nullptr || (*given)[k].empty())) continue;
+      stop_if_asked();
+      begin(k, held, given != nullptr ? (*given)[k] : none);
+      clear(k, held);
+      levels_[k] = falling_;
+    }
+    let_rest();
+    return std::move(levels_);
+  }
+
+ private:
+  /// What begins on that level, and what comes down from above.
+  void begin(std::size_t k, const Regions& contacts, const Regions& given) {
+    const auto& level = stack_.levels[k];
+    if (s_.support_conical_enabled && !falling_.empty()) {
+      lean(s_, room_.object(), level.height, falling_);
+      less_[k] = 1;
+    }
+    towers_.begin(contacts, level.z);
+    towers_.add(level.z, falling_);
+    if (!contacts.empty()) {
+      const Regions fresh = shaped(s_, room_.object(), contacts);
+      append(falling_, fresh);
+      if (falling_.size() > 1) falling_ = joined(falling_);
+      thicken(falling_, fresh, line_);
+    }
+    if (given.empty()) return;
+    append(falling_, given);
+    falling_ = geometry::unite(falling_);
+  }
+  /// Strips of a slope, one above the other, would leave holes and gaps that are no wider than what is to be one
+  /// column.
+  Regions joined(const Regions& falling) const {
+    if (s_.support_join_distance <= 0) return geometry::unite(falling);
+    return grown(grown(falling, s_.support_join_distance / 2), -s_.support_join_distance / 2);
+  }
+  void clear(std::size_t k, const Regions& contacts) {
+    const auto& level = stack_.levels[k];
+    if (ragged_ || !contacts.empty()) falling_ = geometry::simplified(falling_, corner_bound);
+    ragged_ = false;
+    bool cut = false;
+    Regions left = room_.free_part(falling_, level, contacts, &cut);
+    if (!shadow_.empty() && !shadow_[k].empty()) left = geometry::subtract(left, shadow_[k]), cut = true;
+    if (!cut && contacts.empty()) return;
+    falling_ = without_thin(left, line_ * 4 / 10);
+    ragged_ = true, less_[k] = 1;
+  }
+  /// From the bottom up: where the level below is no less than this one, all of it rests.
+  void let_rest() {
+    bool less_below = less_[0] != 0;
+    for (std::size_t k = 1; k < levels_.size(); ++k) {
+      const bool less = less_[k] != 0;
+      if (less_below && !levels_[k].empty()) {
+        stop_if_asked();
+        const double before = area_mm2(levels_[k]);
+        rest_on(room_, stack_.levels[k], levels_[k - 1], levels_[k]);
+        less_below = less || area_mm2(levels_[k]) < before;
+      } else {
+        less_below = less;
+      }
+    }
+  }
+
+  const SupportSettings& s_;
+  const Room& room_;
+  const Stack& stack_;
+  const std::vector<Regions>& shadow_;
+  Um line_;
+  Towers towers_;
+  Regions falling_;
+  bool ragged_ = false;  ///< it has corners of what was cut from it
+  std::vector<Regions> levels_;
+  std::vector<char> less_;  ///< of each level, whether it is not all of what lies above it
+};
 
 }  // namespace
 
-std::vector<Regions> columns(const SupportSettings& settings, const Object& object, const Stack& stack,
-                             const std::vector<KeepOut>& keep_out, const std::vector<Regions>& contacts,
+Um apart(const SupportSettings& s, Um nozzle) {
+  return std::max<Um>(s.support_join_distance, 4 * line_width(s, nozzle)) + 0.1_mm;
+}
+
+std::vector<Regions> columns(const Room& room, const Stack& stack, const std::vector<Regions>& contacts,
                              const std::vector<Regions>& given) {
-  const Um line = line_width(settings, object.nozzle);
-  std::vector<Regions> out(stack.levels.size());
+  const auto& s = room.settings();
   std::vector<Regions> shadow;
-  if (settings.support_type == SupportType::buildplate) shadow = shadows(settings, object, stack);
-  Regions falling;  // what comes down from above
-  Towers towers(settings);
-  for (std::size_t k = stack.levels.size(); k-- > 0;) {
-    stop_if_asked();
-    if (settings.support_conical_enabled && !falling.empty()) lean(settings, object, stack.levels[k].height, falling);
-    towers.begin(contacts[k], stack.levels[k].z);
-    towers.add(stack.levels[k].z, falling);
-    if (!contacts[k].empty()) {
-      const Regions fresh = shaped(settings, object, contacts[k]);
-      append(falling, fresh);
-      falling = geometry::unite(falling);
-      thicken(falling, fresh, line);
-    }
-    if (!given[k].empty()) {
-      append(falling, given[k]);
-      falling = geometry::unite(falling);
-    }
-    if (falling.empty()) continue;
-    falling = geometry::simplified(falling, corner_bound);  // of corners that the part above has left
-    Regions left = free_part(falling, keep_out[k], contacts[k], object);
-    if (!shadow.empty()) left = geometry::subtract(left, shadow[k]);
-    const bool same = contacts[k].empty() && std::abs(area_mm2(left) - area_mm2(falling)) < 1e-6;
-    if (!same) falling = without_thin(left, line * 4 / 10);
-    out[k] = falling;
+  if (s.support_type == SupportType::buildplate) shadow = shadows(room, stack);
+  const bool drawn = std::any_of(given.begin(), given.end(), [](const Regions& r) { return !r.empty(); });
+  // What gets wider on the way down meets others.
+  const bool wider = drawn || s.support_normal_shape == SupportShape::grid || s.support_use_towers ||
+                     (s.support_conical_enabled && s.support_conical_angle < 0);
+  if (wider) {
+    Patch all;
+    for (std::size_t k = 0; k < contacts.size(); ++k)
+      if (!contacts[k].empty()) all.contacts.push_back({k, contacts[k]});
+    return Falling(room, stack, shadow).under(all, drawn ? &given : nullptr);
   }
-  let_rest(settings, object, stack, out);
+  const Patches patches(contacts, apart(s, room.object().nozzle));
+  auto of_patch = tasks::parallel_map(patches.all().size(), [&](std::size_t i) {
+    return Falling(room, stack, shadow).under(patches.all()[i], nullptr);
+  });
+  std::vector<Regions> out(stack.levels.size());
+  for (auto& levels : of_patch)
+    for (std::size_t k = 0; k < levels.size(); ++k)
+      out[k].insert(out[k].end(), std::make_move_iterator(levels[k].begin()), std::make_move_iterator(levels[k].end()));
   return out;
 }
 

@@ -3,6 +3,7 @@
 
 #include "core/stop.h"
 #include "support/lengths.h"
+#include "support/raster.h"
 #include "tasks/parallel.h"
 
 #include <algorithm>
@@ -13,72 +14,20 @@
 namespace weft::support {
 namespace {
 
-constexpr double most_cells = 8e6;  // of all slabs together: each is a byte, three times
+constexpr double most_cells = 4e6;  // of all slabs together: each is a byte, three times
 constexpr Um finest_cell = 0.3_mm;
-constexpr double far_away = 1e12;
-
-/// Lower envelope of parabolas: squared distances of one row, in place.
-void transform(std::vector<double>& f, std::vector<double>& out, std::vector<int>& v, std::vector<double>& z, int n) {
-  const auto at = [](auto& list, int i) -> auto& {
-    return list[static_cast<std::size_t>(i)];
-  };
-  int k = 0;
-  at(v, 0) = 0, at(z, 0) = -far_away * 10, at(z, 1) = far_away * 10;
-  for (int q = 1; q < n; ++q) {
-    const auto meeting = [&](int p) { return (at(f, q) + double(q) * q - at(f, p) - double(p) * p) / (2.0 * (q - p)); };
-    double s = meeting(at(v, k));
-    while (k > 0 && s <= at(z, k)) s = meeting(at(v, --k));
-    if (s <= at(z, k)) {
-      at(v, k) = q;
-      continue;
-    }
-    at(v, ++k) = q, at(z, k) = s, at(z, k + 1) = far_away * 10;
-  }
-  k = 0;
-  for (int q = 0; q < n; ++q) {
-    while (at(z, k + 1) < q) ++k;
-    at(out, q) = double(q - at(v, k)) * (q - at(v, k)) + at(f, at(v, k));
-  }
-}
-
-/// Sets the cells whose centre is inside of the regions.
-template <class Set>
-void rasterize(const Regions& regions, Point origin, Um cell, int columns, int rows, Set set) {
-  std::vector<std::vector<double>> crossings(static_cast<std::size_t>(rows));
-  const auto add = [&](const Ring& ring) {
-    for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-      const Point a = ring[j], b = ring[i];
-      if (a.y == b.y) continue;
-      const double low = std::min(a.y, b.y), high = std::max(a.y, b.y);
-      const int from = std::max(0, static_cast<int>(std::ceil((low - origin.y) / cell - 0.5)));
-      const int to = std::min(rows - 1, static_cast<int>(std::ceil((high - origin.y) / cell - 0.5)) - 1);
-      for (int r = from; r <= to; ++r) {
-        const double y = origin.y + (r + 0.5) * cell;
-        crossings[static_cast<std::size_t>(r)].push_back(a.x + (y - a.y) * (double(b.x) - a.x) / (double(b.y) - a.y));
-      }
-    }
-  };
-  for (const Region& region : regions) {
-    add(region.outer);
-    for (const Ring& hole : region.holes) add(hole);
-  }
-  for (int r = 0; r < rows; ++r) {
-    auto& row = crossings[static_cast<std::size_t>(r)];
-    std::sort(row.begin(), row.end());
-    for (std::size_t i = 0; i + 1 < row.size(); i += 2) {
-      const int from = std::max(0, static_cast<int>(std::ceil((row[i] - origin.x) / cell - 0.5)));
-      const int to = std::min(columns - 1, static_cast<int>(std::ceil((row[i + 1] - origin.x) / cell - 0.5)) - 1);
-      for (int c = from; c <= to; ++c) set(c, r);
-    }
-  }
-}
 
 }  // namespace
 
-void Field::size_up(const SupportSettings& settings, const Object& object, const Stack& stack) {
-  Box box;
-  for (const auto* layer : object.layers) box.add(box_of(layer->regions));
-  box = box.grown(8_mm);  // branches go round the part
+void Field::size_up(const SupportSettings& settings, const Object& object, const Stack& stack,
+                    const std::vector<Regions>& contacts) {
+  constexpr Um around_part = 8_mm, aside = 40_mm;  // who must go further aside has a column
+  Box part, box;
+  for (const auto* layer : object.layers) part.add(box_of(layer->regions));
+  for (const auto& regions : contacts) box.add(box_of(regions));
+  part = part.grown(around_part), box = box.grown(aside);
+  box = {{std::max(box.min.x, part.min.x), std::max(box.min.y, part.min.y)},
+         {std::min(box.max.x, part.max.x), std::min(box.max.y, part.max.y)}};
   const double slope = std::tan(settings.support_tree_angle * std::numbers::pi / 180);
   const double height = stack.levels.back().z - object.floor;
   for (cell_ = finest_cell;; cell_ = cell_ * 5 / 4) {
@@ -117,22 +66,11 @@ std::vector<std::uint8_t> Field::barred(const SupportSettings& settings, const O
 
 /// Distance of each cell to what is barred, less the distance that is kept and the doubt of the grid.
 std::vector<std::uint8_t> Field::clearance(const std::vector<std::uint8_t>& barred) const {
-  const auto columns = static_cast<std::size_t>(columns_), rows = static_cast<std::size_t>(rows_);
   std::vector<double> squared(barred.size());
   for (std::size_t i = 0; i < barred.size(); ++i) squared[i] = barred[i] != 0 ? 0 : far_away;
-  const std::size_t longest = std::max(columns, rows);
-  std::vector<double> line(longest), result(longest), z(longest + 1);
-  std::vector<int> v(longest);
-  for (std::size_t c = 0; c < columns; ++c) {
-    for (std::size_t r = 0; r < rows; ++r) line[r] = squared[r * columns + c];
-    transform(line, result, v, z, rows_);
-    for (std::size_t r = 0; r < rows; ++r) squared[r * columns + c] = result[r];
-  }
-  for (std::size_t r = 0; r < rows; ++r) {
-    std::copy_n(squared.begin() + static_cast<std::ptrdiff_t>(r * columns), columns, line.begin());
-    transform(line, result, v, z, columns_);
-    std::copy_n(result.begin(), columns, squared.begin() + static_cast<std::ptrdiff_t>(r * columns));
-  }
+  const auto columns = static_cast<std::size_t>(columns_), rows = static_cast<std::size_t>(rows_);
+  spread_squares(squared, {.count = rows, .stride = columns, .lines = columns, .between = 1});
+  spread_squares(squared, {.count = columns, .stride = 1, .lines = rows, .between = columns});
   std::vector<std::uint8_t> out(barred.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
     const double um = std::sqrt(squared[i]) * cell_ - beside_ - 0.75 * cell_;
@@ -164,9 +102,10 @@ std::vector<std::uint8_t> Field::spread(const std::vector<std::uint8_t>& from, U
   return out;
 }
 
-Field::Field(const SupportSettings& settings, const Object& object, const Stack& stack, const std::vector<KeepOut>&) {
+Field::Field(const SupportSettings& settings, const Object& object, const Stack& stack,
+             const std::vector<Regions>& contacts) {
   beside_ = beside(settings, object);
-  size_up(settings, object, stack);
+  size_up(settings, object, stack, contacts);
   barred_ = tasks::parallel_map(slabs(), [&](std::size_t slab) { return barred(settings, object, stack, slab); });
   const auto clear = tasks::parallel_map(slabs(), [&](std::size_t slab) { return clearance(barred_[slab]); });
   const bool everywhere = settings.support_type == SupportType::everywhere;

@@ -15,13 +15,16 @@ class Field {
   /// Lengths in cells of the field are tenths of a millimetre.
   static constexpr Um unit = 100;
 
+  /// @param contacts  by level: what branches are for; the field reaches as far around it as they may go
   Field(const SupportSettings& settings, const Object& object, const Stack& stack,
-        const std::vector<KeepOut>& keep_out);
+        const std::vector<Regions>& contacts);
 
   std::size_t slabs() const { return first_.size() - 1; }
   std::size_t first_level(std::size_t slab) const { return first_[slab]; }
   std::size_t slab_of(std::size_t level) const;
   Um cell() const { return cell_; }
+  /// A point that moves with the object.
+  Point origin() const { return origin_; }
   /// How far a branch may go sideways on its way through a slab.
   Um reach(std::size_t slab) const { return reach_[slab]; }
 
@@ -38,7 +41,8 @@ class Field {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
   }
   Um at(const std::vector<std::vector<std::uint8_t>>& field, std::size_t slab, Point p) const;
-  void size_up(const SupportSettings& settings, const Object& object, const Stack& stack);
+  void size_up(const SupportSettings& settings, const Object& object, const Stack& stack,
+               const std::vector<Regions>& contacts);
   std::vector<std::uint8_t> barred(const SupportSettings& settings, const Object& object, const Stack& stack,
                                    std::size_t slab) const;
   std::vector<std::uint8_t> clearance(const std::vector<std::uint8_t>& barred) const;

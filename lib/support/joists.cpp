@@ -30,7 +30,8 @@ class Chosen {
       if (before(edge.second, edge.first)) std::swap(edge.first, edge.second);
       if (distance(tips_[edge.first], tips_[edge.second]) > style_.longest) continue;
       if (!style_.one_way) edges_.insert(edge);
-      const double wide = at(edge.second) - at(edge.first);
+      // Of sides as good those that lean one way: joists are then as far from each other everywhere.
+      const double wide = (at(edge.second) - at(edge.first)) * (along(edge.second) > along(edge.first) ? 1.0 : 0.9);
       if (wide > widest) widest = wide, best = edge;
     }
     if (widest > 0) edges_.insert(best);
@@ -65,6 +66,7 @@ class Chosen {
 
  private:
   double at(std::size_t tip) const { return tips_[tip].x * across_x_ + tips_[tip].y * across_y_; }
+  double along(std::size_t tip) const { return tips_[tip].x * across_y_ - tips_[tip].y * across_x_; }
   bool before(std::size_t a, std::size_t b) const { return std::pair(at(a), a) < std::pair(at(b), b); }
 
   const std::vector<Point>& tips_;

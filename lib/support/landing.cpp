@@ -3,8 +3,9 @@
 
 #include "core/stop.h"
 #include "geometry/boolean.h"
+#include "geometry/trimmed.h"
+#include "support/kinds.h"
 #include "support/lengths.h"
-#include "support/room.h"
 #include "tasks/parallel.h"
 
 #include <algorithm>
@@ -15,15 +16,6 @@
 namespace weft::support {
 namespace {
 
-constexpr std::array kinds{&SupportLayer::columns, &SupportLayer::branches, &SupportLayer::roof, &SupportLayer::bottom};
-
-Regions all_of(const SupportLayer& layer) {
-  Regions out;
-  for (const auto kind : kinds) append(out, layer.*kind);
-  append(out, layer.joists.area);
-  return out.empty() ? out : geometry::unite(out);
-}
-
 /// A part of a layer that stands on the part, and how high it is to be.
 struct Landing {
   Regions area;  ///< what of it is wide enough to be printed apart
@@ -31,27 +23,29 @@ struct Landing {
   double mm2 = 0;  ///< all of it
 };
 
-std::vector<Landing> landings_of(const SupportSettings& s, const Object& object, const SupportLayer& layer,
-                                 const SupportLayer& below) {
+std::vector<Landing> landings_of(const Room& room, const SupportLayer& layer, const SupportLayer& below) {
+  const auto& s = room.settings();
+  const auto& object = room.object();
   const Um gap = bottom_gap(s), line = line_width(s, object.nozzle), bottom = layer.z - layer.height;
   const auto run = layers_between(object, bottom - gap - below.height, bottom - gap);
   std::vector<Landing> out;
-  if (run.from == run.to) return out;
-  Regions kinds_of, part;
-  for (const auto kind : kinds) append(kinds_of, layer.*kind);
-  for (std::size_t i = run.from; i < run.to; ++i) append(part, object.layers[i]->regions);
-  if (kinds_of.empty() || geometry::intersect(kinds_of, part).empty()) return out;
-  Regions standing = geometry::unite(kinds_of);
-  standing = geometry::subtract(standing, grown(all_of(below), line));
-  for (std::size_t i = run.to; i-- > run.from && !standing.empty();) {  // the highest is what it stands on
-    const Um free = bottom - object.layers[i]->z - gap;
-    if (free < 0 || object.layers[i]->regions.empty()) continue;
-    const Regions here = geometry::intersect(standing, object.layers[i]->regions);
-    if (here.empty()) continue;
-    standing = geometry::subtract(standing, here);
-    Regions wide = free > 1 && !s.support_synchronize_layers ? geometry::opening(here, line) : Regions{};
-    out.push_back({std::move(wide), layer.height + free, area_mm2(here)});
-  }
+  const Regions under = all_areas(below);
+  for (const auto kind : kinds)
+    for (const Region& region : layer.*kind) {
+      const Box near = box_of(region.outer).grown(line + 1);
+      Regions part = room.part(bottom - gap - below.height, bottom - gap, near);
+      if (part.empty() || geometry::intersect({region}, part).empty()) continue;
+      Regions standing = geometry::subtract({region}, grown(geometry::trimmed(under, near), line));
+      for (std::size_t i = run.to; i-- > run.from && !standing.empty();) {  // the highest is what it stands on
+        const Um z = object.layers[i]->z, free = bottom - z - gap;
+        if (free < 0) continue;
+        const Regions here = geometry::intersect(standing, room.part(z - 1, z, near));
+        if (here.empty()) continue;
+        standing = geometry::subtract(standing, here);
+        Regions wide = free > 1 && !s.support_synchronize_layers ? geometry::opening(here, line) : Regions{};
+        out.push_back({std::move(wide), layer.height + free, area_mm2(here)});
+      }
+    }
   return out;
 }
 
@@ -68,12 +62,13 @@ SupportLayer taken(SupportLayer& layer, const Regions& area) {
 
 }  // namespace
 
-double land(const SupportSettings& settings, const Object& object, std::vector<SupportLayer>& layers) {
+double land(const Room& room, std::vector<SupportLayer>& layers) {
+  const auto& settings = room.settings();
   if (settings.support_type == SupportType::buildplate || layers.empty()) return 0;
-  const Um most = object.nozzle * 3 / 4;
+  const Um most = room.object().nozzle * 3 / 4;
   const auto landings = tasks::parallel_map(layers.size(), [&](std::size_t k) {
     stop_if_asked();
-    return k == 0 ? std::vector<Landing>{} : landings_of(settings, object, layers[k], layers[k - 1]);
+    return k == 0 ? std::vector<Landing>{} : landings_of(room, layers[k], layers[k - 1]);
   });
   std::vector<SupportLayer> lowest;
   double on_part_mm2 = 0;
@@ -93,8 +88,6 @@ double land(const SupportSettings& settings, const Object& object, std::vector<S
     }
   if (lowest.empty()) return on_part_mm2;
   std::move(lowest.begin(), lowest.end(), std::back_inserter(layers));
-  std::stable_sort(layers.begin(), layers.end(),
-                   [](const SupportLayer& a, const SupportLayer& b) { return a.z < b.z; });
   return on_part_mm2;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "core/table.h"
-#include "geometry/offset.h"
+#include "geometry/touching.h"
 #include "settings/groups/support.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using namespace weft::literals;
 inline constexpr Um reached = 1.5_mm;
 
 /// How far a round corner of support may be cut: support needs no finer ones.
-inline constexpr Um coarse_arc = 25_um;
+inline constexpr Um coarse_arc = 40_um;
 
 inline Um top_gap(const SupportSettings& s) {
   return s.support_top_distance.value_or(s.support_z_distance);
@@ -62,15 +62,30 @@ inline Um roof_span(Um nozzle) {
   return 10 * nozzle;
 }
 
+/// Columns whose middle is no further from their edge are hollow: between lines as far apart as that density asks for
+/// they would have none, or one that stands alone.
+inline Um hollow_column(Um line, double share) {
+  return rounded(0.6 * (share > 0 ? line / share : line * 10.0));
+}
+
+/// How far from the next branch a place under such a roof may lie. No two neighbours are then further from each other
+/// than twice that, and those of a lattice of triangles 1.6 times.
+inline Um roof_covers(const BranchStyle& style, Um nozzle) {
+  return (style.tip + roof_span(nozzle)) * 10 / 17;
+}
+
 inline Regions grown(const Regions& regions, Um by) {
   if (regions.empty() || by == 0) return regions;
-  return geometry::offset(regions, {.by = by, .corner = geometry::Corner::round, .arc_tolerance = coarse_arc});
+  return geometry::offset_apart(regions, {.by = by, .corner = geometry::Corner::round, .arc_tolerance = coarse_arc});
 }
 
 /// As geometry::opening, with arcs of as many corners as support needs.
 inline Regions opened(const Regions& regions, Um radius) {
   return grown(grown(regions, -radius), radius);
 }
+
+/// Beads of support follow its outlines no closer than that; so much more is kept off the part.
+inline constexpr Um outline_bound = 30_um;
 
 /// Outlines of support need no finer corners than that.
 inline constexpr Um coarse_outline = 25_um;

@@ -2,17 +2,22 @@
 #include "core/stop.h"
 #include "geometry/boolean.h"
 #include "geometry/simplify.h"
+#include "geometry/trimmed.h"
+#include "support/caps.h"
 #include "support/cheaper.h"
 #include "support/columns.h"
 #include "support/joists.h"
+#include "support/kinds.h"
 #include "support/landing.h"
 #include "support/lengths.h"
 #include "support/support.h"
+#include "support/trapped.h"
 #include "support/tree.h"
 #include "tasks/parallel.h"
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
+#include <utility>
 
 namespace weft::support {
 namespace {
@@ -21,7 +26,7 @@ namespace {
 std::vector<Regions> contacts_of(const Stack& stack, const Demand& demand) {
   std::vector<Regions> out(stack.levels.size());
   for (std::size_t i = 0; i < demand.size(); ++i)
-    if (stack.contact[i] != Stack::none) append(out[stack.contact[i]], demand[i].wanted);
+    if (stack.contacts[i].level != Stack::none) append(out[stack.contacts[i].level], demand[i].wanted);
   return tasks::parallel_map(out.size(), [&](std::size_t k) {
     if (out[k].empty()) return Regions{};
     return geometry::simplified(out[k].size() > 1 ? geometry::unite(out[k]) : out[k], coarse_outline);
@@ -41,53 +46,90 @@ std::vector<Regions> given_on(const Object& object, const Stack& stack) {
   return out;
 }
 
-/// Cuts a level's columns into roof, bottom and what is between.
-SupportLayer divided(const SupportSettings& s, const Object& object, const Stack& stack, std::size_t k,
-                     const std::vector<Regions>& standing, const std::vector<Regions>& contacts) {
-  const auto& level = stack.levels[k];
-  const Um line = line_width(s, object.nozzle);
-  SupportLayer out{level.z, level.height, standing[k], {}, {}, {}, k == 0 && !object.on_raft, {}};
-  if (out.columns.empty()) return out;
-  if (s.support_roof_enable && s.support_roof_height > 0) {
-    Regions held;
-    for (std::size_t j = k; j < stack.levels.size(); ++j) {
-      if (stack.levels[j].bottom() >= level.z + s.support_roof_height + 2 * object.nozzle) break;
-      if (!contacts[j].empty() && j - k < interface_levels(stack, j, s.support_roof_height)) append(held, contacts[j]);
+/// Cuts columns into roof, bottom and what is between.
+class Interfaces {
+ public:
+  Interfaces(const Room& room, const Stack& stack, const std::vector<Regions>& contacts)
+      : room_(room),
+        s_(room.settings()),
+        stack_(stack),
+        contacts_(contacts),
+        line_(line_width(s_, room.object().nozzle)),
+        caps_(lowest_caps(stack)) {}
+
+  SupportLayer divided(std::size_t k, const Regions& standing) const {
+    const auto& level = stack_.levels[k];
+    SupportLayer out{level.z, level.height, standing, {}, {}, {}, k == 0 && !room_.object().on_raft, {}};
+    if (standing.empty()) return out;
+    if (s_.support_roof_enable && s_.support_roof_height > 0) out.roof = roof(k, standing);
+    if (s_.support_bottom_enable && level.bottom() > room_.object().floor) {
+      out.bottom = bottom(level, standing);
+      if (!out.roof.empty()) out.bottom = geometry::subtract(out.bottom, out.roof);
     }
-    if (!held.empty()) out.roof = geometry::intersect(out.columns, grown(geometry::unite(held), line));
+    if (!out.roof.empty() || !out.bottom.empty()) {
+      Regions dense = out.roof;
+      append(dense, out.bottom);
+      out.columns = geometry::opening(geometry::subtract(out.columns, dense), line_ * 4 / 10);
+    }
+    return out;
   }
-  if (s.support_bottom_enable && level.bottom() > object.floor) {
-    const Um height = s.support_bottom_height.value_or(s.support_roof_height);
-    const Um low = level.bottom() - bottom_gap(s);
-    const Regions part = outlines_between(object, low - std::max(height - level.height, 1), low);
-    if (height > 0 && !part.empty()) out.bottom = geometry::intersect(out.columns, part);
-    if (!out.roof.empty()) out.bottom = geometry::subtract(out.bottom, out.roof);
+
+ private:
+  Regions roof(std::size_t k, const Regions& standing) const {
+    Regions held;
+    for (std::size_t j = k; j < stack_.levels.size(); ++j) {
+      if (stack_.levels[j].bottom() >= stack_.levels[k].z + s_.support_roof_height + 2 * room_.object().nozzle) break;
+      if (!contacts_[j].empty() &&
+          j - k < interface_levels(stack_, j, std::max<Um>(s_.support_roof_height - caps_[j], 1)))
+        append(held, contacts_[j]);
+    }
+    if (held.empty()) return {};
+    if (held.size() > 1) held = geometry::unite(held);
+    thicken(held, held, line_);
+    return geometry::intersect(standing, held);
   }
-  if (!out.roof.empty() || !out.bottom.empty()) {
-    Regions dense = out.roof;
-    append(dense, out.bottom);
-    out.columns = geometry::opening(geometry::subtract(out.columns, dense), line * 4 / 10);
+  Regions bottom(const Stack::Level& level, const Regions& standing) const {
+    const Um height = s_.support_bottom_height.value_or(s_.support_roof_height), low = level.bottom() - bottom_gap(s_);
+    if (height <= 0) return {};
+    const Regions part = room_.part(low - std::max(height - level.height, 1), low, box_of(standing));
+    return part.empty() ? part : geometry::intersect(standing, part);
   }
-  return out;
-}
+
+  const Room& room_;
+  const SupportSettings& s_;
+  const Stack& stack_;
+  const std::vector<Regions>& contacts_;
+  Um line_;
+  std::vector<Um> caps_;
+};
 
 /// The first level is floors, also under branches, which are hollow above; and reaches further out, so that it sticks.
-void spread_first(const SupportSettings& s, const Object& object, const KeepOut& keep_out, SupportLayer& first) {
+void spread_first(const Room& room, const Stack& stack, SupportLayer& first) {
+  const auto& object = room.object();
   if (object.on_raft) return;
   Regions all = first.columns;
   append(all, first.roof), append(all, first.bottom);
-  Regions wide = all.empty() ? all : grown(geometry::unite(all), s.support_brim_width);
+  Regions wide = all.empty() ? all : grown(geometry::unite(all), room.settings().support_brim_width);
   append(wide, first.branches);  // which have a foot of their own
   if (wide.empty()) return;
-  wide = geometry::unite(wide);
-  if (object.room != nullptr) wide = geometry::intersect(wide, *object.room);
-  Regions barred = keep_out.near;
-  append(barred, keep_out.over), append(barred, first.roof), append(barred, first.bottom);
-  first.columns = geometry::subtract(wide, barred);
+  wide = room.free_part(geometry::unite(wide), stack.levels.front(), {});
+  Regions dense = first.roof;
+  append(dense, first.bottom);
+  first.columns = dense.empty() ? wide : geometry::subtract(wide, dense);
   first.branches.clear();
 }
 
-void note_reached(const Object& object, const Stack& stack, const Demand& demand, Plan& plan) {
+Region within(const Box& box) {
+  return {{box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}}, {}};
+}
+
+/// Whether the underside of a layer is so near to the bed that no support has room between them.
+bool on_the_bed(const Object& object, const SlicedLayer& layer) {
+  return !object.on_raft && layer.z - layer.height <= object.layers.front()->z;
+}
+
+/// What is held of each layer of the object, and what is not.
+void note_reached(const Object& object, const Stack& stack, const Demand& demand, const Caps& caps, Plan& plan) {
   struct Reached {
     Regions held;
     double needed_mm2 = 0, left_mm2 = 0, contact_mm2 = 0;
@@ -97,20 +139,30 @@ void note_reached(const Object& object, const Stack& stack, const Demand& demand
     Reached out;
     if (demand[i].wanted.empty()) return out;
     out.needed_mm2 = area_mm2(demand[i].wanted);
-    Regions left = demand[i].wanted;
-    if (stack.contact[i] != Stack::none) {
-      const auto& level = plan.layers[stack.contact[i]];
-      const Box near = box_of(demand[i].wanted).grown(2 * reached);
-      Regions all;
-      for (const Regions* some : {&level.roof, &level.columns, &level.branches})
-        for (const Region& region : *some)
-          if (near.overlaps(box_of(region.outer))) all.push_back(region);
-      all = geometry::unite(all);
-      out.contact_mm2 = area_mm2(geometry::intersect(all, demand[i].wanted));
-      const Regions wide = grown(all, reached);
-      out.held = geometry::intersect(wide, object.layers[i]->regions);
-      left = geometry::opening(geometry::subtract(left, wide), 20);
+    const auto& contact = stack.contacts[i];
+    if (contact.level == Stack::none) {
+      // What hangs no higher above the bed than support could be thin lies down on it.
+      if (!on_the_bed(object, *object.layers[i])) out.left_mm2 = out.needed_mm2;
+      if (out.left_mm2 > 0) out.left_at = demand[i].wanted.front().outer.front();
+      return out;
     }
+    Regions all = all_areas(plan.layers[contact.level]);
+    append(all, caps.of[i]);
+    Regions left;
+    for (const Region& wanted : demand[i].wanted) {
+      const Box box = box_of(wanted.outer);
+      const Regions near = geometry::trimmed(all, box.grown(2 * reached));
+      if (near.empty()) {
+        left.push_back(wanted);
+        continue;
+      }
+      out.contact_mm2 += area_mm2(geometry::intersect({wanted}, near));
+      const Regions wide = grown(near, reached);
+      append(left, geometry::opening(geometry::subtract({wanted}, wide), 20));
+      const Regions here = geometry::trimmed(object.layers[i]->regions, box.grown(reached));
+      append(out.held, geometry::intersect(here, geometry::intersect(wide, {within(box.grown(reached))})));
+    }
+    if (out.held.size() > 1) out.held = geometry::unite(out.held);
     out.left_mm2 = area_mm2(left);
     if (!left.empty()) out.left_at = left.front().outer.front();
     return out;
@@ -145,22 +197,25 @@ std::vector<Regions> left_by(const Tree& branches, const std::vector<Regions>& c
   });
 }
 
-Standing stand(const SupportSettings& s, const Object& object, const Stack& stack, const std::vector<KeepOut>& keep_out,
-               const std::vector<Regions>& contacts, const std::vector<Regions>& given) {
+bool all_empty(const std::vector<Regions>& by_level) {
+  return std::all_of(by_level.begin(), by_level.end(), [](const Regions& regions) { return regions.empty(); });
+}
+
+Standing stand(const Room& room, const Stack& stack, const std::vector<Regions>& contacts,
+               const std::vector<Regions>& given) {
+  const auto& s = room.settings();
   const std::size_t count = contacts.size();
   Standing out;
-  if (s.support_structure == SupportStructure::normal || count == 0) {
+  auto [towers, others] = for_towers(s, contacts);
+  if (s.support_structure == SupportStructure::normal || all_empty(others)) {
     out.under_columns = contacts;
-    out.columns = columns(s, object, stack, keep_out, contacts, given);
+    out.columns = columns(room, stack, contacts, given);
     return out;
   }
-  auto [towers, others] = for_towers(s, contacts);
-  Split split;
-  if (s.support_structure == SupportStructure::hybrid)
-    split = cheaper(s, object, stack, keep_out, others);
-  else
-    split = {others, std::vector<Regions>(count), std::nullopt};
-  out.branches = split.branches ? std::move(*split.branches) : tree(s, object, stack, keep_out, split.for_branches);
+  const Field field(s, room.object(), stack, others);
+  Split split = s.support_structure == SupportStructure::hybrid ? cheaper(room, stack, field, others)
+                                                                : Split{others, std::vector<Regions>(count)};
+  out.branches = tree(room, stack, field, split.for_branches);
   out.under_columns = std::move(split.for_columns);
   const auto left = left_by(out.branches, split.for_branches);
   for (std::size_t k = 0; k < count; ++k) {
@@ -168,31 +223,52 @@ Standing stand(const SupportSettings& s, const Object& object, const Stack& stac
     append(out.under_columns[k], left[k]), append(out.under_columns[k], towers[k]);
     out.under_columns[k] = geometry::unite(out.under_columns[k]);
   }
-  out.columns = columns(s, object, stack, keep_out, out.under_columns, given);
+  out.columns = columns(room, stack, out.under_columns, given);
+  return out;
+}
+
+/// What of one thing is not where another is, for its beads.
+Regions beside(const Regions& what, const Regions& other, Um apart, Um thin) {
+  Regions out;
+  for (const Region& region : what) {
+    const Regions near = geometry::trimmed(other, box_of(region.outer).grown(apart + 1));
+    if (near.empty())
+      out.push_back(region);
+    else
+      append(out, geometry::opening(geometry::subtract({region}, grown(near, apart)), thin));
+  }
   return out;
 }
 
 /// Branches and their roofs, where no columns are.
-void add_branches(const SupportSettings& s, const Object& object, std::size_t k, const Standing& standing,
-                  SupportLayer& layer) {
-  const Um half = line_width(s, object.nozzle) / 2;
-  const Regions &areas = standing.branches.areas[k], &roofs = standing.branches.roofs[k];
+void add_branches(const Room& room, std::size_t k, const Standing& standing, SupportLayer& layer) {
+  const Um half = line_width(room.settings(), room.object().nozzle) / 2;
+  const Regions &areas = standing.branches.areas[k], &roofs = standing.branches.roofs[k],
+                &columns = standing.columns[k];
   if (!roofs.empty()) {
-    Regions own = standing.columns[k].empty() ? roofs : geometry::subtract(roofs, grown(standing.columns[k], 20));
-    own = geometry::opening(own, half / 2);
+    const Regions own = beside(roofs, columns, 20, half / 2);
     append(layer.roof, own);
     if (layer.roof.size() > own.size()) layer.roof = geometry::unite(layer.roof);
   }
   layer.joists = standing.branches.joists[k];
-  if (!layer.joists.area.empty() && !standing.columns[k].empty()) {
-    layer.joists.area =
-        geometry::opening(geometry::subtract(layer.joists.area, grown(standing.columns[k], 20)), half / 2);
+  if (!layer.joists.area.empty() && !columns.empty()) {
+    layer.joists.area = beside(layer.joists.area, columns, 20, half / 2);
     clip_joists(layer.joists, 2 * half);
   }
-  if (areas.empty()) return;
-  Regions others = grown(standing.columns[k], half);
-  append(others, roofs), append(others, layer.joists.area);
-  layer.branches = others.empty() ? areas : geometry::opening(geometry::subtract(areas, others), half / 2);
+  layer.branches = beside(areas, columns, half, half / 2);
+  Regions others = roofs;
+  append(others, layer.joists.area);
+  layer.branches = beside(layer.branches, others, 0, half / 2);
+}
+
+/// Where columns took the place of branches, those above may have nothing left below them.
+void let_branches_rest(const Room& room, const Stack& stack, const Standing& standing,
+                       std::vector<SupportLayer>& layers) {
+  for (std::size_t k = 1; k < layers.size(); ++k) {
+    if (layers[k].branches.empty() || standing.columns[k - 1].empty()) continue;
+    stop_if_asked();
+    rest_on(room, stack.levels[k], all_areas(layers[k - 1]), layers[k].branches);
+  }
 }
 
 }  // namespace
@@ -212,18 +288,28 @@ Plan plan(const SupportSettings& settings, const Object& object, const Demand& d
   std::size_t used = contacts.size();
   while (used > 0 && contacts[used - 1].empty() && given[used - 1].empty()) --used;
   stack.levels.resize(used);
-  const auto keep_out = keep_outs(settings, object, stack);
-  const Standing standing = stand(settings, object, stack, keep_out, contacts, given);
+  for (auto& contact : stack.contacts)
+    if (contact.level >= used) contact = {};
+  const Room room(settings, object);
+  const Standing standing = stand(room, stack, contacts, given);
   out.figures.tips = standing.branches.tips_at.size(), out.figures.trunks = standing.branches.trunks;
   out.figures.slenderest = standing.branches.slenderest;
+  const Interfaces interfaces(room, stack, standing.under_columns);
   out.layers = tasks::parallel_map(used, [&](std::size_t k) {
-    auto layer = divided(settings, object, stack, k, standing.columns, standing.under_columns);
-    if (k < standing.branches.areas.size()) add_branches(settings, object, k, standing, layer);
+    stop_if_asked();
+    auto layer = interfaces.divided(k, standing.columns[k]);
+    if (k < standing.branches.areas.size()) add_branches(room, k, standing, layer);
     return layer;
   });
-  if (used > 0) spread_first(settings, object, keep_out[0], out.layers[0]);
-  note_reached(object, stack, demand, out);
-  out.figures.on_part_mm2 = land(settings, object, out.layers);
+  let_branches_rest(room, stack, standing, out.layers);
+  if (used > 0) spread_first(room, stack, out.layers[0]);
+  Caps caps = caps_on(room, stack, demand, out.layers);
+  note_reached(object, stack, demand, caps, out);
+  out.figures.on_part_mm2 = land(room, out.layers);
+  std::move(caps.layers.begin(), caps.layers.end(), std::back_inserter(out.layers));
+  std::stable_sort(out.layers.begin(), out.layers.end(),
+                   [](const SupportLayer& a, const SupportLayer& b) { return a.z < b.z; });
+  out.trapped = trapped_shares(room, out.layers, out.figures.on_part_mm2);
   return out;
 }
 

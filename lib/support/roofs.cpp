@@ -16,56 +16,75 @@
 namespace weft::support {
 namespace {
 
-/// What of a contact, together with those of its neighbours, is wide enough to lie on more than one branch.
-Regions wide_part(const std::vector<Regions>& contacts, std::size_t k, std::size_t count, Um least) {
+/// Contacts of levels around one, so many up and down, together.
+Regions around_level(const std::vector<Regions>& contacts, std::size_t k, std::size_t count) {
   Regions around;
   for (std::size_t j = k >= count ? k - count + 1 : 0; j < std::min(contacts.size(), k + count); ++j)
     append(around, contacts[j]);
-  const Regions wide = geometry::opening(grown(geometry::unite(around), 20), least / 2);
-  return wide.empty() ? wide : geometry::opening(geometry::intersect(contacts[k], grown(wide, 50)), 20);
+  return grown(around, 20);
+}
+
+/// What of a contact, together with those of its neighbours, is wide enough to lie on more than one branch.
+Regions wide_part(const Regions& contact, const Regions& around, Um least) {
+  const Regions wide = geometry::opening(around, least / 2);
+  return wide.empty() ? wide : geometry::opening(geometry::intersect(contact, grown(wide, 50)), 20);
 }
 
 }  // namespace
 
-Roofs::Roofs(const SupportSettings& settings, const Object& object, const Stack& stack,
-             const std::vector<Regions>& contacts)
-    : s_(settings),
-      o_(object),
+Roofs::Roofs(const Room& room, const Stack& stack, const std::vector<Regions>& contacts)
+    : room_(room),
+      s_(room.settings()),
+      o_(room.object()),
       stack_(stack),
       contacts_(contacts),
       bare_(contacts.size()),
       begins_(contacts.size()),
+      around_(contacts.size()),
       laid_(contacts.size()),
       held_from_(contacts.size()),
       wide_(contacts.size()),
       lowest_(contacts.size()),
       tips_(contacts.size()) {
-  if (!settings.support_roof_enable || settings.support_roof_height <= 0) {
+  if (s_.support_roof_enable && s_.support_roof_height > 0)
+    begin_roofs();
+  else
     bare_ = contacts;
-    return;
-  }
-  const Um least = branch_style(settings).tip * 3 / 2;
-  wide_ = tasks::parallel_map(contacts.size(), [&](std::size_t k) {
+}
+
+void Roofs::begin_roofs() {
+  constexpr Um side_by_side = 1.5_mm;  // strips of a slope that are no further up or down lie on each other
+  const Um least = branch_style(s_).tip * 3 / 2;
+  auto around = tasks::parallel_map(contacts_.size(), [&](std::size_t k) {
+    if (contacts_[k].empty()) return Regions{};
     stop_if_asked();
-    if (contacts[k].empty()) return Regions{};
-    return wide_part(contacts, k, interface_levels(stack, k, settings.support_roof_height), least);
+    return around_level(contacts_, k, interface_levels(stack_, k, std::max<Um>(s_.support_roof_height, side_by_side)));
   });
-  for (std::size_t k = 0; k < contacts.size(); ++k) {
-    if (contacts[k].empty()) continue;
+  wide_ = tasks::parallel_map(contacts_.size(), [&](std::size_t k) {
+    if (contacts_[k].empty()) return Regions{};
+    stop_if_asked();
+    return wide_part(contacts_[k], around[k], least);
+  });
+  const auto caps = lowest_caps(stack_);
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    if (contacts_[k].empty()) continue;
     bare_[k] =
-        wide_[k].empty() ? contacts[k] : geometry::opening(geometry::subtract(contacts[k], grown(wide_[k], 100)), 20);
+        wide_[k].empty() ? contacts_[k] : geometry::opening(geometry::subtract(contacts_[k], grown(wide_[k], 100)), 20);
     if (wide_[k].empty()) continue;
     // A roof of one level gets its joists below it, any other has them for its lowest.
-    const std::size_t count = std::max<std::size_t>(2, interface_levels(stack, k, settings.support_roof_height));
+    const std::size_t count = std::max<std::size_t>(
+        caps[k] > 0 ? 1 : 2, interface_levels(stack_, k, std::max<Um>(s_.support_roof_height - caps[k], 1)));
     if (count > k) {  // it lies on the plate
       for (std::size_t j = 0; j <= k; ++j) append(laid_[j], wide_[k]);
       continue;
     }
     held_from_[k - count].push_back(k);
     append(begins_[k - count], wide_[k]);
+    append(around_[k - count], around[k]);
   }
-  for (auto& regions : begins_)
-    if (regions.size() > 1) regions = geometry::unite(regions);
+  for (auto* some : {&begins_, &around_})
+    for (auto& regions : *some)
+      if (regions.size() > 1) regions = geometry::unite(regions);
 }
 
 void Roofs::rest(std::size_t level, const Branches& branches, Spans spans) {
@@ -97,44 +116,36 @@ void Roofs::lay(const std::vector<Regions>& branches) {
   }
 }
 
-Regions Roofs::shaped(const Regions& area, const KeepOut& keep_out) const {
+Regions Roofs::shaped(const Regions& area, std::size_t level) const {
   const Um line = line_width(s_, o_.nozzle);
   const Regions all = geometry::unite(area);
   Regions out = s_.support_join_distance > 0 ? geometry::closing(all, s_.support_join_distance / 2) : all;
   thicken(out, out, line);
-  return geometry::opening(free_part(out, keep_out, all, o_), line * 4 / 10);
+  return geometry::opening(room_.free_part(out, stack_.levels[level], all), line * 4 / 10);
 }
 
-Roofs::OfLevel Roofs::of_level(std::size_t level, const KeepOut& keep_out) const {
-  constexpr Um narrow = 3_mm;  // strands from rim to rim of what is no wider cross it
+Roofs::OfLevel Roofs::of_level(std::size_t level) const {
   const Um line = line_width(s_, o_.nozzle);
-  Regions dense = laid_[level], open;
-  if (!lowest_[level].empty()) {
-    const Regions lowest = geometry::unite(lowest_[level]);
-    open = geometry::opening(lowest, narrow / 2);
-    if (!open.empty()) open = geometry::intersect(lowest, grown(open, narrow / 4));  // with its corners
-    append(dense, open.empty() ? lowest : geometry::opening(geometry::subtract(lowest, grown(open, 50)), 20));
-  }
   OfLevel out;
-  if (!dense.empty()) out.area = shaped(dense, keep_out);
-  if (open.empty()) return out;
-  open = shaped(open, keep_out);
+  if (!laid_[level].empty()) out.area = shaped(laid_[level], level);
+  if (lowest_[level].empty()) return out;
+  Regions open = shaped(lowest_[level], level);
   if (!out.area.empty()) open = geometry::opening(geometry::subtract(open, grown(out.area, 20)), line * 4 / 10);
   const bool one_way = s_.support_interface_pattern == SupportPattern::zigzag ||
                        s_.support_interface_pattern == SupportPattern::lines || s_.support_interface_density >= 99.5;
   const JoistStyle style{.strands_rad = (s_.support_infill_angle + 90) * std::numbers::pi / 180,
                          .one_way = one_way,
-                         .longest = branch_style(s_).tip + roof_span(o_.nozzle) + 2 * o_.nozzle,
+                         .longest = 2 * roof_covers(branch_style(s_), o_.nozzle) + o_.nozzle,
                          .line = line};
   out.joists = joists_between(std::move(open), tips_[level], style);
   return out;
 }
 
-Roofs::Laid Roofs::laid(const std::vector<KeepOut>& keep_out, const std::vector<Regions>& branches) && {
+Roofs::Laid Roofs::laid(const std::vector<Regions>& branches) && {
   lay(branches);
   auto levels = tasks::parallel_map(laid_.size(), [&](std::size_t k) {
     stop_if_asked();
-    return laid_[k].empty() && lowest_[k].empty() ? OfLevel{} : of_level(k, keep_out[k]);
+    return laid_[k].empty() && lowest_[k].empty() ? OfLevel{} : of_level(k);
   });
   Laid out;
   for (auto& level : levels) out.areas.push_back(std::move(level.area)), out.joists.push_back(std::move(level.joists));

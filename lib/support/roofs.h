@@ -8,17 +8,19 @@
 namespace weft::support {
 
 /// Interfaces that lie on branches: few thick branches under a roof hold what many thin ones would, and the part lies
-/// on strands side by side. The lowest level of a wide roof is joists from branch to branch, or strands between rows of
+/// on strands side by side. The lowest level of a roof is joists from branch to branch, or strands between rows of
 /// branches would hang. What is too narrow for a roof is held by tips themselves.
 class Roofs {
  public:
-  Roofs(const SupportSettings& settings, const Object& object, const Stack& stack,
-        const std::vector<Regions>& contacts);
+  /// @param contacts  by level; they outlive this
+  Roofs(const Room& room, const Stack& stack, const std::vector<Regions>& contacts);
 
   /// What tips that end on this level hold by themselves.
   const Regions& bare(std::size_t level) const { return bare_[level]; }
   /// The underside of what lies right above this level.
   const Regions& begins_above(std::size_t level) const { return begins_[level]; }
+  /// The same with what begins nearby, a little higher or lower; empty where nothing does.
+  const Regions& around(std::size_t level) const { return around_[level]; }
 
   /// Branches on a level, and how far from them a roof may lie: of those that come from above it is not yet known which
   /// way they lean.
@@ -36,7 +38,7 @@ class Roofs {
     std::vector<Regions> areas;
     std::vector<Joists> joists;
   };
-  Laid laid(const std::vector<KeepOut>& keep_out, const std::vector<Regions>& branches) &&;
+  Laid laid(const std::vector<Regions>& branches) &&;
 
  private:
   /// A roof on branches of a level, up to a contact.
@@ -49,14 +51,16 @@ class Roofs {
     Regions area;
     Joists joists;
   };
-  OfLevel of_level(std::size_t level, const KeepOut& keep_out) const;
-  Regions shaped(const Regions& area, const KeepOut& keep_out) const;
+  OfLevel of_level(std::size_t level) const;
+  Regions shaped(const Regions& area, std::size_t level) const;
+  void begin_roofs();
 
+  const Room& room_;
   const SupportSettings& s_;
   const Object& o_;
   const Stack& stack_;
   const std::vector<Regions>& contacts_;
-  std::vector<Regions> bare_, begins_, laid_;
+  std::vector<Regions> bare_, begins_, around_, laid_;
   std::vector<std::vector<std::size_t>> held_from_;  ///< of each level: the contacts whose roofs begin above it
   std::vector<Regions> wide_;                        ///< of each contact, what gets a roof
   std::vector<Resting> resting_;

@@ -3,12 +3,27 @@
 
 #include "geometry/boolean.h"
 #include "geometry/offset.h"
+#include "geometry/simplify.h"
+#include "geometry/trimmed.h"
 #include "support/lengths.h"
 #include "tasks/parallel.h"
 
 #include <algorithm>
 
 namespace weft::support {
+namespace {
+
+/// Corners of the part that lie nearer to the straight line are none to support. What is lost by that, the distances
+/// are larger.
+constexpr Um fine_outline = 10_um;
+
+/// What is no further from the part than that. Corners are mitered: an arc a corner is what costs.
+Regions kept_off(const Regions& part, Um by) {
+  if (part.empty()) return part;
+  return geometry::offset(part, {.by = by + fine_outline + outline_bound});
+}
+
+}  // namespace
 
 Um beside(const SupportSettings& settings, const Object& object) {
   return settings.support_xy_distance.of(object.outer_line);
@@ -21,13 +36,6 @@ LayerRun layers_between(const Object& object, Um low, Um high) {
   return {static_cast<std::size_t>(first - layers.begin()), static_cast<std::size_t>(last - layers.begin())};
 }
 
-Regions outlines_between(const Object& object, Um low, Um high) {
-  const auto run = layers_between(object, low, high);
-  Regions out;
-  for (std::size_t i = run.from; i < run.to; ++i) append(out, object.layers[i]->regions);
-  return run.to - run.from > 1 ? geometry::unite(out) : out;
-}
-
 Regions blocked_between(const Object& object, Um low, Um high) {
   Regions out;
   const auto run = layers_between(object, low, high);
@@ -35,56 +43,123 @@ Regions blocked_between(const Object& object, Um low, Um high) {
   return out.empty() ? out : geometry::unite(out);
 }
 
-namespace {
+Room::Room(const SupportSettings& settings, const Object& object)
+    : s_(settings),
+      o_(object),
+      beside_(beside(settings, object)),
+      close_(settings.support_xy_overrides_z ? beside_ : std::min(beside_, settings.support_xy_distance_overhang)),
+      outlines_(tasks::parallel_map(object.layers.size(),
+                                    [&](std::size_t i) {
+                                      Outlines out{geometry::simplified(object.layers[i]->regions, fine_outline), {}};
+                                      for (const Region& region : out.regions)
+                                        out.boxes.push_back(box_of(region.outer));
+                                      return out;
+                                    })),
+      bounds_(object.room != nullptr ? geometry::SegmentIndex(*object.room) : geometry::SegmentIndex()) {}
+
+Regions Room::part(Um low, Um high, const Box& near) const {
+  const auto run = layers_between(o_, low, high);
+  Regions out, some;
+  for (std::size_t i = run.from; i < run.to; ++i) {
+    const Outlines& layer = outlines_[i];
+    some.clear();
+    for (std::size_t r = 0; r < layer.boxes.size(); ++r)
+      if (layer.boxes[r].overlaps(near)) append(some, geometry::trimmed({&layer.regions[r], 1}, near));
+    if (some != out) append(out, some);  // layers of a straight wall are one
+  }
+  return out;
+}
 
 /// What of a level waits for the next step over a slope: what the part has left since the step began, no wider than a
 /// step may be.
-Regions stair(const SupportSettings& settings, const Object& object, const Stack::Level& level) {
-  const Um step = settings.support_bottom_stair_step_height, width = settings.support_bottom_stair_step_width;
-  if (step <= 0 || width <= 0 || level.bottom() <= object.floor) return {};
-  const Um begun = object.floor + (level.bottom() - object.floor) / step * step, gap = bottom_gap(settings);
+Regions Room::stair(const Stack::Level& level, const Box& near) const {
+  const Um step = s_.support_bottom_stair_step_height, width = s_.support_bottom_stair_step_width;
+  if (step <= 0 || width <= 0 || level.bottom() <= o_.floor) return {};
+  const Um begun = o_.floor + (level.bottom() - o_.floor) / step * step, gap = bottom_gap(s_);
   if (begun == level.bottom()) return {};
-  const Regions now = outlines_between(object, level.bottom() - gap - 1, level.bottom() - gap);
+  const Box wide = near.grown(width + 1);
+  const Regions now = part(level.bottom() - gap - 1, level.bottom() - gap, wide);
   if (now.empty()) return {};
-  return geometry::intersect(outlines_between(object, begun - gap, level.bottom() - gap), grown(now, width));
+  return geometry::intersect(geometry::unite(part(begun - gap, level.bottom() - gap, wide)), grown(now, width));
 }
 
-}  // namespace
-
-std::vector<KeepOut> keep_outs(const SupportSettings& settings, const Object& object, const Stack& stack) {
-  const Um xy = beside(settings, object);
-  const Um close = settings.support_xy_overrides_z ? xy : std::min(xy, settings.support_xy_distance_overhang);
-  return tasks::parallel_map(stack.levels.size(), [&](std::size_t k) {
-    const auto& level = stack.levels[k];
-    KeepOut out;
-    const Regions part = outlines_between(object, level.bottom(), level.z);
-    const auto kept_off = [&](Um by) {  // to 5 µm: a distance that is set is kept at corners too
-      return by == 0 ? part : geometry::offset(part, {.by = by, .corner = geometry::Corner::round});
-    };
-    out.near = kept_off(xy);
-    out.touch = close == xy ? out.near : kept_off(close);
-    const Um above = top_gap(settings), below = bottom_gap(settings);
-    if (above > 0) out.over = outlines_between(object, level.z, level.z + above);
-    if (below > 0 && level.bottom() > object.floor)
-      append(out.over, outlines_between(object, level.bottom() - below, level.bottom()));
-    append(out.over, stair(settings, object, level));
-    if (settings.support_blockers_avoided) append(out.over, blocked_between(object, level.bottom(), level.z));
-    return out;
-  });
+KeepOut Room::keep_out(const Stack::Level& level, const Box& near) const {
+  KeepOut out;
+  const Regions part_beside = part(level.bottom(), level.z, near.grown(beside_ + 3 * outline_bound));
+  out.near = kept_off(part_beside, beside_);
+  out.touch = close_ == beside_ ? out.near : kept_off(part_beside, close_);
+  const Um above = top_gap(s_), below = bottom_gap(s_);
+  if (above > 0) {
+    // What lies in the gap is kept off sideways too, so that a bead has room beside it for a contact that ends lower.
+    const Regions in_gap = part(level.z, level.z + above, near.grown(close_ + 3 * outline_bound));
+    if (in_gap != part_beside) out.over = kept_off(in_gap, close_);
+  }
+  if (below > 0 && level.bottom() > o_.floor) append(out.over, part(level.bottom() - below, level.bottom(), near));
+  append(out.over, stair(level, near));
+  if (s_.support_blockers_avoided) append(out.over, blocked_between(o_, level.bottom(), level.z));
+  return out;
 }
 
-std::vector<Regions> shadows(const SupportSettings& settings, const Object& object, const Stack& stack) {
+Regions Room::barred(const Stack::Level& level, const Box& near, const Regions& contacts) const {
+  KeepOut out = keep_out(level, near);
+  Regions barred = std::move(out.over);
+  const Regions close = contacts.empty() ? contacts : geometry::trimmed(contacts, near.grown(o_.nozzle + 1));
+  if (close.empty()) {
+    append(barred, out.near);
+  } else {
+    append(barred, out.touch);
+    append(barred, geometry::subtract(out.near, grown(close, o_.nozzle)));  // a strip alone could not be printed
+  }
+  return barred;
+}
+
+/// What of it lies in the object's room.
+Regions Room::within_bounds(const Region& region, const Box& box, bool& cut) const {
+  if (o_.room == nullptr) return {region};
+  std::vector<std::uint32_t> met;
+  bounds_.near(box, met);
+  if (met.empty() && bounds_.region_at(region.outer.front())) return {region};
+  cut = true;
+  return geometry::intersect({region}, geometry::trimmed(*o_.room, box));
+}
+
+Regions Room::free_part(const Regions& area, const Stack::Level& level, const Regions& contacts, bool* changed) const {
+  Regions out;
+  bool any = false;
+  for (const Region& region : area) {
+    const Box box = box_of(region.outer).grown(1);
+    bool cut = false;
+    Regions left = within_bounds(region, box, cut);
+    if (!left.empty()) {
+      const Regions not_there = barred(level, box, contacts);
+      if (!not_there.empty()) left = geometry::subtract(left, not_there), cut = true;
+    }
+    any = any || cut;
+    append(out, left);
+  }
+  if (changed != nullptr) *changed = any;
+  return out;
+}
+
+std::vector<Regions> shadows(const Room& room, const Stack& stack) {
+  const Object& object = room.object();
+  Box box;
+  for (const auto* layer : object.layers) box.add(box_of(layer->regions));
+  const Um xy = beside(room.settings(), object);
   std::vector<Regions> out(stack.levels.size());
-  const Um xy = beside(settings, object);
   Regions all;
   std::size_t layer = 0;
   for (std::size_t k = 0; k < stack.levels.size(); ++k) {
     Regions more;
-    while (layer < object.layers.size() && object.layers[layer]->z - object.layers[layer]->height < stack.levels[k].z)
-      append(more, object.layers[layer++]->regions);
-    if (!more.empty() && !geometry::subtract(more, all).empty()) {
+    for (; layer < object.layers.size(); ++layer) {
+      const auto& l = *object.layers[layer];
+      if (l.z - l.height >= stack.levels[k].z) break;
+      const Regions here = room.part(l.z - 1, l.z, box);
+      if (!geometry::subtract(here, all).empty()) append(more, here);
+    }
+    if (!more.empty()) {
       append(all, grown(more, xy));
-      all = geometry::unite(all);
+      all = geometry::simplified(geometry::unite(all), coarse_outline);
     }
     out[k] = all;
   }

@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include "geometry/spatial_index.h"
 #include "support/stack.h"
 
+#include <span>
 #include <vector>
 
 namespace weft::support {
-
-/// Where no support may be on a level.
-struct KeepOut {
-  Regions near;   ///< the part beside, grown by support_xy_distance
-  Regions touch;  ///< grown by the distance that holds beside contacts only
-  Regions over;   ///< the part less than a gap above or below
-};
-
-/// Of every level. Cost: two offsets and a union each, side by side.
-std::vector<KeepOut> keep_outs(const SupportSettings& settings, const Object& object, const Stack& stack);
 
 /// The layers of the object [from, to) that share height with (low, high).
 struct LayerRun {
@@ -22,16 +14,55 @@ struct LayerRun {
 };
 LayerRun layers_between(const Object& object, Um low, Um high);
 
-/// Their outlines together.
-Regions outlines_between(const Object& object, Um low, Um high);
-
 /// What blockers mark there.
 Regions blocked_between(const Object& object, Um low, Um high);
 
-/// Of each level, what of the plane has something of the object anywhere below: what cannot stand on the plate.
-std::vector<Regions> shadows(const SupportSettings& settings, const Object& object, const Stack& stack);
-
 /// Distance to the part beside, µm.
 Um beside(const SupportSettings& settings, const Object& object);
+
+/// Where no support may be on a level, near a box.
+struct KeepOut {
+  Regions near;   ///< the part beside, grown by support_xy_distance
+  Regions touch;  ///< grown by the distance that holds beside contacts only
+  Regions over;   ///< the part less than a gap above or below, and what else is not to be entered
+};
+
+/// The part as support sees it, and where support may be. It is asked for what lies near a box, so that its outlines
+/// cost no more than what is close by.
+class Room {
+ public:
+  Room(const SupportSettings& settings, const Object& object);
+
+  /// The part's outlines in that height, near the box. They may overlap.
+  Regions part(Um low, Um high, const Box& near) const;
+  /// What is kept out of a level, near the box.
+  KeepOut keep_out(const Stack::Level& level, const Box& near) const;
+  /// What of an area is not kept out of a level: beside contacts the smaller distance holds.
+  /// Post: what lies free of the part is returned as it was.
+  /// @param changed  if given, whether anything was taken away
+  Regions free_part(const Regions& area, const Stack::Level& level, const Regions& contacts,
+                    bool* changed = nullptr) const;
+
+  const SupportSettings& settings() const { return s_; }
+  const Object& object() const { return o_; }
+
+ private:
+  struct Outlines {
+    Regions regions;
+    std::vector<Box> boxes;
+  };
+  Regions within_bounds(const Region& region, const Box& box, bool& cut) const;
+  Regions barred(const Stack::Level& level, const Box& near, const Regions& contacts) const;
+  Regions stair(const Stack::Level& level, const Box& near) const;
+
+  const SupportSettings& s_;
+  const Object& o_;
+  Um beside_, close_;
+  std::vector<Outlines> outlines_;  ///< of the object's layers, with no more corners than support can tell
+  geometry::SegmentIndex bounds_;   ///< of the object's room
+};
+
+/// Of each level, what of the plane has something of the object anywhere below: what cannot stand on the plate.
+std::vector<Regions> shadows(const Room& room, const Stack& stack);
 
 }  // namespace weft::support

@@ -4,19 +4,25 @@
 #include "support/lengths.h"
 
 #include <algorithm>
+#include <map>
 
 namespace weft::support {
 namespace {
 
-/// The tops that contacts ask for, ascending, each once.
-std::vector<Um> wanted_tops(const SupportSettings& settings, const Object& object, const Demand& demand) {
-  // What somebody drew is printed as it is, layer by layer.
-  const bool every = settings.support_synchronize_layers || !object.given.empty();
+Um top_below(const SupportSettings& settings, const SlicedLayer& layer) {
+  return layer.z - layer.height - top_gap(settings);
+}
+
+Um least_height(Um nozzle) {
+  return nozzle / 4;
+}
+
+/// Where every level is to end, ascending, each once: with the part's layers, or below each of them.
+std::vector<Um> every_top(const SupportSettings& settings, const Object& object) {
   std::vector<Um> own, out;
   for (const auto* layer : object.layers) own.push_back(layer->z);
   for (std::size_t i = 1; i < object.layers.size(); ++i) {
-    if (!every && demand[i].wanted.empty()) continue;
-    const Um top = object.layers[i]->z - object.layers[i]->height - top_gap(settings);
+    const Um top = top_below(settings, *object.layers[i]);
     if (!settings.support_synchronize_layers) {
       out.push_back(top);
       continue;
@@ -29,14 +35,48 @@ std::vector<Um> wanted_tops(const SupportSettings& settings, const Object& objec
   return out;
 }
 
+/// The tops below which most is held, as far from each other as lets the levels between be nearly as high as they may:
+/// the largest first.
+std::vector<Um> main_tops(const SupportSettings& settings, const Object& object, const Demand& demand, Um most) {
+  std::map<Um, double> held_mm2;
+  for (std::size_t i = 1; i < object.layers.size(); ++i)
+    if (!demand[i].wanted.empty()) held_mm2[top_below(settings, *object.layers[i])] += area_mm2(demand[i].wanted);
+  std::vector<std::pair<double, Um>> order;
+  for (const auto& [top, mm2] : held_mm2) order.push_back({-mm2, top});
+  std::sort(order.begin(), order.end());
+  std::vector<Um> out;
+  const Um apart = 6 * most;  // levels between two that far apart are lower by no more than a seventh
+  for (const auto& [mm2, top] : order)
+    if (std::none_of(out.begin(), out.end(), [&](Um other) { return std::abs(other - top) < apart; }))
+      out.push_back(top);
+  const Um last = held_mm2.empty() ? 0 : held_mm2.rbegin()->first;
+  if (!out.empty() && *std::max_element(out.begin(), out.end()) < last) out.push_back(last);
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+/// The level that a contact which is to end at that height stands on.
+Stack::Contact contact_at(const std::vector<Stack::Level>& levels, Um top, Um least) {
+  auto above =
+      std::upper_bound(levels.begin(), levels.end(), top, [](Um z, const Stack::Level& level) { return z < level.z; });
+  if (above == levels.begin()) return {};
+  --above;
+  if (top > above->z && top - above->z < least && above != levels.begin()) --above;  // no cap is as thin as that
+  const Um cap = top - above->z;
+  return {static_cast<std::uint32_t>(above - levels.begin()), cap < least ? 0 : cap};
+}
+
 }  // namespace
+
+Um most_height(const SupportSettings& settings, Um nozzle) {
+  return std::clamp(settings.support_infill_sparse_thickness.value_or(nozzle * 3 / 4), least_height(nozzle), nozzle);
+}
 
 Stack stack_of(const SupportSettings& settings, const Object& object, const Demand& demand) {
   Stack out;
-  out.contact.assign(object.layers.size(), Stack::none);
+  out.contacts.resize(object.layers.size());
   if (object.layers.empty()) return out;
-  const Um least = object.nozzle / 4, usual = object.nozzle * 3 / 4;
-  const Um most = std::clamp(settings.support_infill_sparse_thickness.value_or(usual), least, object.nozzle);
+  const Um least = least_height(object.nozzle), most = most_height(settings, object.nozzle);
   Um below = object.floor;
   const auto add = [&](Um z) {
     const Um way = z - below;
@@ -51,14 +91,23 @@ Stack stack_of(const SupportSettings& settings, const Object& object, const Dema
     out.levels.push_back({object.layers.front()->z, object.layers.front()->z - object.floor});
     below = object.layers.front()->z;
   }
-  for (const Um z : wanted_tops(settings, object, demand))
+  // What somebody drew is printed as it is, layer by layer.
+  const bool every = settings.support_synchronize_layers || !object.given.empty();
+  for (const Um z : every ? every_top(settings, object) : main_tops(settings, object, demand, most))
     if (z - below >= std::min(least, object.layers.back()->height)) add(z);
   for (std::size_t i = 1; i < object.layers.size(); ++i) {
-    const Um top = object.layers[i]->z - object.layers[i]->height - top_gap(settings);
-    const auto above = std::upper_bound(out.levels.begin(), out.levels.end(), top,
-                                        [](Um z, const Stack::Level& level) { return z < level.z; });
-    if (above != out.levels.begin()) out.contact[i] = static_cast<std::uint32_t>(above - out.levels.begin() - 1);
+    if (demand[i].wanted.empty()) continue;
+    const bool capped = !settings.support_synchronize_layers;
+    out.contacts[i] = contact_at(out.levels, top_below(settings, *object.layers[i]), capped ? least : 0);
+    if (!capped) out.contacts[i].cap = 0;
   }
+  return out;
+}
+
+std::vector<Um> lowest_caps(const Stack& stack) {
+  std::vector<Um> out(stack.levels.size(), max_coord);
+  for (const auto& contact : stack.contacts)
+    if (contact.level < out.size()) out[contact.level] = std::min(out[contact.level], contact.cap);
   return out;
 }
 

@@ -67,18 +67,21 @@ struct SupportLayer {
 
 struct Figures {
   double needed_mm2 = 0, bridged_mm2 = 0;
-  double left_mm2 = 0;      ///< what could not be reached
-  Point3 left_at{};         ///< the first place of it
-  double contact_mm2 = 0;   ///< right below the part, a gap away
-  double on_part_mm2 = 0;   ///< what stands on the part
-  std::size_t islands = 0;  ///< places that begin in the air
+  double left_mm2 = 0;          ///< what could not be reached
+  Point3 left_at{};             ///< the first place of it
+  double left_to_part_mm2 = 0;  ///< of it, what could be held if support might stand on the part
+  double contact_mm2 = 0;       ///< right below the part, a gap away
+  double on_part_mm2 = 0;       ///< what stands on the part
+  std::size_t islands = 0;      ///< places that begin in the air
   std::size_t tips = 0, trunks = 0;
-  double slenderest = 0;  ///< of trunks: height by width where they stand, without what spreads on the bed
+  double trapped_mm3 = 0;  ///< plastic that no tool gets to; whoever makes the beads knows it
+  double slenderest = 0;   ///< of trunks: height by width where they stand, without what spreads on the bed
 };
 
 struct Plan {
   std::vector<SupportLayer> layers;  ///< upwards; empty: nothing is needed
   std::vector<Regions> held;         ///< of each layer of the object, what rests on support
+  std::vector<double> trapped{};     ///< of each layer of support, the share that no tool gets to; empty: none
   Figures figures;
 };
 

@@ -21,6 +21,19 @@ namespace {
 
 constexpr Um farthest = 12_mm;  // no branch goes to meet another that is further away
 
+/// Of patches: how many tips of each a branch holds.
+using Shares = std::vector<std::pair<std::size_t, double>>;
+
+void add(Shares& to, const Shares& more) {
+  for (const auto& [patch, tips] : more) {
+    const auto found = std::find_if(to.begin(), to.end(), [p = patch](const auto& share) { return share.first == p; });
+    if (found != to.end())
+      found->second += tips;
+    else
+      to.push_back({patch, tips});
+  }
+}
+
 struct Node {
   Point at;
   double radius = 0;
@@ -28,39 +41,51 @@ struct Node {
   Um from_z = 0;      ///< where it is now
   bool plate = true;  ///< it gets down to the plate
   bool gone = false;
+  Shares shares{};  ///< whose it is
 };
 
 class Grower {
  public:
-  Grower(const SupportSettings& s, const Object& o, const Stack& stack, const std::vector<KeepOut>& keep_out,
-         const std::vector<Regions>& contacts)
-      : s_(s),
-        o_(o),
+  Grower(const Room& room, const Stack& stack, const Field& field, const std::vector<Regions>& contacts,
+         const Patches* patches = nullptr)
+      : room_(room),
+        s_(room.settings()),
+        o_(room.object()),
         stack_(stack),
+        field_(field),
         contacts_(contacts),
-        field_(s, o, stack, keep_out),
-        slope_(std::tan(s.support_tree_angle * std::numbers::pi / 180)),
-        slow_(std::tan(s.support_tree_angle_slow.value_or(s.support_tree_angle) * std::numbers::pi / 180)),
-        style_(branch_style(s)),
+        patches_(patches),
+        slope_(std::tan(s_.support_tree_angle * std::numbers::pi / 180)),
+        slow_(std::tan(s_.support_tree_angle_slow.value_or(s_.support_tree_angle) * std::numbers::pi / 180)),
+        style_(branch_style(s_)),
         tip_(style_.tip / 2.0),
-        discs_(stack.levels.size()) {
+        discs_(stack.levels.size()),
+        mm3_(patches != nullptr ? patches->all().size() : 0, 0.0) {
     tree_.left.resize(stack.levels.size());
   }
 
-  Tree grow(const std::vector<KeepOut>& keep_out) && {
-    Roofs roofs(s_, o_, stack_, contacts_);
+  Tree tree() && {
+    Roofs roofs(room_, stack_, contacts_);
+    grow(roofs);
+    tree_.areas = branch_areas(room_, stack_, contacts_, discs_);
+    auto laid = std::move(roofs).laid(tree_.areas);
+    tree_.roofs = std::move(laid.areas), tree_.joists = std::move(laid.joists);
+    return std::move(tree_);
+  }
+  std::vector<double> plastic_mm3() && {
+    Roofs roofs(room_, stack_, contacts_);
+    grow(roofs);
+    return std::move(mm3_);
+  }
+
+ private:
+  void grow(Roofs& roofs) {
     for (std::size_t slab = field_.slabs(); slab-- > 0;) {
       stop_if_asked();
       begin_tips(slab, roofs);
       step(slab);
     }
-    tree_.areas = branch_areas(s_, o_, stack_, keep_out, contacts_, discs_);
-    auto laid = std::move(roofs).laid(keep_out, tree_.areas);
-    tree_.roofs = std::move(laid.areas), tree_.joists = std::move(laid.joists);
-    return std::move(tree_);
   }
-
- private:
   Um top_of(std::size_t slab) const { return stack_.levels[field_.first_level(slab + 1) - 1].z; }
   Um bottom_of(std::size_t slab) const { return stack_.levels[field_.first_level(slab)].bottom(); }
   Um way(std::size_t slab, const Node& node, Point p) const {
@@ -68,15 +93,16 @@ class Grower {
   }
 
   void begin_tips(std::size_t slab, Roofs& roofs) {
+    static const Regions nothing;
     const Um covers = tip_covers(s_, style_);
     for (std::size_t k = field_.first_level(slab + 1); k-- > field_.first_level(slab);) {
-      begin_under(slab, k, roofs.bare(k), {covers, covers});
+      begin_under(slab, k, roofs.bare(k), nothing, {covers, covers});
       const Regions& roof = roofs.begins_above(k);
       if (roof.empty()) continue;
       // Strands of a roof cross from branch to branch, but hang free at its rim.
-      const Um spans = rounded(tip_) + roof_span(o_.nozzle) / 2;
-      begin_under(slab, k, roof, {spans, std::min(spans, covers)});
-      roofs.rest(k, standing_at(stack_.levels[k].z), {spans + o_.nozzle, spans});
+      const Um spans = roof_covers(style_, o_.nozzle);
+      begin_under(slab, k, roof, roofs.around(k), {spans, std::min(spans, covers)});
+      if (patches_ == nullptr) roofs.rest(k, standing_at(stack_.levels[k].z), {spans + o_.nozzle, spans});
     }
   }
   /// Those that end at that height, and those that come from above.
@@ -90,11 +116,12 @@ class Grower {
     for (const Node& node : nodes_) out.push_back(node.at);
     return out;
   }
-  void begin_under(std::size_t slab, std::size_t k, const Regions& contact, TipSpacing spacing) {
+  void begin_under(std::size_t slab, std::size_t k, const Regions& contact, const Regions& around, TipSpacing spacing) {
     if (contact.empty()) return;
     const Um z = stack_.levels[k].z;
-    for (const Point p : tips_under(contact, standing(), spacing, field_, slab, rounded(tip_))) {
-      Node node{p, tip_, z, z, true, false};
+    const auto before = standing();
+    for (const Point p : tips_under(contact, around, before, spacing, field_, slab, rounded(tip_))) {
+      Node node{p, tip_, z, z};
       if (slab > 0 && !finds_way(slab, node)) {
         node.plate = false;
         if (s_.support_type == SupportType::buildplate || !finds_way(slab, node)) {
@@ -102,13 +129,22 @@ class Grower {
           continue;
         }
       }
-      nodes_.push_back(node);
+      if (patches_ != nullptr)
+        if (const auto patch = patches_->at(p)) node.shares = {{*patch, 1.0}};
+      nodes_.push_back(std::move(node));
       tree_.tips_at.push_back({p.x, p.y, z});
     }
   }
-  /// What a tip should have held.
+  /// What a tip should have held, and no other branch does.
   void leave(std::size_t k, const Regions& contact, Point p, Um covers) {
-    append(tree_.left[k], geometry::intersect(contact, {{circle_around({p, static_cast<double>(covers)}), {}}}));
+    Regions left = geometry::intersect(contact, {{circle_around({p, static_cast<double>(covers)}), {}}});
+    if (patches_ == nullptr) return append(tree_.left[k], left);
+    std::vector<Ring> held;
+    for (const Node& node : nodes_)
+      if (distance(node.at, p) < covers + 2 * reached) held.push_back(circle_around({node.at, node.radius + reached}));
+    if (!held.empty()) left = geometry::subtract(left, geometry::regions_from_rings(held));
+    if (const auto patch = patches_->at(p))  // which stands on columns of its own
+      mm3_[*patch] += area_mm2(left) * to_mm(stack_.levels[k].z - o_.floor) * s_.support_infill_rate / 100;
   }
   bool finds_way(std::size_t slab, const Node& node) const {
     return !node.plate && field_.stands_on_part(slab, node.at)
@@ -231,6 +267,7 @@ class Grower {
     move(slab, b, at, radius, both);
     both[0].radius = std::max(both[0].radius, both[1].radius);
     both[0].tip_z = std::max(a.tip_z, b.tip_z);
+    add(both[0].shares, both[1].shares);
     next.push_back(both[0]);
     b.gone = true;
     return true;
@@ -254,34 +291,67 @@ class Grower {
     node = below;
   }
   void draw(std::size_t slab, const Node& from, const Node& to) {
+    if (patches_ != nullptr) return reckon(from, to);
     for (std::size_t k = field_.first_level(slab); k < field_.first_level(slab + 1); ++k) {
       const Um z = stack_.levels[k].z;
       if (z > from.from_z) break;
       const double t = from.from_z > to.from_z ? double(from.from_z - z) / (from.from_z - to.from_z) : 1;
       double radius = from.radius + t * (to.radius - from.radius);
-      if (k == 0) radius = std::max({radius, s_.support_tree_bp_diameter / 2.0, (from.tip_z - o_.floor) / 16.0});
+      if (k == 0) radius = std::max(radius, foot_radius(from));
       discs_[k].push_back({lerp(from.at, to.at, t), radius});
     }
   }
 
+  /// What a branch takes on its way, for those whose it is.
+  void reckon(const Node& from, const Node& to) {
+    double tips = 0;
+    for (const auto& share : from.shares) tips += share.second;
+    if (tips <= 0) return;
+    const double line = line_width(s_, o_.nozzle) / 1000.0, radius = (from.radius + to.radius) / 2000;
+    const double thick = to_mm(s_.support_tree_branch_diameter_double_wall) / 2;
+    const int loops = s_.support_wall_count.value_or(thick > 0 && radius > thick ? 2 : 1);
+    const double round_mm2 = std::numbers::pi * radius * radius;
+    double mm3 = std::min(round_mm2, loops * 2 * std::numbers::pi * std::max(radius - line / 2, 0.0) * line) *
+                 to_mm(from.from_z - to.from_z);
+    if (to.from_z == o_.floor) {
+      const double foot = foot_radius(to) / 1000;
+      mm3 +=
+          std::numbers::pi * foot * foot * to_mm(stack_.levels.front().height) * s_.support_initial_layer_density / 100;
+    }
+    for (const auto& [patch, own] : from.shares) mm3_[patch] += mm3 * own / tips;
+  }
+  /// What is low tips over no more easily than what it stands on is wide: it needs no wide foot.
+  double foot_radius(const Node& node) const {
+    const double height = node.tip_z - o_.floor;
+    const double foot = std::min(s_.support_tree_bp_diameter / 2.0, node.radius + height / 4);
+    return std::max({node.radius, foot, height / 16});
+  }
+
+  const Room& room_;
   const SupportSettings& s_;
   const Object& o_;
   const Stack& stack_;
+  const Field& field_;
   const std::vector<Regions>& contacts_;
-  Field field_;
-  double slope_, slow_;  ///< how far branches lean: at most, and where nothing is in their way
+  const Patches* patches_;  ///< given: what branches take is only reckoned
+  double slope_, slow_;     ///< how far branches lean: at most, and where nothing is in their way
   BranchStyle style_;
   double tip_;
   std::vector<std::vector<Disc>> discs_;
   std::vector<Node> nodes_;
   Tree tree_;
+  std::vector<double> mm3_;  ///< of each patch
 };
 
 }  // namespace
 
-Tree tree(const SupportSettings& settings, const Object& object, const Stack& stack,
-          const std::vector<KeepOut>& keep_out, const std::vector<Regions>& contacts) {
-  return Grower(settings, object, stack, keep_out, contacts).grow(keep_out);
+Tree tree(const Room& room, const Stack& stack, const Field& field, const std::vector<Regions>& contacts) {
+  return Grower(room, stack, field, contacts).tree();
+}
+
+std::vector<double> branches_mm3(const Room& room, const Stack& stack, const Field& field,
+                                 const std::vector<Regions>& contacts, const Patches& patches) {
+  return Grower(room, stack, field, contacts, &patches).plastic_mm3();
 }
 
 }  // namespace weft::support

@@ -67,6 +67,20 @@ Regions reached(const Region& outline, std::uint32_t part, const Beads& beads) {
   return geometry::offset({outline}, {.by = rounded(std::ceil(beyond)), .corner = geometry::Corner::round});
 }
 
+/// The parts of an object that have no walls, as far as their infill reaches. Support's beads end within its outline.
+void add_parts_without_walls(const ObjectLayer& object, Regions& out) {
+  const auto parts = parts_of(object);
+  for (std::uint32_t i = 0; i < object.outline.size(); ++i) {
+    if (!parts[i].beads || parts[i].closed || parts[i].open) continue;
+    if (object.support) {
+      out.push_back(object.outline[i]);
+      continue;
+    }
+    const Regions part = reached(object.outline[i], i, object.beads);
+    out.insert(out.end(), part.begin(), part.end());
+  }
+}
+
 }  // namespace
 
 bool all_closed(const LayerInput& input) {
@@ -88,17 +102,14 @@ Regions comb_base(const LayerInput& input, Um by) {
         add_band(bead, bands);
       }
     }
-    const auto parts = parts_of(object);
-    for (std::uint32_t i = 0; i < object.outline.size(); ++i) {
-      if (!parts[i].beads || parts[i].closed || parts[i].open) continue;
-      const Regions part = reached(object.outline[i], i, object.beads);
-      others.insert(others.end(), part.begin(), part.end());
-    }
+    add_parts_without_walls(object, others);
   }
   Regions base = geometry::regions_from_rings(closed, geometry::WindingRule::even_odd);
   if (!bands.empty()) base = geometry::unite(base, geometry::regions_from_rings(bands));
   if (by != 0) base = geometry::offset(base, {.by = by, .corner = geometry::Corner::round});
-  return others.empty() ? base : geometry::unite(base, others);
+  if (others.empty()) return base;
+  base.insert(base.end(), others.begin(), others.end());
+  return geometry::regions_from_rings(geometry::rings_of(base));  // most lie apart from each other
 }
 
 }  // namespace weft::travel

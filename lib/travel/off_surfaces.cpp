@@ -69,8 +69,11 @@ Regions gathered(const LayerInput& input, Regions ObjectLayer::*which) {
 Comb within_second_walls(const LayerInput& input, const Regions& outline) {
   if (auto second = second_wall_rings(input); !second.empty()) return less(std::move(second), top_skin(input));
   const auto outer = outer_wall_rings(input);
+  const auto top = top_skin(input);
+  if (outer.empty() && top.empty()) return Comb(outline);  // support alone
   const auto base = outer.empty() ? outline : enclosed(outer);
-  return Comb(geometry::subtract(geometry::offset(base, {.by = -outer_wall_width(input)}), top_skin(input)));
+  const auto within = geometry::offset(base, {.by = -outer_wall_width(input)});
+  return Comb(top.empty() ? within : geometry::subtract(within, top));
 }
 
 Comb half_a_bead_within(const LayerInput& input) {

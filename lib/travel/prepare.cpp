@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/stop.h"
 #include "geometry/boolean.h"
-#include "geometry/offset.h"
+#include "geometry/simplify.h"
+#include "geometry/touching.h"
 #include "travel/blocks.h"
 #include "travel/box_columns.h"
 #include "travel/comb_base.h"
@@ -43,12 +44,26 @@ Regions free_area(const Room& room) {
 
 /// What travels go round.
 Regions obstacles_of(const TravelSettings& settings, const LayerInput& input) {
+  constexpr Um coarse = 50;  // support is kept off by much more
   Regions out;
   const auto add = [&](const Regions& more) { out.insert(out.end(), more.begin(), more.end()); };
-  for (const auto& object : input.objects)
-    if (object.support ? settings.travel_avoid_supports : settings.travel_avoid_other_parts) add(object.outline);
-  if (settings.travel_avoid_supports) add(input.support);
+  for (const auto& object : input.objects) {
+    if (!object.support && settings.travel_avoid_other_parts) add(object.outline);
+    if (object.support && settings.travel_avoid_supports) add(geometry::simplified(object.outline, coarse));
+  }
+  if (settings.travel_avoid_supports) add(geometry::simplified(input.support, coarse));
   return out;
+}
+
+/// Whether a box lies within a convex ring.
+bool surrounds(const Ring& ring, const Box& box) {
+  const std::size_t n = ring.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (orient(ring[i], ring[(i + 1) % n], ring[(i + 2) % n]) < 0) return false;
+    for (const Point p : {box.min, Point{box.max.x, box.min.y}, box.max, Point{box.min.x, box.max.y}})
+      if (orient(ring[i], ring[(i + 1) % n], p) <= 0) return false;
+  }
+  return true;
 }
 
 /// The room less what travels go round and what is to be kept from it.
@@ -60,8 +75,14 @@ Regions area_around(const TravelSettings& settings, const Regions& outline, cons
     const Box box = box_of(outline).grown(2 * settings.travel_avoid_distance + 10000);
     place = {{{box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}}, {}}};
   }
-  return geometry::subtract(
-      place, geometry::offset(outline, {.by = settings.travel_avoid_distance, .corner = geometry::Corner::round}));
+  const Regions kept_off =
+      geometry::offset_apart(outline, {.by = settings.travel_avoid_distance, .corner = geometry::Corner::round});
+  // Mostly all of that lies inside: then it is holes of the place, and no sweep is needed to know.
+  if (place.size() > 1 || !place.front().holes.empty() || !surrounds(place.front().outer, box_of(kept_off)))
+    return geometry::subtract(place, kept_off);
+  auto rings = geometry::rings_of(place);
+  for (Ring& ring : geometry::rings_of(kept_off)) rings.push_back(std::move(ring));
+  return geometry::regions_from_rings(rings, geometry::WindingRule::even_odd);
 }
 
 /// Of each ring, whether what it goes round is a hole: whether an odd number of the others is round it.

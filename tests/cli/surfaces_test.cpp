@@ -125,6 +125,27 @@ TEST_CASE("surfaces: a vase takes one object, no support, and says where it ends
   CHECK(std::any_of(warnings.begin(), warnings.end(), [](const json& w) { return w["code"] == "spiral_ends"; }));
 }
 
+TEST_CASE("surfaces: one at a time, each object is a vase of its own") {
+  const Print print;
+  print.scratch.write("vase.stl", cone_stl(14, 12, 12, 120));
+  const auto gcode = print.slice({"pot.stl", "vase.stl", "--place", "pot=60,60", "--place", "vase=160,160", "--set",
+                                  "magic_spiralize=true", "--set", "print_sequence=one_at_a_time", "--set",
+                                  "machine_head_profile=0: -10x-10, 10x-10, 10x10, -10x10"});
+  double z = 0;
+  std::size_t rises = 0, steps = 0;  // times that plastic is laid at the top, and moves that climb while they lay it
+  for (const auto& line : lines_of(gcode)) {
+    if (!line.starts_with("G0 ") && !line.starts_with("G1 ")) continue;
+    const double to_z = word(line, 'Z', z);
+    if (line.find(" E") != std::string::npos && line.find(" X") != std::string::npos && to_z > z) {
+      ++steps;
+      if (to_z == Approx(12)) ++rises;
+    }
+    z = to_z;
+  }
+  CHECK(rises == 2);
+  CHECK(steps > 2 * 55 * 40);
+}
+
 TEST_CASE("surfaces: arcs make a round part's file smaller, lay the same plastic, and pass the audit") {
   const Print print;
   const auto plain = print.slice({"pot.stl"});

@@ -220,7 +220,7 @@ std::vector<Row> rows() {
       {"support_tree_top_rate", "2", On::tee, tips, less, bare},
       {"support_tree_infill_rate", "60", On::tee, columns, more, with(t, {{"support_tree_branch_diameter", "4"}})},
       {"support_tree_max_diameter", "1", On::tee, slender, more, t},
-      {"support_tree_bp_diameter", "20", On::tee, columns, more, t},
+      {"support_tree_bp_diameter", "2", On::tee, columns, less, t},
       {"raft_surface_layers", "4", On::tee, layers, more, r},
       {"raft_interface_layers", "3", On::tee, layers, more, r},
       {"raft_airgap", "0.6", On::tee, height, more, r},

@@ -100,6 +100,9 @@ TEST_CASE("prusaslicer: the second values of all limits are those of silent mode
   const std::string last = "machine_max_jerk_e = 4.5,2.5\n";
   CHECK(value_of(translated(lines + last), "machine_silent_limits") ==
         "100, 100, 100, 100, 960, 960, 960, 960, 7, 0.3, 2.5");
+  CHECK(translated(lines + last).unknown.empty());
+  CHECK(value_of(translated("gcode_flavor = marlin2" + lines.substr(lines.find('\n')) + last),
+                 "machine_silent_limits") == "100, 100, 100, 100, 960, 960, 960, 960, 7, 0.3, 2.5");
   CHECK(value_of(translated(lines + "machine_max_jerk_e = 4.5\n"), "machine_silent_limits") == "(absent)");
   auto off = lines + last;
   off.replace(off.find("silent_mode = 1"), 15, "silent_mode = 0");

@@ -27,8 +27,9 @@ TEST_CASE("support: a roof lies on fewer branches, and what is too narrow for on
 }
 
 TEST_CASE("support: every strand of a roof over branches lies on joists, and every joist on branches") {
-  constexpr double longest_mm =
-      7;  // of joists 5.6 from branch to branch, of strands two triangles of tips one behind the other
+  // Of joists 6.05 from branch to branch, of strands two triangles of tips one behind the other.
+  constexpr double longest_mm = 7.5;
+  constexpr double hangs_on_others_mm = 1;  // a strand no longer than that, by its neighbours in the zigzag
   for (const auto& outline : {rectangle(-20000, -10000, 20000, 10000), rectangle(-14000, -14000, 14000, 14000)}) {
     Body body;
     body.add(50, {rectangle(-2000, -2000, 2000, 2000)});
@@ -44,7 +45,8 @@ TEST_CASE("support: every strand of a roof over branches lies on joists, and eve
       for (Um x = -19900; x < 20000; x += 400) strands.push_back({{x, -30000}, {x, 30000}});
       const auto carried = [&](const std::vector<Polyline>& lines, const Regions& on) {
         for (const auto& line : lines) {
-          CHECK_FALSE(geometry::clip_lines(std::vector<Polyline>{line}, on).empty());
+          if (length_of(line) / 1000 > hangs_on_others_mm)
+            CHECK_FALSE(geometry::clip_lines(std::vector<Polyline>{line}, on).empty());
           for (const auto& free : geometry::clip_lines(std::vector<Polyline>{line}, on, geometry::Keep::outside))
             CHECK(length_of(free.line) / 1000 < longest_mm);
         }

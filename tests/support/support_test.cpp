@@ -38,7 +38,7 @@ double too_near(const support::Plan& plan, const Body& body, Um distance) {
 /// What of support has nothing below: neither bed, nor support, nor the part within a millimetre. Strands of a roof
 /// cross from branch to branch.
 double floating(const support::Plan& plan, const Body& body, Um aside) {
-  constexpr Um crosses = 2600;
+  constexpr Um crosses = 2900;
   double mm2 = 0;
   for (std::size_t k = 1; k < plan.layers.size(); ++k) {
     const auto& level = plan.layers[k];
@@ -335,17 +335,73 @@ TEST_CASE("support: an island asks for support however small it is, and is told 
 }
 
 TEST_CASE("support: moved by microns it only moves") {
-  for (const auto structure : {SupportStructure::normal}) {
+  for (const auto structure : every_structure) {
     auto body = tee();
     const auto here = planned(on(structure), body);
     for (auto& layer : body.layers) layer.regions = moved(layer.regions, {1237, -4711});
     const auto there = planned(on(structure), body);
+    INFO(static_cast<int>(structure));
     REQUIRE(here.layers.size() == there.layers.size());
     for (std::size_t k = 0; k < here.layers.size(); ++k) {
-      CHECK(there.layers[k].columns == moved(here.layers[k].columns, {1237, -4711}));
-      CHECK(there.layers[k].roof == moved(here.layers[k].roof, {1237, -4711}));
+      const auto &was = here.layers[k], &is = there.layers[k];
+      for (const auto kind : {&support::SupportLayer::columns, &support::SupportLayer::branches,
+                              &support::SupportLayer::roof, &support::SupportLayer::bottom})
+        CHECK(is.*kind == moved(was.*kind, {1237, -4711}));
+      CHECK(is.joists.area == moved(was.joists.area, {1237, -4711}));
     }
   }
+}
+
+TEST_CASE("support: branches lean no further than is set") {
+  for (const double angle : {20.0, 40.0}) {
+    auto body = tee(100);
+    auto s = on(SupportStructure::tree);
+    s.support_tree_angle = angle, s.support_brim_width = 0;
+    const auto plan = planned(s, body);
+    INFO(angle);
+    REQUIRE(plan.layers.size() > 50);
+    bool leans = false;
+    for (std::size_t k = 1; k < plan.layers.size(); ++k) {
+      const Um by = static_cast<Um>(plan.layers[k].height * std::tan(angle * 3.14159265 / 180)) + 5;
+      const Regions below = all_of(plan.layers[k - 1]);
+      CHECK(area_mm2(geometry::subtract(plan.layers[k].branches, grown(below, by))) < 0.01);
+      leans = leans || !geometry::subtract(plan.layers[k].branches, grown(below, by / 2)).empty();
+    }
+    CHECK(leans);
+  }
+}
+
+TEST_CASE("support: under a slope every layer is held its gap below, and levels are as high as they may be") {
+  constexpr Um steps = 40;
+  Body body;
+  body.add(50, {rectangle(-10000, -10000, 10000, 10000)});
+  for (int i = 1; i <= steps; ++i) body.add(1, {rectangle(-10000 - i * 400, -10000, 10000 + i * 400, 10000)});
+  for (const auto structure : every_structure)
+    for (const Um gap : {0, 150, 200}) {
+      auto s = on(structure);
+      s.support_top_distance = gap;
+      const auto plan = planned(s, body);
+      INFO(static_cast<int>(structure) << ", gap " << gap);
+      for (int i = 2; i <= steps; ++i) {
+        const auto& layer = body.layers[static_cast<std::size_t>(49 + i)];
+        const Um top = layer.z - layer.height - gap;
+        Regions there;
+        for (const auto& level : plan.layers)
+          if (level.z == top)
+            for (const Region& region : all_of(level)) there.push_back(region);
+        const Regions rim{rectangle(-10000 - i * 400, -9000, -9600 - i * 400, 9000)};
+        CHECK(area_mm2(geometry::intersect(there, rim)) >
+              (structure == SupportStructure::normal ? 0.35 : 0.1) * area_mm2(rim));
+      }
+      CHECK(too_near(plan, body, 195) == 0);
+      std::vector<Um> heights;
+      for (const auto& level : plan.layers) heights.push_back(level.height);
+      CHECK(*std::min_element(heights.begin(), heights.end()) >= 100);
+      CHECK(*std::max_element(heights.begin(), heights.end()) <= 300);
+      std::size_t low = 0;  // below the slope there is nothing that asks for levels lower than they may be
+      for (const auto& level : plan.layers) low += level.z < 9000 && level.height < 270;
+      CHECK(low <= 1);
+    }
 }
 
 TEST_CASE("support: random bodies keep the laws") {

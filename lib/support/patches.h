@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "support/room.h"
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace weft::support {
+
+/// Contacts that lie side by side or one above the other, seen from above: columns of two patches never meet.
+struct Patch {
+  std::vector<std::pair<std::size_t, Regions>> contacts;  ///< by level, upwards
+};
+
+/// Contacts taken apart by what they are seen from above.
+class Patches {
+ public:
+  /// @param apart  what lies no further from each other is one patch
+  Patches(const std::vector<Regions>& contacts, Um apart);
+
+  const std::vector<Patch>& all() const { return patches_; }
+  std::optional<std::size_t> at(Point p) const { return index_.region_at(p); }
+
+ private:
+  geometry::SegmentIndex index_;
+  std::vector<Patch> patches_;
+};
+
+}  // namespace weft::support

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "core/polygon.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+/// Outlines as cells of a grid, and how far cells are from each other.
+namespace weft::support {
+
+inline constexpr double far_away = 1e12;  ///< squared distance, in cells, where there is nothing
+
+/// Lines of a grid along one of its axes.
+struct GridLines {
+  std::size_t count, stride;   ///< cells of a line, and how far apart they lie in memory
+  std::size_t lines, between;  ///< how many lines, and how far apart they begin
+};
+/// One pass of a squared distance transform: each cell gets the least of what cells of its line have, plus the square
+/// of how far they are. One pass along each axis makes distances of zeros.
+/// Source: Felzenszwalb & Huttenlocher 2012, "Distance transforms of sampled functions". Cost: O(n).
+void spread_squares(std::vector<double>& squares, const GridLines& along);
+
+/// Calls set(column, row) for the cells whose middle is inside of the regions.
+template <class Set>
+void rasterize(const Regions& regions, Point origin, Um cell, int columns, int rows, Set set) {
+  std::vector<std::vector<double>> crossings(static_cast<std::size_t>(rows));
+  const auto add = [&](const Ring& ring) {
+    for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+      const Point a = ring[j], b = ring[i];
+      if (a.y == b.y) continue;
+      const double low = std::min(a.y, b.y), high = std::max(a.y, b.y);
+      const int from = std::max(0, static_cast<int>(std::ceil((low - origin.y) / cell - 0.5)));
+      const int to = std::min(rows - 1, static_cast<int>(std::ceil((high - origin.y) / cell - 0.5)) - 1);
+      for (int r = from; r <= to; ++r) {
+        const double y = origin.y + (r + 0.5) * cell;
+        crossings[static_cast<std::size_t>(r)].push_back(a.x + (y - a.y) * (double(b.x) - a.x) / (double(b.y) - a.y));
+      }
+    }
+  };
+  for (const Region& region : regions) {
+    add(region.outer);
+    for (const Ring& hole : region.holes) add(hole);
+  }
+  for (int r = 0; r < rows; ++r) {
+    auto& row = crossings[static_cast<std::size_t>(r)];
+    std::sort(row.begin(), row.end());
+    for (std::size_t i = 0; i + 1 < row.size(); i += 2) {
+      const int from = std::max(0, static_cast<int>(std::ceil((row[i] - origin.x) / cell - 0.5)));
+      const int to = std::min(columns - 1, static_cast<int>(std::ceil((row[i + 1] - origin.x) / cell - 0.5)) - 1);
+      for (int c = from; c <= to; ++c) set(c, r);
+    }
+  }
+}
+
+}  // namespace weft::support

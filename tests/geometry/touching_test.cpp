@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/touching.h"
+
+#include "geometry/boolean.h"
+#include "rectangle.h"
+
+#include <random>
+
+#include <catch2/catch.hpp>
+
+using namespace weft;
+using namespace weft::test;
+
+TEST_CASE("geometry: what overlaps or touches is joined, and covers what a union covers") {
+  std::mt19937 random(11);
+  for (int n = 0; n < 50; ++n) {
+    Regions some;
+    for (int i = 0; i < 40; ++i) {
+      const Um x = static_cast<Um>(random() % 40) * 500, y = static_cast<Um>(random() % 40) * 500;
+      some.push_back(rectangle(x, y, x + 500 + static_cast<Um>(random() % 5) * 500, y + 1000));
+    }
+    const Regions joined = geometry::joined(some), united = geometry::unite(some);
+    CHECK(joined.size() == united.size());
+    CHECK(area_mm2(joined) == Approx(area_mm2(united)));
+  }
+}
+
+TEST_CASE("geometry: boxes meet by others, and each is in one set") {
+  const std::vector<Box> boxes{{{0, 0}, {10, 10}}, {{30, 0}, {40, 10}}, {{9, 5}, {31, 6}}, {{0, 20}, {40, 30}}};
+  CHECK(geometry::touching(boxes) == std::vector<std::vector<std::size_t>>{{0, 1, 2}, {3}});
+}
+
+TEST_CASE("geometry: an offset cluster by cluster covers what an offset covers") {
+  std::mt19937 random(12);
+  for (int n = 0; n < 30; ++n) {
+    Regions some;
+    for (int i = 0; i < 30; ++i) {
+      const Um x = static_cast<Um>(random() % 60) * 500, y = static_cast<Um>(random() % 60) * 500;
+      some.push_back(rectangle(x, y, x + 700, y + 900));
+    }
+    some = geometry::unite(some);
+    for (const Um by : {-200, 300, 900})
+      for (const auto corner : {geometry::Corner::miter, geometry::Corner::round}) {
+        const geometry::OffsetOptions options{.by = by, .corner = corner};
+        const Regions apart = geometry::offset_apart(some, options), at_once = geometry::offset(some, options);
+        CHECK(apart.size() == at_once.size());
+        CHECK(area_mm2(apart) == Approx(area_mm2(at_once)));
+      }
+  }
+}
