@@ -59,14 +59,16 @@ void tell(Console& console, const AuditEntry& entry, bool name_printer) {
   for (const auto& u : r.unaudited)
     console.detail(fmt::format("{}: {} moves not audited: {}", where, u.count, audit::describe(u.cause)));
   for (const auto& f : r.findings) console.detail(fmt::format("{}: {}", where, audit::describe(f)));
-  for (const auto& t : r.totals)
+  for (const auto& t : r.totals) {
+    const bool has_side = t.kind == audit::Finding::Kind::surface || t.kind == audit::Finding::Kind::reach;
     console.detail(fmt::format("{}: {} x {}{}{}, worst {:.3f} mm", where, t.count,
                                t.feature.empty() ? "move" : t.feature,
                                t.kind == audit::Finding::Kind::damaged ? " damaged"
                                : t.kind == audit::Finding::Kind::head  ? " into what is printed"
                                : t.kind == audit::Finding::Kind::no_go ? fmt::format(" inside no-go area {}", t.area)
                                                                        : " beyond ",
-                               t.kind == audit::Finding::Kind::no_go ? "" : audit::name_of(t.side), to_mm(t.worst)));
+                               has_side ? audit::name_of(t.side) : "", to_mm(t.worst)));
+  }
   for (const auto& c : r.conflicts)
     if (c.blocks)
       console.detail(fmt::format("{}: {}, on {} layers", where, audit::describe(c), c.layers));
@@ -75,7 +77,8 @@ void tell(Console& console, const AuditEntry& entry, bool name_printer) {
   if (entry.outcome.seconds)
     console.info(fmt::format("{}: {} without heating and waiting", where, short_duration(*entry.outcome.seconds)));
   if (r.clean())
-    console.info(fmt::format("{}: pass, {}", where, audit::summary(r)));
+    console.info(fmt::format("{}: pass, {}{}", where, audit::summary(r),
+                             r.labelled ? "" : "; overlaps not audited, for no object is labelled"));
   else
     console.error(Error{Error::Kind::audit, audit::summary(r), where, audit::remedy(r)});
 }

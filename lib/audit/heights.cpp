@@ -64,7 +64,8 @@ void Heights::raise(int x, int y, float top_mm) {
 void Heights::lay(Vec from, Vec to, double half_width_mm, double top_mm) {
   highest_mm_ = std::max(highest_mm_, top_mm);
   const Level& finest = levels_.front();
-  const double cell = finest.cell_mm, r = half_width_mm + cell * std::numbers::sqrt2 / 2;
+  // Cells whose middle the bead covers; of one that is narrower than a cell those that it leads through.
+  const double cell = finest.cell_mm, r = std::max(half_width_mm, cell * std::numbers::sqrt2 / 2);
   const Vec a = from - origin_, b = to - origin_;
   const double length = norm(b - a);
   const Vec along = length > 0 ? (1 / length) * (b - a) : Vec{1, 0}, across{-along.y, along.x};

@@ -12,8 +12,9 @@
 namespace weft::audit {
 
 /// How high plastic stands, cell by cell. Constant memory: 4 bytes a cell of 0.25 mm, more coarsely over an area that
-/// would have more than sixteen million of them. A cell is as high as whatever touches it, so that a wall may seem to
-/// stand one cell's diagonal (0.36 mm) further out than it does.
+/// would have more than sixteen million of them. A cell is as high as what covers its middle, so that a wall may
+/// seem to stand half a cell's diagonal (0.18 mm) further out than it does, or further in: less than half a bead, by
+/// which the nozzle keeps within the outlines that objects are placed by.
 class Heights {
  public:
   /// Of what lies outside of the area nothing is known.

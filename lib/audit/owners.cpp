@@ -140,9 +140,10 @@ void Owners::note(std::size_t i, std::size_t k, const Laid& a, const Laid& b, co
   c.layer = met.last_layer = layer_;
   c.layers = 1;
   const auto bears = [](Kind kind) { return kind == Kind::support || kind == Kind::skirt; };
-  const auto lies_at_parts = [](const Owner& owner) { return owner.kind == Kind::skirt; };
-  c.blocks =
-      !(bears(owners_[i].kind) && bears(owners_[k].kind)) && !lies_at_parts(owners_[i]) && !lies_at_parts(owners_[k]);
+  const bool adhesion = owners_[i].kind == Kind::skirt || owners_[k].kind == Kind::skirt;
+  // A brim lies at its part, and a little in it; what is led across its lines does not.
+  const bool cross = depth.mm >= a.stroke.half_width_mm + b.stroke.half_width_mm - 1e-6;
+  c.blocks = !(bears(owners_[i].kind) && bears(owners_[k].kind)) && (!adhesion || cross);
 }
 
 void Owners::compare(const Owner& a, const Owner& b, std::size_t i, std::size_t k) {

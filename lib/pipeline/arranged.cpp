@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "geometry/boolean.h"
 #include "geometry/offset.h"
+#include "pipeline/add_raft.h"
 #include "pipeline/room_around.h"
 #include "plate/nest.h"
 #include "plate/silhouette.h"
@@ -69,10 +70,18 @@ Ways ways_of(const mesh::PlacedModel& model, double step_deg) {
 plate::NestBed bed_of(const Job& job, const mesh::Plate& free) {
   const Um skirt = skirt_of(job.settings);
   const auto within = skirt > 0 ? geometry::offset({{free.surface, {}}}, {.by = -skirt}) : Regions{};
-  plate::NestBed out{within.empty() ? free.surface : within.front().outer, free.keep_out,
+  constexpr Um rounding = 10;  // by which places may be nearer than they are told to be: the head has no play
+  const Um apart = apart_of(job.settings);
+  plate::NestBed out{within.empty() ? free.surface : within.front().outer,
+                     free.keep_out,
                      job.placement.centre.value_or(weft::box_of(free.surface).centre()),
-                     std::max(job.placement.spacing, apart_of(job.settings)), brim_of(job.settings)};
+                     std::max(job.placement.spacing, apart > 0 ? apart + rounding : 0),
+                     brim_of(job.settings),
+                     plate::Bar::none};
   if (const auto tower = tower_of(job.settings, out.surface)) out.keep_out.push_back(*tower);
+  const PlateSettings& own = job.settings.plate;
+  if (own.print_sequence == PrintSequence::one_at_a_time && own.gantry_height)
+    out.bar = own.gantry_axis == GantryAxis::x ? plate::Bar::along_x : plate::Bar::along_y;
   return out;
 }
 
@@ -133,7 +142,9 @@ std::vector<std::vector<mesh::Stand>> arranged(const Job& job, std::span<const m
       tasks::parallel_map(models.size(), [&](std::size_t i) { return ways_of(*models[i].model, p.turn_deg); });
   std::vector<plate::NestKind> kinds;
   for (std::size_t i = 0; i < models.size(); ++i)
-    kinds.push_back({ways[i].outlines, p.fill && models[i].copies == 1 ? 0 : models[i].copies});
+    kinds.push_back(
+        {ways[i].outlines, p.fill && models[i].copies == 1 ? 0 : models[i].copies,
+         models[i].model->box.max.z + raft_lift(job.settings) > job.settings.plate.gantry_height.value_or(0)});
   const auto bed = bed_of(job, free);
   std::vector<std::vector<std::vector<plate::Nested>>> plates;
   if (p.plates)

@@ -125,7 +125,7 @@ std::string how_far(const Standing& a, const Standing& b, const std::vector<Head
                   fmt::format("the {} hits '{}' while '{}' is printed, and '{}' while '{}' is{}",
                               what_hits(a, b, head, settings.plate.gantry_height.has_value()), a.name, b.name, b.name,
                               a.name, far.empty() ? "" : "; " + far),
-                  "print_sequence", "move them apart, or print all at once"};
+                  "print_sequence", "move them apart, as --arrange does, or print all at once"};
     }
   throw Error{Error::Kind::audit, "there is no order in which the head passes all that stands already",
               "print_sequence", "move the objects apart, or print all at once"};

@@ -91,17 +91,18 @@ bool has_marks(const Object& object) {
   return std::any_of(object.marks.begin(), object.marks.end(), says_support);
 }
 
-/// What one mark marks.
-struct AreasOfMark {
-  std::uint32_t mark = 0;
-  std::vector<Regions> by_layer;
-};
 /// Whether anything may ask for support: a volume that is support does, whatever the settings say.
 bool supports(const Settings& settings, const Object& object) {
   return settings.support.support_enable || settings.support.support_enforce_layers > 0 ||
          std::any_of(object.marks.begin(), object.marks.end(),
                      [](const mesh::Mark& mark) { return mark.kind == mesh::MarkKind::support; });
 }
+
+/// What one mark marks.
+struct AreasOfMark {
+  std::uint32_t mark = 0;
+  std::vector<Regions> by_layer;
+};
 
 /// Volumes and painted facets as areas of layers.
 std::vector<AreasOfMark> read_marks(const Settings& settings, const Object& object, const std::vector<slice::Cut>& cuts,

@@ -110,7 +110,8 @@ Regions inside_of(const Ring& convex_surface, const std::vector<Ring>& shape) {
 struct Shape {
   std::vector<Ring> small, wide;  ///< with what lies beside it, and with the spacing around that
   Box box;                        ///< of `small`
-  Regions at_first;               ///< where it may be on an empty bed
+  bool high = false;
+  Regions at_first;  ///< where it may be on an empty bed
 };
 
 enum class Way { middle_out, from_below, from_left };
@@ -135,6 +136,7 @@ class Nest {
         shape.small = rings_of(kinds[k].outlines[turn], bed.beside, most);
         shape.wide = rings_of(kinds[k].outlines[turn], bed.beside + bed.spacing - play, most);
         for (const auto& ring : shape.small) shape.box.add(box_of(ring));
+        shape.high = bed.bar != Bar::none && kinds[k].high;
       }
     auto free = tasks::parallel_map(shapes_.size(), [&](std::size_t s) {
       Regions forbidden;
@@ -293,11 +295,24 @@ class Nest {
   const Regions& no_fit_of(std::size_t placed, std::size_t s) {
     const auto [at, is_new] = pairs_[s].try_emplace(placed);
     if (!is_new) return at->second;
+    if (shapes_[placed].high && shapes_[s].high) return at->second = {{strip(shapes_[placed].box, shapes_[s].box), {}}};
     Regions all;
     for (const auto& a : shapes_[placed].wide)
       for (const auto& b : shapes_[s].small)
         for (auto& region : no_fit(a, b)) all.push_back(std::move(region));
     return at->second = geometry::unite(all);
+  }
+
+  /// Where b may not be for the bar that goes over a, or the other way round: all along it.
+  Ring strip(const Box& a, const Box& b) const {
+    const Box bed = box_of(bed_.surface);
+    const Um far = 2 * std::max(bed.size().x, bed.size().y), room = bed_.spacing - play;
+    Box out{a.min - b.max - Point{room, room}, a.max - b.min + Point{room, room}};
+    if (bed_.bar == Bar::along_x)
+      out.min.x = -far, out.max.x = far;
+    else
+      out.min.y = -far, out.max.y = far;
+    return {out.min, {out.max.x, out.min.y}, out.max, {out.min.x, out.max.y}};
   }
 
   struct Free {
@@ -358,7 +373,7 @@ std::vector<std::vector<Nested>> nest(std::span<const NestKind> kinds, const Nes
       if (!out || count_of(next) > count_of(*out)) out = std::move(next);
       if (!fills && count_of(*out) == asked) return *out;
     }
-  if (kinds.size() == 1)
+  if (kinds.size() == 1 && !(kinds[0].high && bed.bar != Bar::none))
     for (const auto& lattice : nest.lattices_of_kind()) {
       auto next = nest.run(lattice);
       if (count_of(next) > count_of(*out)) out = std::move(next);

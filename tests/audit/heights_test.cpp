@@ -13,7 +13,8 @@
 namespace weft::audit {
 namespace {
 
-constexpr double cell_diagonal_mm = 0.354;
+constexpr double half_diagonal_mm = 0.177;  // of a cell
+constexpr double round_mm = 0.2;            // ends of lines are
 
 /// A box that stands on the bed, and how it is laid: lines side by side.
 struct Block {
@@ -80,7 +81,7 @@ struct TwoBlocks {
 
 }  // namespace
 
-TEST_CASE("heights: what the head meets is what stands there, to a cell") {
+TEST_CASE("heights: what the head meets is what stands there, to half a cell") {
   std::mt19937 random(4);
   const auto number = [&](double least, double most) {
     return least + (most - least) * static_cast<double>(random() % 100'000) / 100'000;
@@ -104,8 +105,8 @@ TEST_CASE("heights: what the head meets is what stands there, to a cell") {
       for (const auto& block : blocks)
         for (const auto& slab : slabs) {
           const double under = z + to_mm(slab.from);
-          surely = std::max(surely, depth_in(block, box_of(slab.outline), a, b, under, 0));
-          maybe = std::max(maybe, depth_in(block, box_of(slab.outline), a, b, under, cell_diagonal_mm + 0.01));
+          surely = std::max(surely, depth_in(block, box_of(slab.outline), a, b, under, -half_diagonal_mm - round_mm));
+          maybe = std::max(maybe, depth_in(block, box_of(slab.outline), a, b, under, half_diagonal_mm + 0.01));
         }
       const auto found = head.meets({.from = a, .to = b}, z, z, 0.01);
       INFO("run " << run << ", move " << i);

@@ -123,6 +123,20 @@ TEST_CASE("owners: all pairs are told, where each begins and on how many layers"
   CHECK(owners.labelled());
 }
 
+TEST_CASE("owners: a brim may lie at its part and a little in it, a skirt through it is refused") {
+  const auto blocks = [](const std::string& feature, double x) {
+    Owners owners(0.1);
+    lay(owners, "body", "outer_wall", square({10, 10}, 5, false), 0.2, 0.2);
+    owners.lay("", feature, {.from = {x, 5}, .to = {x, 15}}, {}, 0.2, 0.2, 0.2, 0);
+    const auto found = owners.conflicts();
+    return found.empty() ? std::string("none") : found[0].blocks ? std::string("blocks") : std::string("told");
+  };
+  CHECK(blocks("brim", 7.5 - 0.41) == "none");
+  CHECK(blocks("brim", 7.5 - 0.2) == "told");
+  CHECK(blocks("brim", 8) == "blocks");
+  CHECK(blocks("skirt", 10) == "blocks");
+}
+
 TEST_CASE("owners: layers of other heights meet where their plastic does") {
   const auto a = square({0, 0}, 5, false), b = square({2, 0}, 5, false);
   const auto pairs = [&](double thin_z) {

@@ -209,6 +209,14 @@ TEST_CASE("weft slice: one object at a time, over all that stands, and refused w
   CHECK(run.status == 5);
   CHECK_THAT(run.err,
              Contains("print_sequence: the head hits 'base' while 'lid' is printed, and 'lid' while 'base' is"));
+  const std::string head = "machine_head_profile=0: -10x-10, 10x-10, 10x10, -10x10";
+  words = {"base.stl", "--copies", "3", "-s", "print_sequence=one_at_a_time", "-s", head, "-s", "skirt_line_count=0"};
+  boxes.sliced(words);  // as near as the head may pass: the audit lets it
+  words.insert(words.end(), {"-s", "gantry_height=3"});
+  CHECK_THAT(boxes.slice(words).err, Contains("the gantry hits") && Contains("as --arrange does"));
+  words.insert(words.end(), {"--arrange"});  // one behind the other
+  boxes.sliced(words);
+  boxes.check_verified();
   CHECK(boxes.slice({"base.stl", "lid.stl", "-s", "print_sequence=one_at_a_time"}).status == 3);
   CHECK(boxes.slice({"base.stl", "-s", "machine_head_profile=0: 0x0, 1x1"}).status == 3);
 }

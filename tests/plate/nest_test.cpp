@@ -134,6 +134,26 @@ TEST_CASE("nest: what has room as it lies is not turned, and what has none is") 
   for (const auto& [at, turn] : standing.front()) CHECK(turn == 0);
 }
 
+TEST_CASE("nest: what is higher than the bar stands one behind the other across it, what is lower anywhere") {
+  const std::vector<NestKind> kinds{{{rectangle(20000, 20000)}, 4, true}, {{rectangle(20000, 20000)}, 6, false}};
+  for (const Bar bar : {Bar::along_x, Bar::along_y}) {
+    NestBed bed{square_bed(200'000), {}, {100'000, 100'000}, 10'000, 0, bar};
+    const auto places = nest(kinds, bed);
+    REQUIRE(places[0].size() == 4);
+    REQUIRE(places[1].size() == 6);
+    check_apart(kinds, bed, places);
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t k = 0; k < i; ++k) {
+        const Point by = places[0][i].at - places[0][k].at;
+        CHECK(std::abs(bar == Bar::along_x ? by.y : by.x) >= 30'000 - 5);
+      }
+    bed.bar = Bar::none;
+    CHECK(nest(kinds, bed)[0].size() == 4);
+  }
+  const NestBed bed{square_bed(200'000), {}, {100'000, 100'000}, 10'000, 0, Bar::along_x};
+  CHECK(nest(std::vector<NestKind>{{{rectangle(20000, 20000)}, 0, true}}, bed)[0].size() == 7);  // 7 · 20 + 6 · 10
+}
+
 TEST_CASE("nest: triangles stand in pairs, and as densely as a lattice of them is") {
   const NestBed bed{square_bed(200_mm), {}, {100_mm, 100_mm}, 1_mm, 0};
   const Regions one{{{{-10_mm, -10_mm}, {10_mm, -10_mm}, {-10_mm, 10_mm}}, {}}};
