@@ -272,8 +272,7 @@ std::string describe(const Conflict& c, const std::vector<ObjectLabel>& objects)
 
 namespace {
 
-/// Supports that meet hold each other, and may lie in skirt and brim; a brim lies at its part, and where the part is
-/// widened (xy_offset) in it.
+/// Supports that meet hold each other, and may lie in skirt and brim; a brim lies at its part.
 bool is_harmless(const Conflict& c) {
   const auto bears = [](const Owner& owner) {
     const bool around =

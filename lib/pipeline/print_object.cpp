@@ -12,6 +12,7 @@
 #include "pipeline/key_bytes.h"
 #include "pipeline/object_scopes.h"
 #include "pipeline/prepared_infill.h"
+#include "pipeline/printed_outlines.h"
 #include "pipeline/slice_object.h"
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
@@ -483,8 +484,10 @@ PrintedLayers print_object(const Running& job, const Scopes& all_scopes, const T
     return fill_object(fill_hands, wall_hands, all_scopes, tools, *sliced, areas, *walled, support.held, job.sample,
                        lying, looked_at);
   });
-  auto out = put_together(std::move(sliced).take(), areas, std::move(walled).take(), std::move(filled).take(),
-                          support.held, at, notices);
+  auto cuts = std::move(sliced).take();
+  move_outlines(wall_hands, all_scopes, areas, cuts);
+  auto out = put_together(std::move(cuts), areas, std::move(walled).take(), std::move(filled).take(), support.held, at,
+                          notices);
   for (auto& layer : out) tools.tell(layer.beads, all_scopes);
   if (job.sample.all()) tell_infill(all_scopes[scopes.front().of_mix.front()], out, job.report);
   return out;

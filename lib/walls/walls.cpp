@@ -142,15 +142,23 @@ void add_left_out(const WallInput& input, const Region& region, std::vector<Plac
 
 }  // namespace
 
+bool moves_outlines(const WallSettings& settings, const WallSettings& above) {
+  return settings.xy_offset != 0 || settings.hole_xy_offset != 0 || above.xy_offset > settings.xy_offset;
+}
+
+Regions outlines_of(const WallSettings& settings, const WallInput& input) {
+  const Um foot = input.settings_above != nullptr ? input.settings_above->xy_offset - settings.xy_offset : 0;
+  if (foot <= 0) return offset_outlines(settings, input.layer.regions);
+  const Widths widths = widths_of(settings, input.nozzle_diameter, input.layer.height, input.index);
+  return drawn_in(settings, input.layer.regions, foot, rounded(2 * widths.outer) + 2 * widths.bulge);
+}
+
 WallLayer build(const WallSettings& settings, const WallInput& input) {
   constexpr double worth_a_notice_mm = 0.5;  // the last bit of every tip is thinner than any bead
   WallLayer out;
   Widths widths = widths_of(settings, input.nozzle_diameter, input.layer.height, input.index);
   if (widths.walls > 1 && single_wall(settings, input)) widths.walls = 1;
-  const Um foot = input.settings_above != nullptr ? input.settings_above->xy_offset - settings.xy_offset : 0;
-  const Regions regions =
-      foot > 0 ? drawn_in(settings, input.layer.regions, foot, rounded(2 * widths.outer) + 2 * widths.bulge)
-               : offset_outlines(settings, input.layer.regions);
+  const Regions regions = outlines_of(settings, input);
   if (widths.walls == 0) {
     out.inside = regions;
     return out;

@@ -28,6 +28,14 @@ struct WallInput {
 ///         deposition modeling"; widths are bands (model/flow.h).
 WallLayer build(const WallSettings& settings, const WallInput& input);
 
+/// The outlines of a layer, moved by the xy offsets: what `build` lays beads within. Regions may be joined, divided or
+/// lost thereby.
+Regions outlines_of(const WallSettings& settings, const WallInput& input);
+
+/// Does any offset move outlines there? If not, `outlines_of` gives them as they are.
+/// @param above that hold on layers above the first
+bool moves_outlines(const WallSettings& settings, const WallSettings& above);
+
 /// What of the settings cannot have the effect the user may expect.
 /// @param height of the layers
 Notices check(const WallSettings& settings, Um nozzle_diameter, Um height);

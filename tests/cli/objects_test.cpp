@@ -390,3 +390,19 @@ TEST_CASE("weft slice: the audit knows the head, and refuses end G-code that lea
   CHECK(run.status == 5);
   CHECK_THAT(run.err, Contains("into what is printed") && Contains("machine_end_gcode"));
 }
+
+TEST_CASE("weft slice: skirt and brim go around what is printed, moved by offsets or not") {
+  const Boxes boxes;
+  boxes.scratch.write("wide.stl", box_stl(22, 22, 4));
+  const auto brim = [&](std::vector<std::string> words) {
+    words.insert(words.end(), {"-s", "brim_width=4", "-s", "skirt_line_count=0"});
+    return boxes.sliced(words)["features"]["brim"]["mm3"].get<double>();
+  };
+  CHECK(brim({"base.stl", "-s", "xy_offset=1"}) == Approx(brim({"wide.stl"})).epsilon(0.005));
+  CHECK(brim({"wide.stl", "-s", "xy_offset=-1"}) == Approx(brim({"base.stl"})).epsilon(0.005));
+  CHECK(brim({"wide.stl", "-s", "xy_offset_layer_0=-1"}) == Approx(brim({"base.stl"})).epsilon(0.005));
+  CHECK(boxes.slice({"base.stl", "-s", "xy_offset=6"}).status == 0);  // farther than the skirt's gap
+  // One of two parts alone.
+  CHECK(boxes.slice({"base.stl", "lid.stl", "--spacing", "20", "--for", "lid", "xy_offset=6"}).status == 0);
+  boxes.check_verified();
+}
