@@ -248,6 +248,7 @@ std::vector<Reader::Meaning> Reader::meanings() {
       {"M25, M125, M226, M600, M601, M602, M701, M702", opaque_text},
       {"M810 … M819", "with commands behind it: moves are not audited; alone: opaque"},
       {"T", "another tool than the one in use: opaque; its nozzle stands as nozzle_offsets say"},
+      {"P", "a tool changer parks a tool: opaque"},
       {"other G", opaque_text},
       {"other M", "temperatures, fans, motors, messages and the like: nothing; what is not known: opaque"},
       {"SET_GCODE_OFFSET", "followed, read as Klipper reads it; MOVE=1 is judged as a move"},

@@ -158,6 +158,8 @@ const char* Reader::command(const char* p, const char* end) {
   if (!is_letter(letter)) return odd_command(p, end);
   const bool starts_command = letter == 'G' || letter == 'M' || letter == 'T';
   if (starts_command && is_digit(p[1])) return numbered_command(letter, p, end);
+  // Prusa's tool changers park a tool by a command of its own letter.
+  if (letter == 'P' && is_digit(p[1]) && !is_klipper()) return numbered_command(letter, p, end);
   if (!starts_command && starts_number(p[1])) {  // only words: the last motion again
     const bool plain = letter == 'F' || letter == 'S' || letter == 'E';
     if (!plain && obeys_first_only())

@@ -30,8 +30,9 @@ Surface::Surface(std::span<const Mesh* const> meshes) {
       const double x1 = b.x - a.x, y1 = b.y - a.y, z1 = b.z - a.z, x2 = c.x - a.x, y2 = c.y - a.y, z2 = c.z - a.z;
       const double area = x1 * y2 - x2 * y1, along_x = (z1 * y2 - z2 * y1) / area, along_y = (x1 * z2 - x2 * z1) / area;
       const bool up = twice > 0;
-      facets_.push_back(
-          {flat(a), flat(up ? b : c), flat(up ? c : b), a.z - along_x * a.x - along_y * a.y, along_x, along_y, up});
+      const auto [bottom, top] = std::minmax({a.z, b.z, c.z});
+      facets_.push_back({flat(a), flat(up ? b : c), flat(up ? c : b), a.z - along_x * a.x - along_y * a.y, along_x,
+                         along_y, bottom, top, up});
       for (const Point3 p : {a, b, c}) box_.add(flat(p));
     }
   if (facets_.empty()) return;
@@ -61,17 +62,28 @@ std::size_t Surface::cell_of(Um x, Um y) const {
          static_cast<std::size_t>((x - box_.min.x) / cell_);
 }
 
+std::span<const std::uint32_t> Surface::facets_over(Point at) const {
+  if (facets_.empty() || !box_.contains(at)) return {};
+  const std::size_t cell = cell_of(at.x, at.y);
+  return std::span(in_cell_).subspan(starts_[cell], starts_[cell + 1] - starts_[cell]);
+}
+
 std::optional<Surface::Height> Surface::between(Point at, double low_um, double high_um) const {
-  if (facets_.empty() || !box_.contains(at)) return std::nullopt;
+  const auto near = facets_over(at);
+  // Within a body, where most beads lie, there is none: that is seen without looking at where they are.
+  if (std::none_of(near.begin(), near.end(), [&](std::uint32_t i) {
+        const Facet& f = facets_[i];
+        return f.up && f.bottom < high_um && f.top >= low_um;
+      }))
+    return std::nullopt;
   struct Crossing {
     double z, slope;
     bool up;
   };
   std::vector<Crossing> found;
-  const std::size_t cell = cell_of(at.x, at.y);
-  for (std::uint32_t k = starts_[cell]; k < starts_[cell + 1]; ++k) {
-    const Facet& f = facets_[in_cell_[k]];
-    if (!within(f.a, f.b, at) || !within(f.b, f.c, at) || !within(f.c, f.a, at)) continue;
+  for (const std::uint32_t i : near) {
+    const Facet& f = facets_[i];
+    if (f.top < low_um || !within(f.a, f.b, at) || !within(f.b, f.c, at) || !within(f.c, f.a, at)) continue;
     const double z = f.z0 + f.along_x * at.x + f.along_y * at.y;
     if (z >= low_um) found.push_back({z, std::hypot(f.along_x, f.along_y), f.up});
   }

@@ -27,9 +27,11 @@ class Surface {
   struct Facet {
     Point a, b, c;                // counter-clockwise from above
     double z0, along_x, along_y;  // its plane: z0 + along_x·x + along_y·y
-    bool up;                      // solid lies below it
+    Um bottom, top;
+    bool up;  // solid lies below it
   };
   std::size_t cell_of(Um x, Um y) const;
+  std::span<const std::uint32_t> facets_over(Point at) const;
 
   std::vector<Facet> facets_;
   Box box_;

@@ -173,6 +173,27 @@ void add_tools(const Job& job, Variables& out) {
 
 }  // namespace
 
+namespace {
+
+/// What custom G-code is handed of the machine, and may say of it: where the nozzle is across the bed is not known
+/// before the moves are, and wherever it has gone is said again afterwards.
+void add_place(std::size_t tools, Variables& out) {
+  Variable place;
+  place.values = {macro::Nil{}, macro::Nil{}, 0.0};
+  place.writable = true;
+  out["position"] = std::move(place);
+  for (const auto* name : {"e_position", "e_retracted", "e_restart_extra"}) {
+    Variable each;
+    each.values.assign(tools, 0.0);
+    each.writable = true;
+    out[name] = std::move(each);
+  }
+  out["zhop"] = macro::variable(0.0);
+  out["zhop"].writable = true;
+}
+
+}  // namespace
+
 Variables print_variables(const Job& job) {
   auto out = variables_of(job.settings);
   add_tools(job, out);
@@ -193,6 +214,7 @@ Variables print_variables(const Job& job) {
                            "filament_extruder_id", "current_object_idx"})
     out[tool] = count(0);
   out["toolchange_z"] = macro::variable(0.0);
+  add_place(std::max<std::size_t>(1, job.tools.size()), out);
   add_aliases_of_cura(job, out);
   set_layer(out, 0, 0);
   return out;
@@ -201,6 +223,7 @@ Variables print_variables(const Job& job) {
 void set_layer(Variables& variables, std::size_t index, Um z) {
   variables["layer_num"] = count(index);
   variables["layer_z"] = macro::variable(to_mm(z));
+  variables["position"].values[2] = to_mm(z);
 }
 
 macro::Template template_of(const HeightMark& mark) {
@@ -210,9 +233,15 @@ macro::Template template_of(const HeightMark& mark) {
 }
 
 void set_tool_change(Variables& variables, ToolId from, ToolId to, Um z) {
-  variables["previous_extruder"] = count(from);
-  variables["next_extruder"] = variables["current_extruder"] = variables["filament_extruder_id"] = count(to);
+  variables["previous_extruder"] = variables["current_extruder"] = variables["filament_extruder_id"] = count(from);
+  variables["next_extruder"] = count(to);
   variables["toolchange_z"] = macro::variable(to_mm(z));
+}
+void set_filament(Variables& variables, ToolId tool) {
+  variables["filament_extruder_id"] = count(tool);
+}
+void set_current_tool(Variables& variables, ToolId tool) {
+  variables["current_extruder"] = variables["filament_extruder_id"] = count(tool);
 }
 
 bool has_command(std::string_view code, std::string_view command) {

@@ -27,8 +27,12 @@ void set_layer(macro::Variables& variables, std::size_t index, Um z);
 /// The G-code of `gcode_at_heights` for a height, read.
 macro::Template template_of(const HeightMark& mark);
 
-/// From that tool to another, on a layer whose top is at z.
+/// From that tool, which is still the current one, to another, on a layer whose top is at z.
 void set_tool_change(macro::Variables& variables, ToolId from, ToolId to, Um z);
+/// Lists without an index (`[temperature]`) are read for it, as in PrusaSlicer's code of a change for the next one.
+void set_filament(macro::Variables& variables, ToolId tool);
+/// The change is done.
+void set_current_tool(macro::Variables& variables, ToolId tool);
 
 /// Does a line of the code begin with that command, such as "M104"?
 bool has_command(std::string_view code, std::string_view command);

@@ -139,6 +139,35 @@ void Dialect::temperature(Text& out, const SetTemperature& heat) const {
   if (heat.wait) out << "M116 P" << std::int64_t{heat.tool} << '\n';
 }
 
+std::string_view Dialect::advance_command() const {
+  switch (firmware) {
+    case Firmware::klipper:
+      return "SET_PRESSURE_ADVANCE";
+    case Firmware::reprapfirmware:
+      return "M572";
+    case Firmware::marlin:
+    case Firmware::marlin2:
+      return "M900";
+    case Firmware::repetier:
+    case Firmware::smoothie:
+      break;
+  }
+  return {};
+}
+
+void Dialect::hold(Text& out, bool advance) const {
+  const bool marlin = firmware == Firmware::marlin || firmware == Firmware::marlin2;
+  if (marlin) out << "M220 B\nM220 S100\n";
+  if (!advance) return;
+  if (marlin) out << "M900 K0\n";
+  if (firmware == Firmware::klipper) out << "SET_PRESSURE_ADVANCE ADVANCE=0\n";
+  if (firmware == Firmware::reprapfirmware) out << "M572 D0 S0\n";
+}
+
+void Dialect::release(Text& out) const {
+  if (firmware == Firmware::marlin || firmware == Firmware::marlin2) out << "M220 R\n";
+}
+
 void Dialect::mix(Text& out, double share) const {
   if (firmware == Firmware::reprapfirmware)
     out << fmt::format("M567 P0 E{:.3f}:{:.3f}\n", 1 - share, share);

@@ -5,6 +5,7 @@
 #include "settings/settings.h"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace weft::gcode {
@@ -39,6 +40,15 @@ struct Dialect {
   /// Loads a tool.
   void select(Text& out, ToolId tool) const;
   void temperature(Text& out, const SetTemperature& heat) const;
+  /// Before filament is moved by a swap: neither the user's speed nor the firmware's pressure advance changes that.
+  /// @param advance is said again with what is loaded then
+  void hold(Text& out, bool advance) const;
+  /// Afterwards the user's speed holds again.
+  void release(Text& out) const;
+  /// The command by which pressure advance is set.
+  std::string_view advance_command() const;
+  /// Heaters of a tool that is not selected are off, whatever temperature it is given: it is selected first.
+  bool selects_to_heat() const { return firmware == Firmware::reprapfirmware; }
   /// What a mixing nozzle makes of two filaments. @param share of the second, 0 … 1
   void mix(Text& out, double share) const;
   /// Waits for the user; what firmwares call this they do in ways of their own.

@@ -191,6 +191,7 @@ class LayerText {
 
   void print(const Extrude& bead) {
     if (bead.path.size() < 2) return;
+    release();
     travel_to(place_of(bead, 0, job_.plan.z), job_.settings.speeds.speed_travel);
     if (role_ != static_cast<int>(bead.role)) {
       role_ = static_cast<int>(bead.role);
@@ -282,7 +283,20 @@ class LayerText {
     out_ << '\n';
   }
 
+  /// Filament is swapped: from its first move on until the next retraction or bead.
+  void hold() {
+    if (holds_ || of_tool_->tools.parking_pos_retraction == 0) return;
+    holds_ = true;
+    const auto command = job_.dialect.advance_command();
+    job_.dialect.hold(out_, !command.empty() && has_command(of(job_.loaded, tool_changes_), command));
+  }
+  void release() {
+    if (holds_) job_.dialect.release(out_);
+    holds_ = false;
+  }
+
   void print(const Retract& retract) {
+    release();
     const auto& r = of_tool_->retraction;
     const Um wanted = retract.to_change ? of_tool_->tools.switch_extruder_retraction_amount : r.retraction_amount;
     const Um drawn = !state_.retracted()                   ? 0
@@ -352,10 +366,10 @@ class LayerText {
   }
 
   /// What the profile brings for it, and the tool itself unless that has chosen it.
+  static std::string_view of(const std::vector<std::string>& codes, std::size_t i) {
+    return i < codes.size() ? std::string_view(codes[i]) : std::string_view();
+  }
   void print(const ToolChange& change) {
-    const auto of = [](const std::vector<std::string>& codes, std::size_t i) {
-      return i < codes.size() ? std::string_view(codes[i]) : std::string_view();
-    };
     const std::string_view code = of(job_.tool_changes, tool_changes_), loaded = of(job_.loaded, tool_changes_);
     const bool chosen_already = job_.first_is_chosen && tool_changes_ == 0;
     ++tool_changes_;
@@ -377,6 +391,7 @@ class LayerText {
   }
   void print(const SetTemperature& heat) { job_.dialect.temperature(out_, heat); }
   void print(const Feed& step) {
+    hold();
     if (step.mm == 0) {
       out_ << "G4 P" << static_cast<std::int64_t>(std::llround(1000 * step.seconds)) << '\n';
       return;
@@ -423,6 +438,7 @@ class LayerText {
   std::int64_t e_written_ = 0;  // likewise
   std::int64_t feed_ = 0;       // 0: not said in this layer
   int role_ = -1;
+  bool holds_ = false;  ///< what the firmware and the user add to the extruder's motion
   std::size_t tool_changes_ = 0, pauses_ = 0, timed_ = 0;
   double all_s_ = 0, done_s_ = 0;  ///< of the steps
   Um height_ = 0, width_ = 0;

@@ -3,6 +3,7 @@
 
 #include "core/escape.h"
 #include "prusaslicer/keys.h"
+#include "prusaslicer/text.h"
 #include "settings/catalogue.h"
 #include "settings/gcode_variables.h"
 #include "settings/value.h"
@@ -18,6 +19,13 @@ using macro::Variables;
 
 Variable number(double v) {
   return macro::variable_of(value::number(v));
+}
+
+/// `[name]` of a flag is 1 or 0.
+Variable in_brackets(const std::string& text) {
+  auto out = macro::variable_of(text);
+  if (out.values.size() == 1 && std::holds_alternative<bool>(out.values[0])) out.text.clear();
+  return out;
 }
 
 /// A setting's value as expressions see it.
@@ -74,7 +82,16 @@ Variable in_their_words(const prusaslicer::Key& row, const Variable& ours, const
     case Form::reckoned:
       break;
   }
-  return ours;
+  Variable out = ours;
+  const bool flag = ours.values.size() == 1 && std::holds_alternative<bool>(ours.values[0]);
+  if (flag) out.text.assign(1, std::get<bool>(ours.values[0]) ? '1' : '0');
+  if (ours.text.ends_with('%') && row.initial && !row.initial->ends_with('%')) out.text.pop_back();
+  // What is for weft to find out has the value there that nobody has chosen.
+  if (!ours.missing.empty()) {
+    if (row.initial) return macro::variable_of(*row.initial);
+    out.missing.clear(), out.values = {macro::Nil{}};
+  }
+  return out;
 }
 
 }  // namespace
@@ -86,7 +103,8 @@ Variables variables_of(const Settings& settings) {
     auto ours = variable(entry, text);
     for (const auto& row : prusaslicer::keys())
       if (row.ours == entry.key) out.emplace(std::string(row.name), in_their_words(row, ours, text));
-    out.insert_or_assign(std::string(entry.key), std::move(ours));
+    // Of a name that both have PrusaSlicer's own value stands in for what is for weft to find out.
+    if (ours.missing.empty() || !out.contains(entry.key)) out.insert_or_assign(std::string(entry.key), std::move(ours));
   }
   const auto set = [&](const char* key, const char* prusa, double v) { out[key] = out[prusa] = number(v); };
   const auto& m = settings.material;
@@ -103,8 +121,12 @@ Variables variables_of(const Settings& settings) {
     std::string values;
     for (const auto& e : further.elements)
       values += (values.empty() ? "" : ", ") + (e.quoted ? quoted_variable(e.text) : e.text);
-    out.emplace(further.name, macro::variable_of(values));  // a setting of that name is nearer
+    out.emplace(further.name, in_brackets(values));  // a setting of that name is nearer
   }
+  // What no profile says otherwise is as PrusaSlicer has it; where the tower stands is found here.
+  for (const auto& row : prusaslicer::keys())
+    if (row.initial && row.name != "wipe_tower_x" && row.name != "wipe_tower_y" && !out.contains(row.name))
+      out.emplace(std::string(row.name), in_brackets(prusaslicer::in_macro_words(row.name, *row.initial)));
   return out;
 }
 

@@ -80,6 +80,7 @@ void Writer::expand_custom_code() {
   }
   start_ = expanded(code.start) + (used_.empty() ? expanded(code.load) : std::string());
   start_selects_ = !used_.empty() && has_command(start_, fmt::format("T{}", used_.front()));
+  head_selects_ = !used_.empty() && !start_selects_ && dialect_.selects_to_heat() && !shares_nozzle(job_.tools);
   const auto& material = used_.empty() ? job_.settings.material : job_.tools[used_.front()].material;
   const auto heating = heating_in(start_, code.start, material);
   start_sets_nozzle_ = heating.nozzle, start_sets_bed_ = heating.bed, start_sets_chamber_ = heating.chamber;
@@ -107,8 +108,10 @@ void Writer::expand_custom_code() {
       const ToolId from = loaded.value_or(change.tool);
       set_tool_change(variables, from, change.tool, layers[i].z);
       if (!loaded && !used_.empty()) variables["previous_extruder"] = macro::variable(std::int64_t{-1});
-      tool_changes_[i].push_back((loaded && !used_.empty() ? expanded(of_tool(from).unload) : std::string()) +
-                                 expanded(code.tool_change));
+      auto text = loaded && !used_.empty() ? expanded(of_tool(from).unload) : std::string();
+      set_filament(variables, change.tool);
+      tool_changes_[i].push_back(text + expanded(code.tool_change));
+      set_current_tool(variables, change.tool);
       loaded_[i].push_back(used_.empty() ? std::string() : expanded(of_tool(change.tool).load));
       loaded = change.tool;
     }
@@ -158,6 +161,12 @@ std::string Writer::head() const {
     if (chamber > 0 && chamber != warm) out << "M141 S" << chamber << '\n';  // M191 has made it the target
   }
   out << start_;
+  if (head_selects_) {
+    const auto& changes = tool_changes_.front();
+    const auto code = changes.empty() ? std::string_view() : std::string_view(changes.front());
+    out << code;
+    if (!has_command(code, fmt::format("T{}", used_.front()))) dialect_.select(out, used_.front());
+  }
   if (!used_.empty() && m.material_print_temp_wait)
     heat_at_start(out, true);
   else if (sets_nozzle && m.material_print_temp_wait)
@@ -239,7 +248,7 @@ std::string Writer::layer(std::size_t index) const {
                           .tool_changes = tool_changes_[index],
                           .loaded = loaded_[index],
                           .pauses = pauses_[index],
-                          .first_is_chosen = start_selects_ && index == 0,
+                          .first_is_chosen = (start_selects_ || head_selects_) && index == 0,
                           .end_s = progress_.begin_s(index + 1),
                           .timed = tells ? progress_.within(index) : std::vector<TimedLine>{}});
   return substitutions_.done(std::move(text));

@@ -74,6 +74,7 @@ class Writer {
   std::string start_, end_;
   std::vector<ToolId> used_;    // in the order that they are loaded; empty where there is one tool
   bool start_selects_ = false;  // the first tool
+  bool head_selects_ = false;   // it, before its nozzle is waited for
   bool start_sets_nozzle_ = false, start_sets_bed_ = false, start_sets_chamber_ = false;
 };
 

@@ -3,7 +3,9 @@
 
 #include "core/parts.h"
 #include "profile/profile.h"
+#include "profile/tool_values.h"
 #include "settings/catalogue.h"
+#include "settings/tools.h"
 
 #include <algorithm>
 #include <cctype>
@@ -16,6 +18,12 @@
 
 namespace weft::jobs {
 namespace {
+
+/// The setting that is varied, of the plate or of a tool (`tool.1.material_flow`); null: there is none.
+const CatalogueEntry* entry_of(const std::string& key) {
+  const auto tool = tool_key(key);
+  return find_setting(tool ? tool->second : key);
+}
 
 constexpr std::size_t most_jobs = 1'000'000;
 
@@ -56,7 +64,7 @@ void read_range(Axis& axis, const std::vector<std::string>& parts, const std::st
                 "FROM:TO:STEP runs upwards"};
   if (v.size() == 2) {
     axis.from = v[0], axis.to = v[1];
-    axis.decimals = find_setting(axis.key)->type == "integer" ? 0 : std::max(decimals, 3);
+    axis.decimals = entry_of(axis.key)->type == "integer" ? 0 : std::max(decimals, 3);
     return;
   }
   if (!(v[2] > 0)) throw Error{Error::Kind::usage, fmt::format("a step of {} leads nowhere", parts[2]), option};
@@ -124,13 +132,16 @@ Axis parse_axis(const std::string& text) {
                 "as in --vary layer_height=0.1,0.2,0.3"};
   Axis axis;
   const auto typed = std::string(value::trimmed(text.substr(0, equals)));
-  const auto* entry = find_setting(typed);
+  const auto tool = tool_key(typed);
+  const auto* entry = entry_of(typed);
   if (!entry) {
-    const auto near = nearest_key(typed);
+    const auto near = nearest_key(tool ? tool->second : typed);
     throw Error{Error::Kind::settings, fmt::format("unknown setting '{}'", typed), "--vary",
                 near.empty() ? "`weft settings` lists them all" : fmt::format("did you mean '{}'?", near)};
   }
-  axis.key = entry->key;
+  if (tool && !differs_by_tool(*entry))
+    throw Error{Error::Kind::settings, fmt::format("{} is no tool's own", entry->key), option, "leave out the tool"};
+  axis.key = tool ? fmt::format("tool.{}.{}", tool->first, entry->key) : std::string(entry->key);
   const auto values = text.substr(equals + 1);
   const auto range = trimmed_parts(values, ':');
   if ((range.size() == 2 || range.size() == 3) && values.find(',') == std::string::npos)

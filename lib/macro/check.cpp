@@ -33,7 +33,12 @@ class Checking {
       if ((s.op == Op::local || s.op == Op::global) && variables_.contains(s.text))
         program_.refuse(s.at, fmt::format("'{}' is a name that weft gives a value", s.text), "choose another name");
       if (s.op == Op::assign && !locals_.contains(s.text) && !globals_.contains(s.text)) {
-        if (variables_.contains(s.text))
+        const auto found = variables_.find(s.text);
+        if (found != variables_.end() && found->second.writable) {
+          locals_.insert(s.text);
+          continue;
+        }
+        if (found != variables_.end())
           program_.refuse(s.at, fmt::format("'{}' cannot be changed", s.text),
                           fmt::format("write {{local my_{} = …}}", s.text));
         unknown(s.at, s.text);

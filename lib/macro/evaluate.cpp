@@ -159,20 +159,37 @@ class Evaluation {
     return *i;
   }
 
+  /// In brackets PrusaSlicer writes 1 and 0.
+  static std::string in_brackets(const Scalar& value) {
+    const auto* flag = std::get_if<bool>(&value);
+    return flag == nullptr ? text_of(value) : *flag ? "1" : "0";
+  }
+  /// Of a list without an index: that of the filament in question, or the extruder that prints, or the first.
+  const Scalar& of_current(const Variable& v) const {
+    const auto* current = find("filament_extruder_id");
+    if (!current) current = find("current_extruder");
+    const auto* index = current && !current->values.empty() ? std::get_if<std::int64_t>(&current->values[0]) : nullptr;
+    const auto i = index && *index >= 0 ? static_cast<std::size_t>(*index) : 0;
+    return v.values[i < v.values.size() ? i : 0];
+  }
+
+  static std::string joined(const std::vector<Scalar>& values) {
+    std::string out;
+    for (const auto& value : values) out += (out.empty() ? "" : ",") + in_brackets(value);
+    return out;
+  }
+
   std::string legacy(const Statement& s) {
-    if (s.index != none) return text_of(element(s.at, s.text, variable(s.at, s.text), index_value(s.index)));
+    if (s.index != none) return in_brackets(element(s.at, s.text, variable(s.at, s.text), index_value(s.index)));
     if (!find(s.text))
       if (const auto split = numbered(s.text))
-        return text_of(
+        return in_brackets(
             element(s.at, split->name, variable(s.at, split->name), static_cast<std::int64_t>(split->index)));
     const auto& v = variable(s.at, s.text);
-    if (!v.text.empty()) return v.text;
-    std::string out;
-    for (std::size_t i = 0; i < v.values.size(); ++i) {
-      if (i > 0) out += ',';
-      out += text_of(v.values[i]);
-    }
-    return out;
+    if (locals_.contains(s.text) || scope_.globals.contains(s.text)) return joined(v.values);
+    if (v.values.size() > 1) return in_brackets(of_current(v));
+    if (!v.text.empty() || v.values.empty()) return v.text;
+    return in_brackets(v.values[0]);
   }
 
   std::string printed(const Statement& s) {
@@ -182,6 +199,9 @@ class Evaluation {
   }
 
   void assign(const Statement& s) {
+    const auto own = variables_.find(s.text);
+    if (own != variables_.end() && own->second.writable && !locals_.contains(s.text))
+      keep(s.at, locals_[s.text].values, own->second.values);
     auto& where = locals_.contains(s.text) ? locals_ : scope_.globals;
     const auto found = where.find(s.text);
     if (found == where.end())

@@ -81,7 +81,7 @@ class Reading {
       const bool branch = statement.op == Op::begin_if || statement.op == Op::else_if ||
                           statement.op == Op::otherwise || statement.op == Op::end_if;
       if (!separated && !branch) program_.refuse(at, "expected '}' or ';'", "statements are separated by ';'");
-      separated = branch && statement.op != Op::end_if;
+      separated = branch;  // stock profiles write none behind endif
       add(std::move(statement));
     }
     ++at_;

@@ -24,8 +24,9 @@ std::string text_of(const Scalar& value);
 /// What a name in a template stands for.
 struct Variable {
   std::vector<Scalar> values;  ///< one, or the elements of a list
-  std::string text;            ///< what `[name]` writes; empty: the values, separated by commas
-  std::string missing;         ///< why there is no value ("is auto"); using it is then an error
+  std::string text;       ///< what `[name]` writes where there is one value; empty: as `{…}` does, but flags 1, 0
+  std::string missing;    ///< why there is no value ("is auto"); using it is then an error
+  bool writable = false;  ///< a template may assign to it, for the rest of itself
 };
 using Variables = std::map<std::string, Variable, std::less<>>;
 

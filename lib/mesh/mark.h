@@ -12,7 +12,7 @@
 namespace weft::mesh {
 
 /// What a volume of an object is for, when it is no part of it.
-enum class MarkKind : std::uint8_t { negative, modifier, support_enforcer, support_blocker, support };
+enum class MarkKind : std::uint8_t { negative, modifier, support_enforcer, support_blocker, support, tint };
 
 struct MarkName {
   MarkKind kind;
@@ -26,6 +26,7 @@ inline constexpr std::array mark_names{
     MarkName{MarkKind::support_enforcer, "support enforcer", "SupportEnforcer", "support_enforcer"},
     MarkName{MarkKind::support_blocker, "support blocker", "SupportBlocker", "support_blocker"},
     MarkName{MarkKind::support, "support", "", ""},
+    MarkName{MarkKind::tint, "paint", "", ""},
 };
 
 /// A setting of a volume, in the words of the program that wrote the file.
@@ -40,10 +41,10 @@ enum class Author : std::uint8_t { unknown, prusaslicer, orca, cura };
 /// A volume that is not printed, or a piece of painted surface: it says something of the part it lies in.
 struct Mark {
   MarkKind kind = MarkKind::modifier;
-  bool painted = false;  ///< facets of the part's own surface; enforcers and blockers only
+  bool painted = false;  ///< facets of the part's own surface: enforcers, blockers, and what is for another tool
   Mesh mesh;             ///< in the coordinates of its object
   std::string name{};
-  std::vector<ForeignSetting> settings{};  ///< of a modifier
+  std::vector<ForeignSetting> settings{};  ///< of a modifier; of a tint which extruder, or colour, it is for
   Author author = Author::unknown;         ///< of them; unknown: they are weft's
   std::size_t after = ~std::size_t{0};     ///< a negative volume cuts so many of the item's parts: those before it
   friend bool operator==(const Mark&, const Mark&) = default;

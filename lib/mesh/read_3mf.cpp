@@ -3,6 +3,7 @@
 #include "core/stop.h"
 #include "mesh/formats.h"
 #include "mesh/three_mf.h"
+#include "mesh/three_mf_colours.h"
 #include "mesh/weld.h"
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <compare>
 #include <deque>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -148,12 +150,19 @@ class Build {
     return nullptr;
   }
 
-  /// Ranges of heights go by the place of an object among those with a mesh or with parts.
+  /// Ranges of heights go by the place of an object among those that something is said of; where nothing is said of
+  /// any, among those that are printed.
   std::map<std::uint32_t, std::uint32_t> places_of_objects() const {
     std::map<std::uint32_t, std::uint32_t> out;
+    std::set<std::uint32_t> printed;
+    for (const Reference& item : document_.items)
+      if (item.object.first == document_.root) printed.insert(item.object.second);
+    const bool is_said = !document_.parts.objects.empty();
     std::uint32_t place = 0;
     for (const auto& [key, resource] : document_.objects)
-      if (key.first == document_.root && document_.parts.of(key.second)) out[key.second] = ++place;
+      if (key.first == document_.root &&
+          (is_said ? document_.parts.of(key.second) != nullptr : printed.count(key.second) > 0))
+        out[key.second] = ++place;
     return out;
   }
 
@@ -199,6 +208,7 @@ class Build {
     for (auto& [key, mark] : marks_) {
       Mark made{key.kind, key.painted, {mark.weld.take_vertices(), std::move(mark.triangles)}};
       drop_degenerate(made.mesh);
+      if (key.kind == MarkKind::tint) made.settings = {mark.tint}, made.author = document_.parts.author;
       made.name = mark.name;
       if (mark.volume) {
         made.name = mark.volume->name;
@@ -305,7 +315,8 @@ class Build {
     Weld weld{64};
     std::vector<Triangle> triangles;
     const VolumeSaid* volume = nullptr;
-    std::string name{};  ///< of the volume, or of all of them
+    ForeignSetting tint{};  ///< of what is for another extruder
+    std::string name{};     ///< of the volume, or of all of them
   };
 
   void mark(const Resource& resource, const Eigen::Affine3d& transform, const Reference& reference,
@@ -323,13 +334,26 @@ class Build {
     to.triangles.push_back(wound(corners, mirrored));
   }
   void paint(const Resource& resource, const Eigen::Affine3d& transform, const Reference& reference, bool mirrored) {
-    for (const auto& facet : resource.painted) {
-      auto& to =
-          marks_[{facet.paint == Paint::enforcer ? MarkKind::support_enforcer : MarkKind::support_blocker, true, 0}];
-      Triangle corners;
-      for (std::size_t i = 0; i < 3; ++i)
-        corners[i] = to.weld.index(placed(transform * facet.corners[i], reference, 0));
-      to.triangles.push_back(wound(corners, mirrored));
+    const auto add = [&](MarkInWork& to, const auto& corners) {
+      Triangle triangle;
+      for (std::size_t i = 0; i < 3; ++i) triangle[i] = to.weld.index(placed(transform * corners[i], reference, 0));
+      to.triangles.push_back(wound(triangle, mirrored));
+    };
+    for (const auto& facet : resource.painted)
+      add(marks_[{facet.paint == Paint::enforcer ? MarkKind::support_enforcer : MarkKind::support_blocker, true, 0}],
+          facet.corners);
+    for (const auto& facet : resource.tinted) {
+      auto& to = marks_[{MarkKind::tint, true, static_cast<std::size_t>(facet.state)}];
+      to.tint = {"extruder", std::to_string(facet.state)};
+      add(to, facet.corners);
+    }
+    constexpr std::size_t colours = std::size_t{1} << 24;  // behind all extruders
+    for (const auto& [t, colour] : resource.coloured) {
+      const auto number = static_cast<std::size_t>(colour.r << 16 | colour.g << 8 | colour.b);
+      auto& to = marks_[{MarkKind::tint, true, colours + number}];
+      to.tint = {std::string(colour_key), text_of(colour)};
+      const auto& [a, b, c] = resource.triangles[t];
+      add(to, std::array{resource.vertices[a], resource.vertices[b], resource.vertices[c]});
     }
   }
 

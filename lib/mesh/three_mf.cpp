@@ -5,6 +5,7 @@
 #include "core/escape.h"
 #include "core/number.h"
 #include "mesh/text.h"
+#include "mesh/three_mf_colours.h"
 #include "mesh/xml.h"
 
 #include <algorithm>
@@ -17,6 +18,7 @@
 namespace weft::mesh {
 namespace {
 
+constexpr std::string_view materials = "http://schemas.microsoft.com/3dmanufacturing/material/2015/02|";
 constexpr std::string_view production = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06";
 
 /// Extensions that a file may require: they add nothing to the shape, or are read.
@@ -32,8 +34,9 @@ struct Unit {
 constexpr std::array<Unit, 6> units = {
     {{"micron", 0.001}, {"millimeter", 1}, {"centimeter", 10}, {"inch", 25.4}, {"foot", 304.8}, {"meter", 1000}}};
 
-/// PrusaSlicer's namespace is an address, and the attribute of what is painted for support in it.
+/// PrusaSlicer's namespace is an address, and the attributes of what is painted for support and for extruders in it.
 constexpr std::string_view painted_by_prusaslicer = "http://schemas.slic3r.org/3mf/2017/06|custom_supports";
+constexpr std::string_view tinted_by_prusaslicer = "http://schemas.slic3r.org/3mf/2017/06|mmu_segmentation";
 
 /// What Cura's settings of an object are called in its metadata.
 constexpr std::string_view of_cura = "cura:";
@@ -74,6 +77,7 @@ class ModelPart {
       core_ = full_name.substr(0, full_name.size() - name.size());
       return model(attributes);
     }
+    if (full_name.starts_with(materials)) return material(name, attributes);
     if (!full_name.starts_with(core_) || full_name.size() != core_.size() + name.size()) return;
     if (name == "vertex" && object_)
       // braces: of several wrong ones the first is told, whatever order a compiler takes arguments in
@@ -83,6 +87,10 @@ class ModelPart {
       triangle(attributes);
     else if (name == "object")
       object(attributes);
+    else if (name == "basematerials")
+      begin_group(attributes);
+    else if (name == "base")
+      groups_.add(colour_of(attributes.find("displaycolor").value_or("")));
     else if (name == "component" && object_)
       object_->components.push_back(reference(attributes));
     else if (name == "item" && root_)
@@ -95,7 +103,29 @@ class ModelPart {
 
   void end(std::string_view name) {
     if (local(name) == "metadata") setting_.clear();
-    if (local(name) == "object" && name.starts_with(core_)) object_ = nullptr;
+    if (local(name) == "basematerials" || local(name) == "colorgroup") groups_.end();
+    if (local(name) == "object" && name.starts_with(core_) && object_) settle_colours(*object_), object_ = nullptr;
+  }
+
+  void begin_group(const XmlAttributes& attributes) {
+    if (const auto number = property(attributes, "id")) groups_.begin(*number);
+  }
+  /// The number of a group or of a property; nothing where there is none: a model is not refused for its colours.
+  static std::optional<std::uint32_t> property(const XmlAttributes& attributes, std::string_view name) {
+    return as_number<std::uint32_t>(Words(attributes.find(name).value_or("")).next());
+  }
+
+  /// Of textures and mixtures nothing is printed: that is told once.
+  void material(std::string_view name, const XmlAttributes& attributes) {
+    if (name == "colorgroup") return begin_group(attributes);
+    if (name == "color") return groups_.add(colour_of(attributes.find("color").value_or("")));
+    const bool other = name == "texture2dgroup" || name == "compositematerials" || name == "multiproperties";
+    if (!other || told_textures_) return;
+    told_textures_ = true;
+    document_.notices.push_back(
+        {"mesh_texture_left_out",
+         fmt::format("{}: {} are left out: surfaces have the colours of plain groups only", where(),
+                     name == "texture2dgroup" ? "textures" : "mixtures of materials")});
   }
 
   void model(const XmlAttributes& attributes) {
@@ -124,6 +154,9 @@ class ModelPart {
     object_id_ = key.second;
     object_->name = attributes.find("name").value_or("");
     object_->type = attributes.find("type").value_or("model");
+    group_ = property(attributes, "pid");
+    const auto index = property(attributes, "pindex");
+    if (group_ && index) object_->colour = groups_.find(*group_, *index);
   }
 
   void triangle(const XmlAttributes& attributes) {
@@ -137,20 +170,36 @@ class ModelPart {
                "export the model again");
     }
     paint(attributes, corners);
+    colour(attributes);
     object_->triangles.push_back(corners);
   }
 
+  /// Where the corners differ it is a gradient: its first corner's colour is that of all, as the specification asks of
+  /// programs that print none.
+  void colour(const XmlAttributes& attributes) {
+    const auto own = property(attributes, "pid"), group = own ? own : group_, index = property(attributes, "p1");
+    if (!group || !index) return;
+    if (const auto found = groups_.find(*group, *index))
+      object_->coloured.push_back({static_cast<std::uint32_t>(object_->triangles.size()), *found});
+  }
+
   void paint(const XmlAttributes& attributes, const Triangle& corners) {
-    for (const std::string_view name : {std::string_view(painted_by_prusaslicer), std::string_view("paint_supports")}) {
+    paint(attributes, corners, {painted_by_prusaslicer, "paint_supports"}, painted_facets, object_->painted);
+    paint(attributes, corners, {tinted_by_prusaslicer, "paint_color"}, tinted_facets, object_->tinted);
+  }
+  template <class Read, class Facets>
+  void paint(const XmlAttributes& attributes, const Triangle& corners, std::array<std::string_view, 2> names,
+             const Read& read, Facets& to) {
+    for (const auto name : names) {
       const auto text = attributes.find(name);
       if (!text || text->empty()) continue;
       const auto& v = object_->vertices;
-      const auto facets = painted_facets(*text, {v[corners[0]], v[corners[1]], v[corners[2]]});
+      const auto facets = read(*text, {v[corners[0]], v[corners[1]], v[corners[2]]});
       if (!facets)
         refuse(fmt::format("object {}, triangle {}: {} {} ends inside a split triangle, or is not hexadecimal",
                            object_id_, object_->triangles.size() + 1, local(name), escape::message(*text)),
                "export the model again");
-      object_->painted.insert(object_->painted.end(), facets->begin(), facets->end());
+      to.insert(to.end(), facets->begin(), facets->end());
       return;
     }
   }
@@ -221,6 +270,9 @@ class ModelPart {
   const std::string production_path_ = std::string(production) + "|path";
   std::string core_;  ///< "namespace|" of the root element
   std::map<std::string, std::string> prefixes_;
+  PropertyGroups groups_;
+  std::optional<std::uint32_t> group_{};  ///< of the object
+  bool told_textures_ = false;
   Resource* object_ = nullptr;  ///< that we are in
   std::uint32_t object_id_ = 0;
   std::string setting_;  ///< that we are in
@@ -264,6 +316,7 @@ ThreeMf parse_3mf(Archive& archive, const std::string& path) {
   if (std::any_of(document.objects.begin(), document.objects.end(),
                   [](const auto& object) { return !object.second.settings.empty(); }))
     document.parts.author = Author::cura;
+  tell_colours(document);
   return document;
 }
 

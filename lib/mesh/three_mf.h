@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "core/notice.h"
+#include "core/rgb.h"
 #include "mesh/archive.h"
 #include "mesh/mesh.h"
 #include "mesh/three_mf_paint.h"
@@ -8,6 +9,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,12 +29,21 @@ struct Reference {
   std::string where;  ///< part and line, for messages
 };
 
+/// A triangle that has a colour of its own.
+struct ColouredTriangle {
+  std::uint32_t triangle = 0;
+  Rgb colour;
+};
+
 struct Resource {
   std::string name, type;
   std::vector<Eigen::Vector3d> vertices;  ///< in the file's unit
   std::vector<Triangle> triangles;        ///< indices are checked
   std::vector<Reference> components;
-  std::vector<PaintedFacet> painted;     ///< for support, in the file's unit
+  std::vector<PaintedFacet> painted;  ///< for support, in the file's unit
+  std::vector<TintedFacet> tinted;    ///< for extruders, likewise
+  std::optional<Rgb> colour{};        ///< of all triangles that have none of their own
+  std::vector<ColouredTriangle> coloured{};
   std::vector<ForeignSetting> settings;  ///< Cura's: metadata whose name begins with `cura:`
 };
 

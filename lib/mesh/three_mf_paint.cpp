@@ -5,23 +5,23 @@ namespace weft::mesh {
 namespace {
 
 using Corners = std::array<Eigen::Vector3d, 3>;
+constexpr int most_states = 1000;
 constexpr int deepest = 64;  // halved so often, a triangle is smaller than an atom
 
 class PaintReader {
  public:
   explicit PaintReader(std::string_view text) : text_(text) {}
 
-  bool read(const Corners& at, int depth, std::vector<PaintedFacet>& out) {
+  bool read(const Corners& at, int depth, std::vector<TintedFacet>& out) {
     const int digit = next();
     if (digit < 0 || depth > deepest) return false;
     const int sides = digit & 3, high = digit >> 2;
     if (sides == 0) {
       int state = high;
-      if (high == 3) {  // states from 3 on follow in a digit of their own: none of them is of support
-        if (next() < 0) return false;
-        state = 0;
-      }
-      if (state == 1 || state == 2) out.push_back({static_cast<Paint>(state), at});
+      if (high == 3)  // states from 3 on follow: 15 for each F, and one more digit
+        for (int more = 15; more == 15; state += more)
+          if (more = next(); more < 0 || state > most_states) return false;
+      if (state > 0) out.push_back({state, at});
       return true;
     }
     const auto v = static_cast<std::size_t>(high % 3);
@@ -56,10 +56,19 @@ class PaintReader {
 
 }  // namespace
 
-std::optional<std::vector<PaintedFacet>> painted_facets(std::string_view text, const Corners& corners) {
-  std::vector<PaintedFacet> out;
+std::optional<std::vector<TintedFacet>> tinted_facets(std::string_view text, const Corners& corners) {
+  std::vector<TintedFacet> out;
   PaintReader reader(text);
   if (!reader.read(corners, 0, out) || !reader.done()) return std::nullopt;
+  return out;
+}
+
+std::optional<std::vector<PaintedFacet>> painted_facets(std::string_view text, const Corners& corners) {
+  const auto all = tinted_facets(text, corners);
+  if (!all) return std::nullopt;
+  std::vector<PaintedFacet> out;
+  for (const auto& facet : *all)
+    if (facet.state == 1 || facet.state == 2) out.push_back({static_cast<Paint>(facet.state), facet.corners});
   return out;
 }
 

@@ -11,8 +11,16 @@ namespace {
 constexpr double close_enough_s = 0.01;
 }
 
-Slowdown slowdown_for(const Rules& rules, const std::vector<Move>& moves, double seconds_now) {
-  const double wanted_s = rules.cooling.cool_min_layer_time;
+std::size_t times_laid(const LayerPlan& layer) {
+  return 1 + static_cast<std::size_t>(std::count_if(layer.steps.begin(), layer.steps.end(), [](const Step& step) {
+           const auto* bead = std::get_if<Extrude>(&step);
+           return bead != nullptr && !bead->follows_surface && !bead->below.empty() &&
+                  std::all_of(bead->below.begin(), bead->below.end(), [](Um below) { return below == 0; });
+         }));
+}
+
+Slowdown slowdown_for(const Rules& rules, const std::vector<Move>& moves, double seconds_now, std::size_t times) {
+  const double wanted_s = rules.cooling.cool_min_layer_time * static_cast<double>(times);
   if (seconds_now >= wanted_s || std::none_of(moves.begin(), moves.end(), [](const Move& m) { return m.prints; }))
     return {};
   std::vector<double> seconds;

@@ -4,9 +4,13 @@
 
 namespace weft::motion {
 
-/// How much printing must be slowed down so that the moves take cool_min_layer_time, to 0.01 s; as far as
+/// How many layers a layer is to the plastic that has to set: two where a vase's last turn lies on the one before it
+/// (travel/spiral.h), else one.
+std::size_t times_laid(const LayerPlan& layer);
+
+/// How much printing must be slowed down so that the moves take so many times cool_min_layer_time, to 0.01 s; as far as
 /// cool_min_speed lets it. No slow-down when they do already.
-Slowdown slowdown_for(const Rules& rules, const std::vector<Move>& moves, double seconds_now);
+Slowdown slowdown_for(const Rules& rules, const std::vector<Move>& moves, double seconds_now, std::size_t times = 1);
 
 /// Applies it to the beads of a layer.
 void slow_down(LayerPlan& layer, const Slowdown& slowdown);

@@ -261,7 +261,7 @@ Timed timed(const AllRules& all, const LayerPlan& layer, std::optional<Point3> s
 Timed cooled(const AllRules& all, LayerPlan& layer, std::optional<Point3> start) {
   const Rules& rules = of_scope(all, layer.scope);
   Timed out = timed(all, layer, start);
-  const auto slowdown = slowdown_for(rules, out.moves, out.sum());
+  const auto slowdown = slowdown_for(rules, out.moves, out.sum(), times_laid(layer));
   if (slowdown.slows()) {
     slow_down(layer, slowdown);
     seconds_of(rules.machine, out.moves, slowdown, out.seconds);
@@ -280,7 +280,7 @@ void tell_between(const AllRules& all, const Timed& time, LayerPlan& layer, std:
     tell_pressure_advance(all, layer, time.moves, time.seconds, steps);
     layer.steps = std::move(steps.steps), step_s = std::move(steps.seconds);
   }
-  set_fan(rules.cooling, layer, time.sum());
+  set_fan(rules.cooling, layer, time.sum() / static_cast<double>(times_laid(layer)));
   if (!step_s.empty()) add_fans(layer, step_s);
   if (lead_s > 0) {
     TimedSteps steps{std::move(layer.steps), std::move(step_s)};

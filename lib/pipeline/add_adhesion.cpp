@@ -44,6 +44,8 @@ Around around_of(const Scopes& scopes, const std::vector<ScopeId>& feet) {
   return out;
 }
 
+constexpr Um thickest = 2000;  // of any layer
+
 /// What has equal brims is one.
 class Feet {
  public:
@@ -69,13 +71,18 @@ void add_to_rise(const Settings& settings, const Around& around, std::span<trave
   Feet feet;
   if (!around.of_copy.empty() && !tower.empty()) feet.add(tower, around.plate);
   for (auto& layer : rise) {
-    if (layer.time.number >= needed) break;
-    if (layer.time.number == plate.size()) plate.push_back({{}, layer.height}), bottoms.push_back(&layer);
-    auto& outlines = plate.back().outlines;
-    if (outlines.empty()) outlines = tower;
+    const bool goes_around = layer.time.number < needed;
+    if (!goes_around && layer.z > thickest) break;
+    if (goes_around && layer.time.number == plate.size())
+      plate.push_back({{}, layer.height}), bottoms.push_back(&layer);
+    if (goes_around && plate.back().outlines.empty()) plate.back().outlines = tower;
     for (const auto& object : layer.objects) {
-      outlines.insert(outlines.end(), object.outline.begin(), object.outline.end());
-      if (!around.of_copy.empty() && layer.time.number == 0)
+      const auto add = [&](Regions& to) { to.insert(to.end(), object.outline.begin(), object.outline.end()); };
+      if (goes_around) add(plate.back().outlines);
+      // Of an object whose first layer is thicker than others' the top is higher up.
+      const bool lies = layer.z <= (object.height != 0 ? object.height : layer.height);
+      if (lies && layer.time.number > 0) add(plate.front().outlines);
+      if (!around.of_copy.empty() && (lies || layer.time.number == 0))
         feet.add(object.outline, object.object < around.of_copy.size() ? around.of_copy[object.object] : around.plate);
     }
   }

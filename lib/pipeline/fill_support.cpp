@@ -46,9 +46,9 @@ class Filler {
       : s_(settings.support),
         layer_(layer),
         origin_(origin),
-        band_(flow::band(
-            length_or(s_.support_line_width, settings.machine.nozzle_diameter, settings.machine.nozzle_diameter),
-            layer.height)) {}
+        line_(length_or(s_.support_line_width, settings.machine.nozzle_diameter, settings.machine.nozzle_diameter)),
+        band_(flow::band(line_, layer.height)),
+        usual_band_(std::max<Um>(flow::band(line_, settings.layers.layer_height), 1)) {}
 
   Beads beads() && {
     columns();
@@ -81,10 +81,13 @@ class Filler {
              s_.support_infill_angle, Role::support);
       return;
     }
-    const Um half = support::hollow_column(band_, share);
+    const Um half = support::hollow_column(usual_band_, share);
+    // Where narrow columns meet, two or three short lines would stand alone.
+    const double alone_mm = 2.5 * to_mm(half), least_mm2 = alone_mm * alone_mm;
     for (const Region& column : geometry::simplified(layer_.columns, support::outline_bound)) {
       const Box box = box_of(column.outer);
-      const Regions wide = std::min(box.size().x, box.size().y) > 2 * half ? wider({column}, half) : Regions{};
+      Regions wide = std::min(box.size().x, box.size().y) > 2 * half ? wider({column}, half) : Regions{};
+      std::erase_if(wide, [&](const Region& piece) { return area_mm2(piece) < least_mm2; });
       if (wide.empty()) {
         loops({column}, 1, Role::support, true);
         continue;
@@ -195,7 +198,7 @@ class Filler {
     if (share >= dense) return solid(areas, angle, role, row.connect);
     const std::size_t from = beads_.size();
     const infill::SparseStyle style{.pattern = row.as,
-                                    .density = share,
+                                    .density = share * band_ / usual_band_,
                                     .band = band_,
                                     .angle_rad = radians(angle),
                                     .overlap_um = 0,
@@ -234,7 +237,8 @@ class Filler {
   const SupportSettings& s_;
   const support::SupportLayer& layer_;
   Point origin_;
-  Um band_;
+  Um line_, band_;
+  Um usual_band_;  ///< at layer_height: what shares are of, so that lines of layers of any height lie on each other
   Beads beads_;
 };
 

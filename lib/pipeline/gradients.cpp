@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/gradients.h"
 
+#include "pipeline/stripes.h"
 #include "settings/tools.h"
 
 #include <algorithm>
@@ -15,16 +16,11 @@ constexpr int shares = 20;
 /// A change of filament is not worth less.
 constexpr double least_bead_mm = 5;
 
-double place_of(const Bead& bead, GradientAxis axis, Um z) {
-  const Point middle = box_of(bead).centre();
-  return to_mm(axis == GradientAxis::x ? middle.x : axis == GradientAxis::y ? middle.y : z);
+double place_of(Point at, GradientAxis axis, Um z) {
+  return to_mm(axis == GradientAxis::x ? at.x : axis == GradientAxis::y ? at.y : z);
 }
-
-Junction between(const Junction& a, const Junction& b, double share) {
-  const auto mix = [&](double x, double y) { return x + (y - x) * share; };
-  return {{rounded(mix(a.at.x, b.at.x)), rounded(mix(a.at.y, b.at.y))},
-          rounded(mix(a.width, b.width)),
-          static_cast<float>(mix(static_cast<double>(a.flow), static_cast<double>(b.flow)))};
+double place_of(const Bead& bead, GradientAxis axis, Um z) {
+  return place_of(box_of(bead).centre(), axis, z);
 }
 
 /// Pieces of equal length, none of them shorter than 5 mm. What is shorter than two of those stays whole.
@@ -66,17 +62,20 @@ struct Debt {
 
 class Gradients {
  public:
-  Gradients(ToolScopes& tools, Scopes& scopes) : tools_(tools), scopes_(scopes) {}
+  /// @param room what beads lie in, over all layers
+  Gradients(ToolScopes& tools, Scopes& scopes, const Box3& room) : tools_(tools), scopes_(scopes), room_(room) {}
 
   void apply(Um z, Um height, travel::ObjectLayer& object) {
-    cut(object);
+    cut(z, object);
     std::map<ScopeId, bool> of_layer;  // what whole layers have chosen
     for (auto& bead : object.beads) {
       const auto& t = scopes_[bead.scope].tools;
       if (bead.tool == any_tool || !has_gradient(t)) continue;
       const double share = share_at(t.gradient_stops, place_of(bead, t.gradient_axis, z));
       bool second = false;
-      if (t.gradient_mode == GradientMode::layers) {
+      if (t.gradient_mode == GradientMode::stripes) {
+        second = stripes_of(bead.scope).second(place_of(bead, t.gradient_axis, z));
+      } else if (t.gradient_mode == GradientMode::layers) {
         const auto known = of_layer.find(bead.scope);
         second = known != of_layer.end()
                      ? known->second
@@ -97,19 +96,34 @@ class Gradients {
 
  private:
   /// Across the layer a share changes along beads.
-  void cut(travel::ObjectLayer& object) {
+  void cut(Um z, travel::ObjectLayer& object) {
     Beads out;
     for (auto& bead : object.beads) {
       const auto& t = scopes_[bead.scope].tools;
       const bool along =
-          has_gradient(t) && t.gradient_mode == GradientMode::lines && t.gradient_axis != GradientAxis::z;
+          has_gradient(t) && t.gradient_mode != GradientMode::layers && t.gradient_axis != GradientAxis::z;
       if (!along || bead.tool == any_tool) {
         out.push_back(std::move(bead));
         continue;
       }
-      for (auto& piece : pieces_of(std::move(bead))) out.push_back(std::move(piece));
+      const auto place = [&](Point at) { return place_of(at, t.gradient_axis, z); };
+      auto pieces = t.gradient_mode == GradientMode::stripes ? stripes_of(bead.scope).cut(std::move(bead), place)
+                                                             : pieces_of(std::move(bead));
+      for (auto& piece : pieces) out.push_back(std::move(piece));
     }
     object.beads = std::move(out);
+  }
+
+  const Stripes& stripes_of(ScopeId scope) {
+    const auto known = stripes_.find(scope);
+    if (known != stripes_.end()) return known->second;
+    const auto& t = scopes_[scope].tools;
+    const auto end = [&](Point3 p) { return place_of(flat(p), t.gradient_axis, p.z); };
+    const double least = t.gradient_axis == GradientAxis::z ? 0 : to_mm(scopes_[scope].machine.nozzle_diameter);
+    return stripes_
+        .emplace(scope,
+                 Stripes(t.gradient_stops, to_mm(t.gradient_stripe_period), least, end(room_.min), end(room_.max)))
+        .first->second;
   }
 
   bool choose_layer(const travel::ObjectLayer& object, ScopeId scope, Um z, Um height) {
@@ -129,6 +143,8 @@ class Gradients {
 
   ToolScopes& tools_;
   Scopes& scopes_;
+  Box3 room_;
+  std::map<ScopeId, Stripes> stripes_;
   std::map<std::tuple<ObjectId, int, ScopeId>, Debt> debts_;
 };
 
@@ -138,7 +154,12 @@ void apply_gradients(ToolScopes& tools, Scopes& scopes, std::span<travel::LayerI
   bool any = false;
   for (std::size_t i = 0; i < scopes.size(); ++i) any = any || has_gradient(scopes[static_cast<ScopeId>(i)].tools);
   if (!any) return;
-  Gradients gradients(tools, scopes);
+  Box3 room;
+  for (const auto& layer : layers)
+    for (const auto& object : layer.objects)
+      for (const auto& region : object.outline)
+        for (const Point p : region.outer) room.add(Point3{p.x, p.y, layer.z});
+  Gradients gradients(tools, scopes, room);
   for (auto& layer : layers)
     for (auto& object : layer.objects)
       if (!object.support) gradients.apply(layer.z, object.height != 0 ? object.height : layer.height, object);

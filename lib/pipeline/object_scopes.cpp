@@ -94,6 +94,10 @@ struct Piece {
   std::vector<InnerPiece> inner{};
 };
 
+bool modifies(VolumeKind kind) {
+  return kind == VolumeKind::modifier || kind == VolumeKind::tint;
+}
+
 /// Does a modifier speak of sparse infill, and of nothing else?
 bool of_infill(const Volume& volume) {
   return volume.kind == VolumeKind::modifier && volume.said.empty() && !volume.overlay.empty() &&
@@ -107,7 +111,7 @@ class Union {
   Union(const Object& object, const ObjectScopes& scopes, const Scopes& all_scopes)
       : object_(object), scopes_(scopes), all_scopes_(all_scopes), mixes_(mixes_of(object)) {
     modified_ = std::any_of(object.volumes.begin(), object.volumes.end(),
-                            [](const Volume& volume) { return volume.kind == VolumeKind::modifier; });
+                            [](const Volume& volume) { return modifies(volume.kind); });
   }
 
   /// @param cuts of one layer, beside the volumes; null above a volume
@@ -124,7 +128,7 @@ class Union {
         for (auto& piece : out) piece.regions = geometry::subtract(piece.regions, cuts[v]->layer.regions);
     }
     for (std::size_t v = 0; v < cuts.size(); ++v)
-      if (object_.volumes[v].kind == VolumeKind::modifier && cuts[v] && !of_infill(object_.volumes[v]))
+      if (modifies(object_.volumes[v].kind) && cuts[v] && !of_infill(object_.volumes[v]))
         modify(v, cuts[v]->layer.regions, scopes, out);
     for (std::size_t v = 0; v < cuts.size(); ++v)
       if (cuts[v] && of_infill(object_.volumes[v])) modify_infill(v, cuts[v]->layer.regions, scopes, out);
@@ -179,9 +183,9 @@ class Union {
     if (!index) return;
     // Where it changes nothing it divides nothing, unless what is said of it by name may hold over another's.
     if (scopes[*index] == pieces[i].scope && object_.volumes[modifier].said.empty()) return;
-    Regions inside = geometry::intersect(pieces[i].regions, by);
+    auto [inside, outside] = geometry::cut(pieces[i].regions, by);
     if (inside.empty()) return;
-    pieces[i].regions = geometry::subtract(pieces[i].regions, by);
+    pieces[i].regions = std::move(outside);
     pieces.push_back({*index, scopes[*index], std::move(inside)});
   }
   /// Walls and skins of a piece run through; but what is solid throughout has nothing sparse that could be other.

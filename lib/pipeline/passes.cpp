@@ -5,11 +5,12 @@
 #include "core/error.h"
 #include "pipeline/add_raft.h"
 #include "pipeline/at_heights.h"
+#include "pipeline/change_tool.h"
 #include "pipeline/gradients.h"
+#include "pipeline/lagging_tower.h"
 #include "pipeline/ooze_shield.h"
 #include "pipeline/purge_into.h"
 #include "pipeline/room_around.h"
-#include "pipeline/swap_filament.h"
 #include "settings/first_layer.h"
 #include "settings/tools.h"
 #include "tools/compatible.h"
@@ -17,7 +18,9 @@
 #include "tools/purge.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
+#include <numbers>
 #include <set>
 #include <utility>
 
@@ -76,6 +79,13 @@ tools::ToolSets sets_of(const Settings& plate, ToolScopes& tools, Scopes& scopes
   return out;
 }
 
+/// All tools of the print have something to lay in its first layer.
+void prime_all(tools::ToolSets& sets) {
+  std::set<ToolId> used;
+  for (const auto& set : sets) used.insert(set.begin(), set.end());
+  sets.front().assign(used.begin(), used.end());
+}
+
 /// What a change costs: filament that is purged, and time as the filament that is printed meanwhile.
 tools::Costs costs_of(const std::vector<Settings>& tools) {
   auto out = tools::purge_volumes(tools);
@@ -106,12 +116,6 @@ Passes in_order(const tools::ToolSets& ordered) {
   }
   out.begin.push_back(out.passes.size());
   return out;
-}
-
-/// Is filament drawn out of the nozzle, and other pushed in, by what the file says?
-bool swaps_filament(const std::vector<Settings>& tools, const ToolPass& pass) {
-  return pass.changes && pass.from && nozzle_of(tools, *pass.from) == nozzle_of(tools, pass.tool) &&
-         tools[*pass.from].tools.parking_pos_retraction > 0;
 }
 
 /// What each change is to purge.
@@ -156,14 +160,6 @@ void choose_wall(const WallTool& wall, const Passes& passes, tools::TowerLayer& 
     if (passes.passes[p].tool == wall.tool) section.wall_pass = p;
 }
 
-/// What the tip of the filament before is shaped with.
-double rammed_mm3(const std::vector<Settings>& tools, const ToolPass& pass) {
-  if (!swaps_filament(tools, pass)) return 0;
-  double sum = 0;
-  for (const double mm3_s : ramming_flows(tools[*pass.from].tools.filament_ramming_parameters)) sum += mm3_s / 4;
-  return sum;
-}
-
 void add_strips(const std::vector<Settings>& tools, const ToolPass& pass, std::size_t p, tools::TowerLayer& section) {
   if (const double mm3 = rammed_mm3(tools, pass); mm3 > 0) section.strips.push_back({p, mm3, true});
   if (pass.purge_mm3 > 0) section.strips.push_back({p, pass.purge_mm3, false});
@@ -178,13 +174,15 @@ void plan_tower(const std::vector<Settings>& tools, std::span<const travel::Laye
   for (const auto& pass : passes.passes)
     if (pass.purge_mm3 > 0 || rammed_mm3(tools, pass) > 0) last = pass.layer + 1;
   const auto wall = wall_tool(tools, passes);
-  Um below = 0;
+  const bool keeps_up = tools.front().tools.prime_tower_sparse;
+  Um below = 0;  // the tower's top, or that of the layer that it has kept up with
   for (std::size_t i = 0; i < last; ++i) {
     tools::TowerLayer section{layers[i].z, layers[i].z - below, {}};
+    if (!keeps_up) section.height = layers[i].height, section.z = below + layers[i].height;
     for (std::size_t p = passes.begin[i]; p < passes.begin[i + 1]; ++p) add_strips(tools, passes.passes[p], p, section);
-    const bool too_high = i + 1 < last && layers[i + 1].z - below > highest;
+    const bool too_high = keeps_up && i + 1 < last && layers[i + 1].z - below > highest;
     if (section.strips.empty() && !too_high && i != 0) continue;
-    below = layers[i].z;
+    below = section.z;
     choose_wall(wall, passes, section, i);
     passes.tower.push_back(std::move(section));
     passes.section_of.push_back(i);
@@ -192,26 +190,19 @@ void plan_tower(const std::vector<Settings>& tools, std::span<const travel::Laye
   passes.size = tools::tower_size(tools.front().tools, passes.tower, nozzle);
 }
 
-/// The boxes of what is printed, over all layers, with what lies around it on the bed.
-std::vector<Box> standing_on(const Settings& plate, std::span<const travel::LayerInput> layers) {
-  std::vector<std::pair<std::pair<ObjectId, std::uint32_t>, Box>> by_object;
-  for (const auto& layer : layers)
-    for (const auto& object : layer.objects) {
-      const auto key = std::pair(object.object, object.stack);
-      auto at = std::find_if(by_object.begin(), by_object.end(), [&](const auto& b) { return b.first == key; });
-      if (at == by_object.end()) at = by_object.insert(at, {key, Box{}});
-      for (const auto& region : object.outline) at->second.add(box_of(region.outer));
-    }
-  const bool brim = plate.adhesion.adhesion_type == AdhesionType::brim;
-  std::vector<Box> out;
-  for (const auto& [key, box] : by_object)
-    if (!box.empty()) out.push_back(box.grown(brim ? plate.adhesion.brim_width : 0));
-  for (const auto& layer : layers) {  // a raft
-    Box raft;
-    for (const auto& bead : layer.adhesion) raft.add(box_of(bead));
-    if (!raft.empty()) out.push_back(raft);
-  }
-  return out;
+/// Over which side of the bed a tower reaches, by how much, and where it would stand along it.
+struct Overrun {
+  std::string_view key, side, bound;
+  Um by, within;
+};
+Overrun overrun_of(const Box& tower, const Box& bed, Point corner) {
+  const Um right = tower.max.x - bed.max.x, left = bed.min.x - tower.min.x;
+  const Um behind = tower.max.y - bed.max.y, before = bed.min.y - tower.min.y;
+  const std::array sides{Overrun{"prime_tower_position_x", "+x", "most", right, corner.x - right},
+                         Overrun{"prime_tower_position_x", "-x", "least", left, corner.x + left},
+                         Overrun{"prime_tower_position_y", "+y", "most", behind, corner.y - behind},
+                         Overrun{"prime_tower_position_y", "-y", "least", before, corner.y + before}};
+  return *std::max_element(sides.begin(), sides.end(), [](const auto& a, const auto& b) { return a.by < b.by; });
 }
 
 /// @throws Error{audit} where a tower of that size, standing where it is told to, leaves the print surface
@@ -220,19 +211,18 @@ void refuse_outside(const Settings& plate, const tools::TowerSize& size, Point c
   const auto outline = tools::tower_outline(plate.tools, size, corner);
   const auto outside = tools::outside_of(outline, surface);
   if (outside.by <= plate.audit.audit_tolerance) return;
-  const Box bed = box_of(surface);
-  const auto side = outside.at.x > bed.max.x   ? "+x"
-                    : outside.at.x < bed.min.x ? "-x"
-                    : outside.at.y > bed.max.y ? "+y"
-                    : outside.at.y < bed.min.y ? "-y"
-                                               : "the edge";
-  throw Error{Error::Kind::audit,
-              fmt::format("prime_tower_position_x: the tower with its brim, {:.1f} × {:.1f} mm at ({:g}, {:g}), leaves "
-                          "the print surface by {:.1f} mm at {}",
-                          to_mm(box_of(outline).size().x), to_mm(box_of(outline).size().y), to_mm(corner.x),
-                          to_mm(corner.y), to_mm(outside.by), side),
-              {},
-              "auto puts it where there is room"};
+  const Box tower = box_of(outline), bed = box_of(surface);
+  const auto over = overrun_of(tower, bed, corner);
+  const bool fits = tower.size().x <= bed.size().x && tower.size().y <= bed.size().y;
+  throw Error{
+      Error::Kind::audit,
+      fmt::format("{}: the tower with its brim, {:.1f} × {:.1f} mm at ({:g}, {:g}), leaves the print surface by "
+                  "{:.1f} mm at {}",
+                  over.key, to_mm(tower.size().x), to_mm(tower.size().y), to_mm(corner.x), to_mm(corner.y),
+                  to_mm(outside.by), over.by > 0 ? over.side : "the edge"),
+      {},
+      over.by > 0 && fits ? fmt::format("auto, or at {} {:g}", over.bound, to_mm(over.within))
+                          : std::string("auto puts it where there is room")};
 }
 
 std::optional<Point> told_corner(const ToolSettings& t) {
@@ -265,6 +255,21 @@ void place_tower(const Settings& plate, std::span<const travel::LayerInput> laye
 
 namespace {
 
+/// Filaments that follow each other in a nozzle mix where nothing is purged between them.
+void tell_unpurged(const std::vector<Settings>& tools, const Passes& passes, Notices& notices) {
+  std::size_t changes = 0;
+  const ToolPass* first = nullptr;
+  for (const auto& pass : passes.passes)
+    if (pass.changes && pass.from && nozzle_of(tools, *pass.from) == nozzle_of(tools, pass.tool))
+      if (changes++ == 0) first = &pass;
+  if (first == nullptr) return;
+  notices.push_back({"nothing_purged",
+                     fmt::format("prime_tower_enable: it is off, {} and {} share a nozzle, and what is left of one is "
+                                 "printed as the other: {} change{}",
+                                 tools::name_of(tools, *first->from), tools::name_of(tools, first->tool), changes,
+                                 changes == 1 ? "" : "s")});
+}
+
 /// The tools that print something, and how high.
 std::vector<tools::ToolInUse> in_use(const tools::ToolSets& sets, std::span<travel::LayerInput> layers) {
   std::vector<tools::ToolInUse> out;
@@ -286,6 +291,27 @@ std::vector<tools::ToolInUse> in_use(const tools::ToolSets& sets, std::span<trav
 
 }  // namespace
 
+std::vector<Box> standing_on(const Settings& plate, std::span<const travel::LayerInput> layers) {
+  std::vector<std::pair<std::pair<ObjectId, std::uint32_t>, Box>> by_object;
+  for (const auto& layer : layers)
+    for (const auto& object : layer.objects) {
+      const auto key = std::pair(object.object, object.stack);
+      auto at = std::find_if(by_object.begin(), by_object.end(), [&](const auto& b) { return b.first == key; });
+      if (at == by_object.end()) at = by_object.insert(at, {key, Box{}});
+      for (const auto& region : object.outline) at->second.add(box_of(region.outer));
+    }
+  const bool brim = plate.adhesion.adhesion_type == AdhesionType::brim;
+  std::vector<Box> out;
+  for (const auto& [key, box] : by_object)
+    if (!box.empty()) out.push_back(box.grown(brim ? plate.adhesion.brim_width : 0));
+  for (const auto& layer : layers) {  // a raft
+    Box raft;
+    for (const auto& bead : layer.adhesion) raft.add(box_of(bead));
+    if (!raft.empty()) out.push_back(raft);
+  }
+  return out;
+}
+
 void refuse_tower_outside(const Settings& plate, const ToolScopes& tools) {
   const auto told = told_corner(plate.tools);
   if (!told || !wants_tower(plate, tools) || tools.used() < 2) return;
@@ -305,13 +331,18 @@ Passes passes_of(const Settings& plate, ToolScopes& tools, Scopes& scopes, std::
     return out;
   }
   apply_gradients(tools, scopes, layers);
-  const auto sets = sets_of(plate, tools, scopes, layers);
+  auto sets = sets_of(plate, tools, scopes, layers);
+  if (plate.tools.prime_line && !sets.empty()) prime_all(sets);
   told(in_use(sets, layers));
   out = in_order(tools::ordered(sets, costs_of(tools.tools()), plate.tools.tool_order));
   out.shield = ooze_shield(plate, layers, out);
   const bool changes =
       std::any_of(out.passes.begin(), out.passes.end(), [](const ToolPass& p) { return p.changes && p.from; });
-  if (!changes || !wants_tower(plate, tools)) return out;
+  if (!changes) return out;
+  if (!wants_tower(plate, tools)) {
+    tell_unpurged(tools.tools(), out, notices);
+    return out;
+  }
   want_purging(tools.tools(), out);
   purge_into(tools, scopes, layers, out);
   if (std::any_of(layers.begin(), layers.end(), [](const auto& layer) { return layer.time.comes_down; })) {
@@ -320,7 +351,17 @@ Passes passes_of(const Settings& plate, ToolScopes& tools, Scopes& scopes, std::
     return out;
   }
   plan_tower(tools.tools(), layers, out);
-  if (out.has_tower()) place_tower(plate, layers, out);
+  if (out.has_tower()) {
+    place_tower(plate, layers, out);
+    check_lag(plate, out, layers);
+  }
+  return out;
+}
+
+Regions beside_objects(const Settings& plate, const Passes& passes) {
+  // A brim goes within the shield.
+  Regions out = plate.adhesion.adhesion_type == AdhesionType::brim ? Regions{} : passes.shield;
+  if (passes.has_tower()) out.insert(out.begin(), {tools::tower_outline(plate.tools, passes.size, passes.corner), {}});
   return out;
 }
 
@@ -332,6 +373,38 @@ void give_adhesion(const Settings& plate, ToolScopes& tools, Scopes& scopes, std
       if (bead.tool == any_tool) give(bead, static_cast<ToolId>(*tool), tools, scopes);
 }
 
+namespace {
+
+std::array<Point, 2> first_piece(const Bead& bead) {
+  return {bead.path.front().at, bead.path[bead.path.size() > 1 ? 1 : 0].at};
+}
+
+/// What of a layer one pass prints, all but what is purged before it.
+travel::LayerInput beads_of_pass(const ToolPass& pass, bool first, ToolScopes& tools, Scopes& scopes,
+                                 const travel::LayerInput& layer) {
+  const ToolId tool = pass.tool;
+  travel::LayerInput out = layer;
+  if (!first) out.time.comes_down = false;
+  out.scope = tools.laid_over(layer.scope, tool, scopes);
+  const auto keep = [&](Beads& beads) {
+    std::erase_if(beads, [&](const Bead& bead) { return bead.tool == any_tool ? !first : bead.tool != tool; });
+    for (auto& bead : beads)
+      if (bead.tool == any_tool) give(bead, tool, tools, scopes);
+  };
+  keep(out.adhesion);
+  for (auto& object : out.objects) {
+    keep(object.beads);
+    object.stack = object.stack * static_cast<std::uint32_t>(tools.count()) + tool;
+  }
+  const auto& own = tools.tools()[tool];
+  const double d = to_mm(own.material.filament_diameter);
+  out.filament_area_mm2 = std::numbers::pi / 4 * d * d;
+  out.nozzle = own.machine.nozzle_diameter;
+  return out;
+}
+
+}  // namespace
+
 std::vector<travel::LayerInput> split(Passes& passes, const Settings& plate, ToolScopes& tools, Scopes& scopes,
                                       std::vector<travel::LayerInput> layers) {
   if (!tools.several()) return layers;
@@ -340,47 +413,35 @@ std::vector<travel::LayerInput> split(Passes& passes, const Settings& plate, Too
   for (std::size_t i = 0; i < layers.size(); ++i) {
     auto& layer = layers[i];
     std::vector<tools::TowerBeads> tower;
+    float higher = 1;  // than its layer a section may be
     if (section < passes.tower.size() && passes.section_of[section] == i) {
+      passes.lag[i] = layer.z - passes.tower[section].z;
+      higher = static_cast<float>(passes.tower[section].height) / static_cast<float>(layer.height);
       tower = tools::tower_beads(plate.tools, passes.size, passes.tower[section], section, passes.corner);
       ++section;
     }
     for (std::size_t p = passes.begin[i]; p < passes.begin[i + 1]; ++p) {
-      const ToolId tool = passes.passes[p].tool;
       const bool first = p == passes.begin[i];
-      travel::LayerInput input = layer;
-      if (!first) input.time.comes_down = false;
-      input.scope = tools.laid_over(layer.scope, tool, scopes);
-      const auto keep = [&](Beads& beads) {
-        std::erase_if(beads, [&](const Bead& bead) { return bead.tool == any_tool ? !first : bead.tool != tool; });
-        for (auto& bead : beads)
-          if (bead.tool == any_tool) give(bead, tool, tools, scopes);
-      };
-      keep(input.adhesion);
-      for (auto& object : input.objects) {
-        keep(object.beads);
-        object.stack = object.stack * static_cast<std::uint32_t>(tools.count()) + tool;
-      }
-      const auto& own = tools.tools()[tool];
-      const double d = to_mm(own.material.filament_diameter);
-      input.filament_area_mm2 = 3.14159265358979323846 / 4 * d * d;
-      input.nozzle = own.machine.nozzle_diameter;
+      auto input = beads_of_pass(passes.passes[p], first, tools, scopes, layer);
       const auto put = [&](Beads& beads) {
         input.adhesion.insert(first ? input.adhesion.end() : input.adhesion.begin(),
                               std::make_move_iterator(beads.begin()), std::make_move_iterator(beads.end()));
       };
-      if (const auto purged = passes.into.find(p); purged != passes.into.end()) put(purged->second);
+      if (const auto purged = passes.into.find(p); purged != passes.into.end()) {
+        passes.entry.emplace(p, first_piece(purged->second.front()));
+        put(purged->second);
+      }
       for (auto& [pass, beads, ram] : tower) {
-        if (pass != p) continue;
+        if (pass != p || beads.empty()) continue;
+        passes.entry.insert_or_assign(p, first_piece(beads.front()));
         if (ram) {
           passes.ram.emplace(p, std::move(beads.front()));
           continue;
         }
         for (auto& bead : beads) {
           bead.scope = layer.scope;
-          give(bead, tool, tools, scopes);
-          // A section may be higher than its layer.
-          for (auto& junction : bead.path)
-            junction.flow *= static_cast<float>(passes.tower[section - 1].height) / static_cast<float>(layer.height);
+          give(bead, passes.passes[p].tool, tools, scopes);
+          for (auto& junction : bead.path) junction.flow *= higher;
         }
         put(beads);
       }
@@ -389,40 +450,6 @@ std::vector<travel::LayerInput> split(Passes& passes, const Settings& plate, Too
     layer = {};
   }
   passes.into.clear();
-  return out;
-}
-
-std::vector<Step> change_before(const Passes& passes, std::size_t index, const ToolScopes& tools,
-                                const LayerPlan& layer) {
-  using Heater = SetTemperature::Heater;
-  const auto& pass = passes.passes[index];
-  const auto& all = tools.tools();
-  const bool first_layer = layer.time.first();
-  const auto celsius = [&](ToolId tool) {
-    const auto& m = first_layer ? on_first_layer(all[tool]).material : all[tool].material;
-    return m.material_print_temperature;
-  };
-  std::vector<Step> out;
-  if (!pass.changes) return out;
-  if (!pass.from) return {ToolChange{pass.tool}};  // the start G-code has heated
-  const bool swaps = swaps_filament(all, pass);
-  if (swaps) {
-    const auto ram = passes.ram.find(index);
-    out = unload(all[*pass.from], ram == passes.ram.end() ? std::nullopt : std::optional(ram->second), layer.z,
-                 layer.height);
-  } else {
-    out.emplace_back(Retract{.wipe = {}, .to_change = true});
-  }
-  const bool shared = nozzle_of(all, *pass.from) == nozzle_of(all, pass.tool);
-  out.emplace_back(ToolChange{pass.tool});
-  if (shared) {
-    if (celsius(*pass.from) != celsius(pass.tool))
-      out.emplace_back(SetTemperature{Heater::nozzle, any_tool, celsius(pass.tool), true});
-  } else {
-    out.emplace_back(SetTemperature{Heater::nozzle, pass.tool, celsius(pass.tool), true});
-  }
-  if (swaps)
-    for (auto& step : load(all[pass.tool])) out.push_back(std::move(step));
   return out;
 }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include "pipeline/report.h"
 #include "pipeline/tool_scopes.h"
 #include "tools/tower.h"
 #include "travel/travel.h"
 
+#include <array>
 #include <map>
 #include <optional>
 #include <span>
@@ -21,25 +23,27 @@ struct ToolPass {
   double purge_mm3 = 0;        ///< wanted at the change, less what goes into the print (purge_into.h)
 };
 
-/// What is purged in all: wanted, and of that into what.
-struct Purged {
-  double wanted_mm3 = 0, objects_mm3 = 0, support_mm3 = 0, infill_mm3 = 0;
-};
-
 /// All layers of a plate.
 struct Passes {
   std::vector<ToolPass> passes;          ///< in the order they are printed
   std::vector<std::size_t> begin;        ///< of each layer its first pass, and one more for the end
   std::vector<tools::TowerLayer> tower;  ///< sections of the tower, upwards; empty: there is none
   std::vector<std::size_t> section_of;   ///< layer of each section
+  std::map<std::size_t, Um> lag;         ///< by layer: how far below it its section lies
   tools::TowerSize size;
   Point corner;
   Regions shield;  ///< what the ooze shield encloses; empty: there is none
-  Purged purged;
+  Report::Purged purged;
   std::map<std::size_t, Beads> into;  ///< by pass: beads that are printed with what is purged before it
-  std::map<std::size_t, Bead> ram;    ///< by pass: what the tip of the filament before is shaped along
+  std::map<std::size_t, Bead> ram;    ///< by pass: what the tool before lays something on, at a pace of its own
+  std::map<std::size_t, std::array<Point, 2>>
+      entry;  ///< by pass: the first piece that is purged, over which tools change
 
   bool has_tower() const { return !tower.empty(); }
+  Um lag_of(std::size_t layer) const {
+    const auto at = lag.find(layer);
+    return at == lag.end() ? 0 : at->second;
+  }
 };
 
 /// What is known before anything is sliced: a tower that is told to stand where not even the smallest has room.
@@ -55,18 +59,18 @@ void refuse_tower_outside(const Settings& plate, const ToolScopes& tools);
 Passes passes_of(const Settings& plate, ToolScopes& tools, Scopes& scopes, std::span<travel::LayerInput> layers,
                  Notices& notices);
 
+/// The boxes of what is printed, over all layers, with what lies around it on the bed.
+std::vector<Box> standing_on(const Settings& plate, std::span<const travel::LayerInput> layers);
+
+/// The tower and the shield, which skirt and brim go round.
+Regions beside_objects(const Settings& plate, const Passes& passes);
+
 /// Skirt and brim, once they are made, are printed with adhesion_extruder_nr.
 void give_adhesion(const Settings& plate, ToolScopes& tools, Scopes& scopes, std::span<travel::LayerInput> layers);
 
 /// The layers as they are printed: one input a pass, what is purged before the others.
-/// Post: `passes.into` is empty, `passes.ram` is full.
+/// Post: `passes.into` is empty, `passes.ram`, `entry` and `lag` are full.
 std::vector<travel::LayerInput> split(Passes& passes, const Settings& plate, ToolScopes& tools, Scopes& scopes,
                                       std::vector<travel::LayerInput> layers);
-
-/// What is done before a pass: the tool is changed, and its nozzle waited for.
-/// @param index of the pass
-/// @param layer that it is of; its steps are not looked at
-std::vector<Step> change_before(const Passes& passes, std::size_t index, const ToolScopes& tools,
-                                const LayerPlan& layer);
 
 }  // namespace weft::pipeline

@@ -23,9 +23,9 @@
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
 #include "pipeline/support_object.h"
+#include "pipeline/thumbnails.h"
 #include "pipeline/toolpath_pictures.h"
 #include "pipeline/vase.h"
-#include "preview/thumbnail.h"
 #include "settings/catalogue.h"
 #include "settings/tools.h"
 #include "tasks/parallel.h"
@@ -352,9 +352,9 @@ void note_parts(const Job& job, Report& report) {
 std::optional<audit::Passed> print(const Job& job, Printing what, const Watch& watch, Report& report,
                                    StageCache* cache) {
   auto planned = plan(job, what, {watch, report, cache}, PlanFor::writing);
-  auto& [plan, packed, digests, statistics, layers, heat, cold_at_start, purge_wanted_mm3] = planned.plate;
+  auto& [plan, packed, digests, statistics, layers, heat, cold_at_start, purged] = planned.plate;
   note_statistics(job.settings, statistics, report);
-  report.purge_wanted_mm3 = purge_wanted_mm3;
+  report.purged = purged;
   begin<Stage::gcode>(watch);
   audit::Check check(job.settings.machine, job.settings.material, job.settings.audit, job.audit, job.settings.plate);
   name_custom_code(job.settings.gcode, check);

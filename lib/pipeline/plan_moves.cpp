@@ -3,8 +3,10 @@
 
 #include "audit/audit.h"
 #include "pipeline/at_heights.h"
+#include "pipeline/change_tool.h"
 #include "pipeline/codec.h"
 #include "pipeline/ironing.h"
+#include "pipeline/lagging_tower.h"
 #include "pipeline/rules_of_scopes.h"
 #include "tasks/parallel.h"
 
@@ -47,7 +49,8 @@ LayerPlan joined(const MovesOf& of, std::size_t layer, std::vector<LayerPlan> pa
   LayerPlan out = std::move(passes.front());
   for (std::size_t k = 0; k < passes.size(); ++k) {
     LayerPlan& own = k == 0 ? out : passes[k];
-    if (auto steps = change_before(of.passes, of.passes.begin[layer] + k, of.tools, out); !steps.empty())
+    const auto from = k > 0 ? place_behind(out) : std::nullopt;
+    if (auto steps = change_before(of.passes, of.passes.begin[layer] + k, of.tools, out, from); !steps.empty())
       put_before(own, std::move(steps));
     if (k > 0)
       out.steps.insert(out.steps.end(), std::make_move_iterator(own.steps.begin()),
@@ -134,6 +137,7 @@ class Mover {
     travel::prepare_ways(settings_.travel, layer);
     const auto& retraction = of_.scopes[of_.tools.several() ? layer.input.scope : 0].retraction;
     auto routed = travel::route(settings_.travel, retraction, layer, ordered_[pass], from_[pass]);
+    lower_tower(of_.passes.lag_of(index), routed.plan);
     if (vase_at(of_.vases, index) != nullptr) turns_[index] = wall_of(layer.input);
     auto over_air = over_air_of(layer.input);
     const Regions asked = what_.with_figures ? over_air : Regions{};

@@ -13,6 +13,7 @@
 #include "pipeline/passes.h"
 #include "pipeline/place_heat.h"
 #include "pipeline/plan_moves.h"
+#include "pipeline/prime_lines.h"
 #include "pipeline/sample.h"
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
@@ -184,15 +185,6 @@ std::pair<std::vector<travel::Prepared>, std::vector<travel::Linked>> prepared_a
   return {std::move(prepared), std::move(linked)};
 }
 
-/// The tower and the shield, which skirt and brim go round.
-Regions beside_objects(const Settings& settings, const Passes& passes) {
-  // A brim goes within the shield.
-  Regions out = settings.adhesion.adhesion_type == AdhesionType::brim ? Regions{} : passes.shield;
-  if (passes.has_tower())
-    out.insert(out.begin(), {tools::tower_outline(settings.tools, passes.size, passes.corner), {}});
-  return out;
-}
-
 /// Tells each layer its height over the bed, the room there, and what plastic comes of.
 void give_room(const Settings& settings, std::vector<travel::LayerInput>& inputs) {
   const double filament_mm = to_mm(settings.material.filament_diameter);
@@ -232,9 +224,8 @@ std::vector<LayerTimes> put_together(std::vector<PackedLayer> planned, bool keep
 PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, const Sequence& sequence,
                         std::vector<PrintedLayers> layers, std::vector<SupportOf> supports, Report& report,
                         const PlanOptions& options) {
-  const PlanFor use = options.use;
   const Stopwatch stopwatch(report.timings_ms[Stage::travel]);
-  const Settings& settings = scopes[0];
+  const auto& settings = scopes[0];
   const ScopeId on_first_layer = scopes.on_first_layer(0);
   auto copies = copies_of(plate);
   give_seams(scopes, options.feet, copies);
@@ -260,6 +251,7 @@ PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, c
                plan.notices);
   give_adhesion(settings, tools, scopes, inputs);
   add_ooze_shield(settings, passes.shield, passes, inputs);
+  add_prime_lines(settings, tools, scopes, passes, inputs, plan.notices);
   give_room(settings, inputs);
   for (auto& notice : check(settings)) plan.notices.push_back(std::move(notice));
   const Vases vases = settings.layers.magic_spiralize ? vases_of(settings, inputs, plan.notices) : Vases{};
@@ -275,13 +267,12 @@ PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, c
   auto planned = plan_moves(
       {scopes, tools, passes, pauses, heights_before(timeline, settings.machine.z_offset), vases,
        standing_of(options.surfaces, copies, copies_on(plate), raft_lift(settings) + settings.machine.z_offset)},
-      std::move(prepared), std::move(ordered), plan.notices, {use, report.figures.has_value()});
-  out.purge_wanted_mm3 = passes.purged.wanted_mm3;
-  const auto times = put_together(std::move(planned), use == PlanFor::figures, report, out);
-  if (use == PlanFor::figures)
-    for (std::size_t i = 0; i < out.layers.size(); ++i)
-      out.layers[i].bottom = has_bottom(timeline[i], copies_on(plate));
-  if (tools.several() && use == PlanFor::writing) place_heat(tools.tools(), times, out);
+      std::move(prepared), std::move(ordered), plan.notices, {options.use, report.figures.has_value()});
+  out.purged = passes.purged;
+  const bool keeps_layers = options.use == PlanFor::figures;
+  const auto times = put_together(std::move(planned), keeps_layers, report, out);
+  for (std::size_t i = 0; i < out.layers.size(); ++i) out.layers[i].bottom = has_bottom(timeline[i], copies_on(plate));
+  if (tools.several() && options.use == PlanFor::writing) place_heat(tools.tools(), times, out);
   return out;
 }
 

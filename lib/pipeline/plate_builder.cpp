@@ -4,6 +4,7 @@
 #include "core/convex_hull.h"
 #include "core/error.h"
 #include "pipeline/read_models.h"
+#include "pipeline/tints.h"
 #include "profile/foreign_overlay.h"
 
 #include <algorithm>
@@ -13,8 +14,6 @@
 
 namespace weft::pipeline {
 namespace {
-
-constexpr std::size_t all_before = ~std::size_t{0};  // of a negative volume: it cuts every part
 
 /// The tool that is named behind a model's file holds for that object, or part of one.
 void give_tool(std::optional<int> tool, Overlay& overlay, const std::string& typed) {
@@ -30,13 +29,7 @@ Ring hull_of(const mesh::PlacedModel& placed, const std::vector<std::size_t>& pa
   return convex_hull(std::move(corners));
 }
 
-/// What is no part, and behind which part it stands.
-struct Later {
-  std::size_t after = all_before;
-  Volume volume;
-};
-
-/// Negative volumes behind the parts that they cut, modifiers behind them all.
+/// Negative volumes behind the parts that they cut, modifiers behind them all, and paint behind those.
 void put_in_order(std::vector<Later> later, Object& object) {
   std::vector<Volume> out;
   const auto negatives = [&](auto wanted) {
@@ -50,8 +43,9 @@ void put_in_order(std::vector<Later> later, Object& object) {
   }
   negatives([&](std::size_t after) { return after >= part && after != all_before; });
   negatives([](std::size_t after) { return after == all_before; });
-  for (auto& [after, volume] : later)
-    if (volume.kind == VolumeKind::modifier) out.push_back(std::move(volume));
+  for (const auto kind : {VolumeKind::modifier, VolumeKind::tint})
+    for (auto& [after, volume] : later)
+      if (volume.kind == kind) out.push_back(std::move(volume));
   object.volumes = std::move(out);
 }
 
@@ -105,7 +99,8 @@ void PlateBuilder::lay_words(mesh::Author author, const std::vector<mesh::Foreig
 }
 
 void PlateBuilder::lay(const mesh::Loaded& model, const std::vector<mesh::ForeignSetting>& said, Overlay& to) {
-  if (!said.empty()) lay_words(model.author, said, model.path, to);
+  const auto file = std::filesystem::path(model.path).filename().string();
+  if (!said.empty()) lay_words(model.author, with_extruders(said, job_.settings, file, notices_), model.path, to);
 }
 
 /// Its place among the models of the job; what comes of a cut or a split is of the model that it comes of.
@@ -184,6 +179,16 @@ Volume PlateBuilder::volume_of(mesh::Mark mark, const std::string& path) {
   return volume;
 }
 
+void PlateBuilder::add_tint(mesh::Mark mark, const std::string& path, const Object& object, std::vector<Later>& to) {
+  const std::size_t after = mark.after;
+  auto tint =
+      tint_of(std::move(mark), object, job_.settings, std::filesystem::path(path).filename().string(), notices_);
+  if (!tint) return;
+  for (auto& [at, volume] : to)
+    if (volume.kind == VolumeKind::tint && volume.name == tint->name) return join(volume, std::move(tint->mesh));
+  to.push_back({after, *std::move(tint)});
+}
+
 void PlateBuilder::put(const Together& what, mesh::PlacedModel placed) {
   const auto& tools = typed_[what.model].tools;
   const auto& path = typed_[what.model].model.path;
@@ -198,7 +203,9 @@ void PlateBuilder::put(const Together& what, mesh::PlacedModel placed) {
       volume.mesh = std::move(placed.objects[k]);
       give_tool(tools[what.objects[k]], typed_[what.model].one_object ? volume.overlay : object.overlay, path);
       for (auto& mark : placed.marks[k])
-        if (mark.kind != mesh::MarkKind::modifier && mark.kind != mesh::MarkKind::negative) {
+        if (mark.kind == mesh::MarkKind::tint) {
+          add_tint(std::move(mark), path, object, later);
+        } else if (mark.kind != mesh::MarkKind::modifier && mark.kind != mesh::MarkKind::negative) {
           object.marks.push_back(std::move(mark));
         } else {
           const std::size_t after = mark.after;

@@ -22,6 +22,14 @@ struct Together {
   mesh::PlacementOfModel own{};
 };
 
+inline constexpr std::size_t all_before = ~std::size_t{0};  ///< of a negative volume: it cuts every part
+
+/// What is no part, and behind which part it stands.
+struct Later {
+  std::size_t after = all_before;
+  Volume volume;
+};
+
 /// Puts what files say of objects on the plate, and makes them findable by name: first all objects are made, without
 /// their meshes; what is placed together is taken, placed by others, and put back.
 class PlateBuilder {
@@ -47,6 +55,7 @@ class PlateBuilder {
   std::size_t number_of(std::size_t model) const;
   std::optional<mesh::PlacementOfModel> own_of(std::size_t object) const;
   Volume volume_of(mesh::Mark mark, const std::string& path);
+  void add_tint(mesh::Mark mark, const std::string& path, const Object& object, std::vector<Later>& to);
 
   const Job& job_;
   std::vector<Typed>& typed_;

@@ -65,7 +65,7 @@ void put_in_order(Beads& beads) {
 }
 
 void fill(const Scopes& scopes, travel::LayerInput& layer, std::size_t index, const Passes& passes, Change& change,
-          Purged& purged) {
+          Report::Purged& purged) {
   const auto each = [&](const auto& f) {
     for (auto& object : layer.objects)
       if (object.height == 0 || object.height == layer.height) f(object);

@@ -175,7 +175,11 @@ Json tools_of(const Report& r) {
 Json purge_of(const Report& r) {
   double tower_mm3 = 0;
   for (const auto& t : r.tools) tower_mm3 += t.tower_mm3;
-  return {{"wanted_mm3", rounded3(r.purge_wanted_mm3)}, {"tower_mm3", rounded3(tower_mm3)}};
+  return {{"wanted_mm3", rounded3(r.purged.wanted_mm3)},
+          {"tower_mm3", rounded3(tower_mm3)},
+          {"objects_mm3", rounded3(r.purged.objects_mm3)},
+          {"support_mm3", rounded3(r.purged.support_mm3)},
+          {"infill_mm3", rounded3(r.purged.infill_mm3)}};
 }
 
 Json audit_of(const Report::Audit& a) {
@@ -229,7 +233,7 @@ std::string to_json(const Report& r) {
   out["print_time_s"] = rounded3(r.print_time_s);
   out["filament"] = {{"mm", rounded3(r.filament_mm)}, {"mm3", rounded3(r.filament_mm3)}, {"g", rounded3(r.filament_g)}};
   if (!r.tools.empty()) out["tools"] = tools_of(r);
-  if (r.purge_wanted_mm3 > 0) out["purge"] = purge_of(r);
+  if (r.purged.wanted_mm3 > 0) out["purge"] = purge_of(r);
   if (r.cost)
     out["cost"] = {{"filament", rounded3(r.cost->filament)},
                    {"machine", rounded3(r.cost->machine)},

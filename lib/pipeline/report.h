@@ -143,8 +143,12 @@ struct Report {
   std::optional<Cost> cost;  ///< when there are prices
   std::string currency;
   std::array<Feature, roles.size()> features{};
-  std::vector<Tool> tools;      ///< by number, T0 first; empty where the plan names none
-  double purge_wanted_mm3 = 0;  ///< at changes of the tool: purge_volumes, or by colour
+  std::vector<Tool> tools;  ///< by number, T0 first; empty where the plan names none
+  /// What is purged at changes of the tool: wanted (purge_volumes, or by colour), and of that into what is printed.
+  struct Purged {
+    double wanted_mm3 = 0, objects_mm3 = 0, support_mm3 = 0, infill_mm3 = 0;
+  };
+  Purged purged;
   Walls walls;
   Arcs arcs;
   /// The travels of a layer in their order, and a bound that no order could go below.

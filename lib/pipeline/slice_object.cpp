@@ -3,6 +3,7 @@
 
 #include "pipeline/key_bytes.h"
 #include "pipeline/layer_heights.h"
+#include "pipeline/paint_object.h"
 #include "pipeline/weave.h"
 #include "slice/slice.h"
 #include "tasks/parallel.h"
@@ -31,6 +32,10 @@ StageKey slice_key(const Mesh& mesh, const std::vector<slice::Plane>& planes, co
   return key;
 }
 
+slice::PaintReach reach_of(const Scopes& all_scopes, const ObjectScopes& scopes) {
+  return paint_reach(all_scopes[scopes.back().of_mix.front()]);
+}
+
 Cuts slice_mesh(const SliceHands& handed, const ObjectScopes& scopes, const Mesh& mesh,
                 const std::vector<slice::Plane>& planes) {
   const slice::Cutter cutter(mesh, planes);
@@ -54,9 +59,11 @@ Result<Cuts> slice_object(const Running& job, const Object& object, const Object
              object.name, to_mm(object.heights.back().z), to_mm(top))});
   std::vector<Result<Cuts>> of_volume;
   for (const auto& volume : object.volumes)
-    of_volume.push_back(run_stage<Stage::slice>(
-        job, [&] { return slice_key(volume.mesh, planes, scopes, handed); },
-        [&] { return slice_mesh(handed, scopes, volume.mesh, planes); }));
+    of_volume.push_back(volume.kind == VolumeKind::tint
+                            ? Result<Cuts>(Cuts{})
+                            : run_stage<Stage::slice>(
+                                  job, [&] { return slice_key(volume.mesh, planes, scopes, handed); },
+                                  [&] { return slice_mesh(handed, scopes, volume.mesh, planes); }));
   if (of_volume.size() == 1) {
     areas = areas_of_one(scopes, *of_volume.front());
     return std::move(of_volume.front());
@@ -64,6 +71,12 @@ Result<Cuts> slice_object(const Running& job, const Object& object, const Object
   const Stopwatch stopwatch(job.report.timings_ms[Stage::slice]);
   std::vector<const Cuts*> cuts;
   for (const auto& result : of_volume) cuts.push_back(&*result);
+  std::vector<Cuts> painted;
+  if (is_painted(object)) {
+    painted = paint_cuts(object, reach_of(all_scopes, scopes), cuts);
+    for (std::size_t v = 0; v < cuts.size(); ++v)
+      if (object.volumes[v].kind == VolumeKind::tint) cuts[v] = &painted[v];
+  }
   auto out = united(object, scopes, all_scopes, cuts, areas);
   if (const auto how = weave_of(scopes, all_scopes)) weave(*how, out, areas);
   return Result<Cuts>(std::move(out));
@@ -77,6 +90,10 @@ std::vector<std::string> slice_hashes(const Object& object, const ObjectScopes& 
   for (const auto& volume : object.volumes) {
     auto key = slice_key(volume.mesh, planes, scopes, handed);
     if (volume.kind != VolumeKind::model) key.with(std::uint64_t{static_cast<std::uint8_t>(volume.kind)});
+    if (volume.kind == VolumeKind::tint) {
+      const auto reach = reach_of(all_scopes, scopes);
+      key.with(reach.depth).with(reach.roof).with(reach.floor).with(reach.least);
+    }
     if (how)
       for (const auto& from : scopes)
         for (const ScopeId id : from.of_mix) key.with(Um{how->tool.at(id)});

@@ -3,6 +3,7 @@
 #include "model/area.h"
 #include "pipeline/handed_to.h"
 #include "plate/plate.h"
+#include "settings/scopes.h"
 
 #include <string>
 #include <vector>

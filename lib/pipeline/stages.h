@@ -53,7 +53,7 @@ struct PlannedPlate {
   /// Of each layer: what nozzles are told before the step of that number, ascending. Empty where there is one tool.
   std::vector<std::vector<std::pair<std::size_t, SetTemperature>>> heat;
   std::vector<ToolId> cold_at_start;  ///< nozzles that are heated later
-  double purge_wanted_mm3 = 0;        ///< at changes of the tool
+  Report::Purged purged;              ///< at changes of the tool
 };
 
 /// What a plan is for: to be written, or for its figures only.

@@ -312,10 +312,14 @@ void tell_missing_support(const Running& job, const Scopes& all, const ObjectSco
   const Settings& settings = all[all.above_first_layer(scopes.front().of_mix.front())];
   if (supports(settings, object)) return;
   const Stopwatch stopwatch(job.report.timings_ms[Stage::support]);
-  const auto outlines = outlines_of(settings, cuts);
+  auto outlines = outlines_of(settings, cuts);
+  std::vector<SlicedLayer> without_specks;
+  leave_out_specks(settings, outlines, without_specks);
   std::vector<const Regions*> over_air;
   if (job.sample.all())
     for (const auto& layer : walls) over_air.push_back(&layer.over_air);
+  for (std::size_t i = 0; i + 1 < over_air.size(); ++i)  // known of the mesh, which has specks below
+    if (without_specks[i].height > 0) over_air[i] = over_air[i + 1] = nullptr;
   const auto islands = support::islands(outlines.object, over_air);
   if (islands.empty()) return;
   const Point at = islands.front().at + object.copies.front();

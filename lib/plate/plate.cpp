@@ -11,8 +11,8 @@
 namespace weft {
 
 std::string_view name_of(VolumeKind kind) {
-  constexpr std::array<std::string_view, 6> names{"model",           "negative volume", "modifier", "support enforcer",
-                                                  "support blocker", "support"};
+  constexpr std::array<std::string_view, 7> names{
+      "model", "negative volume", "modifier", "paint", "support enforcer", "support blocker", "support"};
   return names[static_cast<std::size_t>(kind)];
 }
 
@@ -33,7 +33,7 @@ void check_printable(const Plate& plate) {
     if (std::none_of(object.volumes.begin(), object.volumes.end(), is(VolumeKind::model)))
       refuse("it has no part that is printed");
     for (const auto& volume : object.volumes)
-      if (volume.kind > VolumeKind::modifier)
+      if (volume.kind > VolumeKind::tint)
         refuse(fmt::format("a {} ('{}') is a mark, not a volume", name_of(volume.kind), volume.name));
   }
 }
@@ -98,10 +98,17 @@ std::vector<Mix> mixes_of(const Object& object) {
       out.push_back({v}), boxes.push_back(box_of(object.volumes[v].mesh));
     if (object.volumes[v].kind == VolumeKind::modifier) modifiers.push_back(v);
   }
-  for (const std::size_t m : modifiers) {
+  const std::size_t with_volumes = modifiers.size();
+  for (std::size_t v = 0; v < object.volumes.size(); ++v)
+    if (object.volumes[v].kind == VolumeKind::tint) modifiers.push_back(v);
+  std::size_t untinted = 0;  // of the mixes; there is one paint in a place
+  for (std::size_t n = 0; n < modifiers.size(); ++n) {
+    const std::size_t m = modifiers[n];
+    const bool tints = n >= with_volumes;
+    if (!tints || n == with_volumes) untinted = out.size();
     const Box3 box = box_of(object.volumes[m].mesh);
-    for (std::size_t i = 0, before = out.size(); i < before; ++i) {
-      const Box3 both = common(boxes[i], box);
+    for (std::size_t i = 0; i < untinted; ++i) {
+      const Box3 both = tints ? boxes[i] : common(boxes[i], box);  // paint reaches into the part
       if (both.empty()) continue;
       Mix mix = out[i];
       mix.modifiers.push_back(m);

@@ -21,6 +21,7 @@ enum class VolumeKind : std::uint8_t {
   model,             ///< is printed
   negative,          ///< cuts a hole
   modifier,          ///< gives what it meets other settings
+  tint,              ///< facets of the object's surface: what lies below them has other settings
   support_enforcer,  ///< asks for support
   support_blocker,   ///< keeps support away
   support,           ///< is printed as support
@@ -74,14 +75,14 @@ std::vector<Um> heights_of_change(const Object& object);
 
 /// What is laid over the plate's settings for a part at a height where modifiers hold: the object's, its ranges', the
 /// part's own, the modifiers', and what is said of any of them by name.
-/// @param modifiers indices of volumes, in their order
+/// @param modifiers indices of volumes, in their order: modifiers and a tint
 std::vector<const Overlay*> overlays_at(const Object& object, const Volume& part, Um bottom,
                                         std::span<const std::size_t> modifiers = {});
 
 /// A part of an object and the modifiers that hold: what an area of a layer can be.
 struct Mix {
   std::size_t part = 0;                     ///< index into Object::volumes, of kind model
-  std::vector<std::size_t> modifiers = {};  ///< the same, of kind modifier; ascending
+  std::vector<std::size_t> modifiers = {};  ///< the same, of kind modifier, and at most one tint; ascending
   friend bool operator==(const Mix&, const Mix&) = default;
 };
 

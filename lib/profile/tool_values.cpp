@@ -204,6 +204,11 @@ void check_tools(const Profile& profile) {
     } catch (const std::invalid_argument& error) {
       refuse(profile, "filament_ramming_parameters", error.what(), "as in 120 100 6.6 6.8 7.2");
     }
+  if (t.prime_tower_position_x.has_value() != t.prime_tower_position_y.has_value()) {
+    const bool x = t.prime_tower_position_x.has_value();
+    refuse(profile, x ? "prime_tower_position_x" : "prime_tower_position_y",
+           fmt::format("prime_tower_position_{} is auto", x ? 'y' : 'x'), "say where it stands along both, or neither");
+  }
   check_gradient(profile, count);
 }
 

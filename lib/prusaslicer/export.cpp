@@ -311,7 +311,9 @@ class Exporter {
     for (const auto& [theirs, ours] : {std::pair{"start_gcode", "machine_start_gcode"},
                                        {"end_gcode", "machine_end_gcode"},
                                        {"before_layer_gcode", "before_layer_gcode"},
-                                       {"layer_gcode", "layer_gcode"}})
+                                       {"layer_gcode", "layer_gcode"},
+                                       {"color_change_gcode", "color_change_gcode"},
+                                       {"pause_print_gcode", "pause_gcode"}})
       say(theirs, renamed_placeholders(print(ours)), ours);
     // PrusaSlicer puts text of its own where these are missing, and refuses relative E that is never set back.
     say("start_filament_gcode", "\"\"");

@@ -192,6 +192,14 @@ void layer_heights(Lines& lines, const Outlet& out) {
   }
 }
 
+/// PrusaSlicer's arcs stand off their moves by as much as it simplifies these.
+void arcs(Lines& lines, const Outlet& out) {
+  constexpr double least_mm = 0.001, most_mm = 0.1;
+  const auto *fitting = lines.look("arc_fitting"), *resolution = lines.find("gcode_resolution");
+  if (!fitting || !resolution || fitting->value == "disabled" || fitting->value == "0") return;
+  out.set("arc_tolerance", number(std::clamp(lines.figure(*resolution).v, least_mm, most_mm), 3), *resolution);
+}
+
 /// Limits of silent mode: the second values of each limit, where all of them have one.
 void silent_limits(Lines& lines, const Outlet& out) {
   const auto* wanted = lines.find("silent_mode");
@@ -224,6 +232,13 @@ void fuzzy_skin(Lines& lines, const Outlet& out) {
   if (e->value != "none" && e->value != "external" && e->value != "all") lines.refuse(*e, "one of none, external, all");
   out.set("magic_fuzzy_skin_enabled", e->value == "none" ? "false" : "true", *e);
   if (e->value != "none") out.set("magic_fuzzy_skin_outside_only", e->value == "external" ? "true" : "false", *e);
+}
+
+/// What is written at a height: PrusaSlicer's own words are its printers', and no profile's.
+void at_heights(Lines& lines, const Outlet& out) {
+  for (const auto& [theirs, ours] :
+       {std::pair{"color_change_gcode", "color_change_gcode"}, std::pair{"pause_print_gcode", "pause_gcode"}})
+    if (const auto* e = lines.find(theirs); e && e->line != 0) out.set(ours, e->value, *e);
 }
 
 struct Remarked {
@@ -266,7 +281,9 @@ void import_single_keys(Lines& lines, double infill_mm_s, double solid_mm_s, con
   fuzzy_skin(lines, out);
   shrinkage(lines, out);
   flow_slopes(lines, out);
+  at_heights(lines, out);
   layer_heights(lines, out);
+  arcs(lines, out);
   silent_limits(lines, out);
   for (const auto& row : remarked)
     if (const auto* e = lines.find(row.key); e && !says_one_of(row.neutral, e->key, e->value))

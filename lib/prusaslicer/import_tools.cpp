@@ -73,15 +73,13 @@ std::string quoted(const std::string& text) {
 }
 
 /// How a value of theirs becomes one of weft's.
-enum class As { number, length, flag, extruder, position };
+enum class As { number, length, flag, chosen, extruder };
 struct Row {
   std::string_view theirs, ours;
   As as;
 };
 constexpr std::array rows{
-    Row{"wipe_tower", "prime_tower_enable", As::flag},
-    Row{"wipe_tower_x", "prime_tower_position_x", As::position},
-    Row{"wipe_tower_y", "prime_tower_position_y", As::position},
+    Row{"wipe_tower", "prime_tower_enable", As::chosen},
     Row{"wipe_tower_width", "prime_tower_width", As::length},
     Row{"wipe_tower_rotation_angle", "prime_tower_angle", As::number},
     Row{"wipe_tower_brim_width", "prime_tower_brim_width", As::length},
@@ -136,6 +134,10 @@ class Tools {
     features();
     volumes();
     waiting();
+    paint();
+    place();
+    tower();
+    multitool_ramming(shared);
     load_time();
     offsets();
     filament_code();
@@ -150,9 +152,9 @@ class Tools {
         return out_.set(row.ours, number(lines_.figure(*e).v), *e);
       case As::length:
         return out_.set(row.ours, number(lines_.figure(*e).v, 3), *e);
-      case As::position:  // a default of PrusaSlicer's own is no place that anybody has chosen
-        if (e->line != 0) out_.set(row.ours, number(lines_.figure(*e).v, 3), *e);
-        return;
+      case As::chosen:  // a default is no answer: PrusaSlicer's window asks for it where it is needed
+        if (e->line == 0) return;
+        [[fallthrough]];
       case As::flag:
         return out_.set(row.ours, lines_.flag(*e) ? "true" : "false", *e);
       case As::extruder:
@@ -220,6 +222,46 @@ class Tools {
     if (delta && temperature)
       out_.set("material_standby_temperature",
                number(std::max(0.0, lines_.figure(*temperature).v + lines_.figure(*delta).v)), *delta);
+  }
+
+  /// 0 is any depth there: as far as another paint, or the surface on the other side, is nearer.
+  void paint() {
+    const auto* e = lines_.find("mmu_segmented_region_max_width");
+    if (!e || e->line == 0) return;
+    const double mm = lines_.figure(*e).v;
+    out_.set("paint_depth", mm > 0 ? number(mm, 3) : "1000", *e);
+  }
+
+  /// A default of PrusaSlicer's own is no place that anybody has chosen, unless one half of it is.
+  void place() {
+    const auto *x = lines_.find("wipe_tower_x"), *y = lines_.find("wipe_tower_y");
+    const auto* said = x && x->line != 0 ? x : y;
+    if (!said || said->line == 0) return;
+    const auto set = [&](const char* ours, const IniEntry* e, const char* theirs) {
+      const auto text = e ? number(lines_.figure(*e).v, 3) : std::string(*find_key(theirs)->initial);
+      out_.set(ours, text, e ? *e : *said);
+    };
+    set("prime_tower_position_x", x, "wipe_tower_x");
+    set("prime_tower_position_y", y, "wipe_tower_y");
+  }
+
+  void tower() {
+    if (const auto* e = lines_.find("wipe_tower_cone_angle"); e && lines_.figure(*e).v > 0) {
+      out_.set("prime_tower_shape", "cone", *e);
+      out_.set("prime_tower_cone_angle", number(lines_.figure(*e).v), *e);
+    }
+    if (const auto* e = lines_.find("wipe_tower_no_sparse_layers"))
+      out_.set("prime_tower_sparse", lines_.flag(*e) ? "false" : "true", *e);
+  }
+
+  void multitool_ramming(bool shared) {
+    const auto* does = lines_.find("filament_multitool_ramming");
+    const auto *volume = lines_.find("filament_multitool_ramming_volume"),
+               *flow = lines_.find("filament_multitool_ramming_flow");
+    if (shared || !does || !lines_.flag(*does) || !volume) return;
+    out_.set("filament_multitool_ramming_volume", number(lines_.figure(*volume).v), *volume);
+    if (flow && lines_.figure(*flow).v > 0)
+      out_.set("filament_multitool_ramming_flow", number(lines_.figure(*flow).v), *flow);
   }
 
   void load_time() {

@@ -45,6 +45,13 @@ bool may_differ(Scope row, Scope place) {
   return row >= place;
 }
 
+/// Layers are cut through all parts of an object, whatever tools print them: their heights are no tool's own.
+bool may_hold_for(const CatalogueEntry& row, Scope place) {
+  const Scope scope = scope_of(row);
+  if (place == Scope::tool && row.section == "layers" && scope != Scope::region) return false;
+  return may_differ(scope, place);
+}
+
 const CatalogueEntry& known(const std::string& key, const std::string& where) {
   if (const auto* entry = find_setting(key)) return *entry;
   const auto near = nearest_setting(key, [](std::string_view) { return std::string_view(); });
@@ -55,12 +62,12 @@ const CatalogueEntry& known(const std::string& key, const std::string& where) {
 }  // namespace
 
 bool differs_by_tool(const CatalogueEntry& entry) {
-  return may_differ(scope_of(entry), Scope::tool);
+  return may_hold_for(entry, Scope::tool);
 }
 
 void Overlay::add(const std::string& key, const std::string& text, const std::string& where) {
   const auto& row = known(key, where);
-  if (!may_differ(scope_of(row), scope))
+  if (!may_hold_for(row, scope))
     throw Error{Error::Kind::settings, fmt::format("{}: {} holds for {}", what, row.key, holder_of(scope_of(row))),
                 where, "set it there"};
   values.push_back({&row, read_value(row, text, where), {where, text, {}}});

@@ -65,43 +65,31 @@ class Rim {
   std::vector<std::vector<Point>> rings_;
 };
 
-}  // namespace
+/// Puts tips under one contact.
+class Placer {
+ public:
+  Placer(const Regions& contact, TipSpacing spacing, const Field& field, std::size_t slab, Um radius)
+      : contact_(contact),
+        spacing_(spacing),
+        field_(field),
+        slab_(slab),
+        radius_(radius),
+        held_(spacing.inside),
+        held_at_rim_(spacing.rim) {}
 
-std::vector<Point> tips_under(const Regions& contact, const Regions& around, const std::vector<Point>& standing,
-                              TipSpacing spacing, const Field& field, std::size_t slab, Um radius) {
-  const Um covers = spacing.inside;
-  const Box box = box_of(contact);
-  NearPoints held(covers), held_at_rim(spacing.rim);
-  std::vector<Point> out;
-  const auto hold = [&](Point p) { held.add(p), held_at_rim.add(p); };
-  const auto put = [&](Point p) { out.push_back(p), hold(p); };
-  for (const Point p : standing)
-    if (box.grown(covers).contains(p)) hold(p);
-  const geometry::SegmentIndex inside(contact);
-  // The middle of three points of such a lattice is 0.92 of what one covers away from each.
-  const Um across = covers * 16 / 10, up = covers * 139 / 100;
-  const auto floor_div = [](Um v, Um by) { return v >= 0 ? v / by : -((-v + by - 1) / by); };
-  const Point from = field.origin();  // the lattice goes with the object
-  for (Um row = floor_div(box.min.y - from.y, up); row * up <= box.max.y - from.y; ++row) {
-    stop_if_asked();
-    const Um shift = from.x + (row % 2 != 0 ? across / 2 : 0);
-    for (Um column = floor_div(box.min.x - shift, across); column * across + shift <= box.max.x; ++column) {
-      const Point p{column * across + shift, row * up + from.y};
-      if (inside.region_at(p) && field.to_anything(slab, p) >= radius && !held.any(p)) put(p);
-    }
-  }
-  // Then the rim, where branches find a way, and at last where they may not. A tip stands as far ahead of the first
-  // place that none holds as lets it hold that place too.
-  const Rim rim(contact, around, std::max(200.0, spacing.rim / 4.0));
-  for (const bool must_be_free : {true, false}) {
-    const auto may = [&](Point p) { return !must_be_free || field.to_anything(slab, p) >= radius; };
+  void hold(Point p) { held_.add(p), held_at_rim_.add(p); }
+  const std::vector<Point>& tips() const { return out_; }
+
+  /// A tip stands as far ahead of the first place that none holds as lets it hold that place too.
+  void along(const Rim& rim, bool must_be_free) {
+    const auto may = [&](Point p) { return !must_be_free || is_free(p); };
     for (const auto& points : rim.rings()) {
       stop_if_asked();
       for (std::size_t i = 0; i < points.size(); ++i) {
         if (!may(points[i])) continue;
         const bool free = rim.hangs_free(points[i]);
-        if (free ? held_at_rim.any(points[i]) : held.any(points[i])) continue;
-        const double within = 0.9 * (free ? spacing.rim : spacing.inside);
+        if (free ? held_at_rim_.any(points[i]) : held_.any(points[i])) continue;
+        const double within = 0.9 * (free ? spacing_.rim : spacing_.inside);
         Point at = points[i];
         for (std::size_t j = i + 1; j < points.size() && distance(points[i], points[j]) <= within; ++j)
           if (may(points[j])) at = points[j];
@@ -109,7 +97,55 @@ std::vector<Point> tips_under(const Regions& contact, const Regions& around, con
       }
     }
   }
-  return out;
+
+  /// A lattice of triangles, the middle of three points of which is 0.92 of what one covers away from each; and what
+  /// is left between it and the rim.
+  void inside() {
+    const geometry::SegmentIndex inside(contact_);
+    lattice(inside, spacing_.inside * 16 / 10, spacing_.inside * 139 / 100);
+    lattice(inside, spacing_.inside / 4, spacing_.inside / 4);
+  }
+
+ private:
+  bool is_free(Point p) const { return field_.to_anything(slab_, p) >= radius_; }
+  void put(Point p) { out_.push_back(p), hold(p); }
+  void lattice(const geometry::SegmentIndex& inside, Um across, Um up) {
+    const auto floor_div = [](Um v, Um by) { return v >= 0 ? v / by : -((-v + by - 1) / by); };
+    const Point from = field_.origin();  // the lattice goes with the object
+    const Box box = box_of(contact_);
+    for (Um row = floor_div(box.min.y - from.y, up); row * up <= box.max.y - from.y; ++row) {
+      stop_if_asked();
+      const Um shift = from.x + (row % 2 != 0 ? across / 2 : 0);
+      for (Um column = floor_div(box.min.x - shift, across); column * across + shift <= box.max.x; ++column) {
+        const Point p{column * across + shift, row * up + from.y};
+        if (!held_.any(p) && is_free(p) && inside.region_at(p)) put(p);
+      }
+    }
+  }
+
+  const Regions& contact_;
+  TipSpacing spacing_;
+  const Field& field_;
+  std::size_t slab_;
+  Um radius_;
+  NearPoints held_, held_at_rim_;
+  std::vector<Point> out_;
+};
+
+}  // namespace
+
+std::vector<Point> tips_under(const Regions& contact, const Regions& around, const std::vector<Point>& standing,
+                              TipSpacing spacing, const Field& field, std::size_t slab, Um radius) {
+  Placer placer(contact, spacing, field, slab, radius);
+  const Box near = box_of(contact).grown(spacing.inside);
+  for (const Point p : standing)
+    if (near.contains(p)) placer.hold(p);
+  // The rim first, so that what runs along it lies on tips and not beside them; at last where branches find no way.
+  const Rim rim(contact, around, std::max(200.0, spacing.rim / 4.0));
+  placer.along(rim, true);
+  placer.inside();
+  placer.along(rim, false);
+  return placer.tips();
 }
 
 }  // namespace weft::support

@@ -3,6 +3,7 @@
 
 #include "core/stop.h"
 #include "geometry/boolean.h"
+#include "geometry/trimmed.h"
 #include "support/branch_areas.h"
 #include "support/field.h"
 #include "support/lengths.h"
@@ -137,7 +138,8 @@ class Grower {
   }
   /// What a tip should have held, and no other branch does.
   void leave(std::size_t k, const Regions& contact, Point p, Um covers) {
-    Regions left = geometry::intersect(contact, {{circle_around({p, static_cast<double>(covers)}), {}}});
+    const Regions round{{circle_around({p, static_cast<double>(covers)}), {}}};
+    Regions left = geometry::intersect(geometry::trimmed(contact, box_of(round).grown(1)), round);
     if (patches_ == nullptr) return append(tree_.left[k], left);
     std::vector<Ring> held;
     for (const Node& node : nodes_)

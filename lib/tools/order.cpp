@@ -60,16 +60,48 @@ class Paths {
   std::vector<std::vector<std::size_t>> before_;  // the tool before the last
 };
 
-/// Of many tools: always the nearest that is left.
-std::vector<ToolId> nearest(std::vector<ToolId> left, std::optional<ToolId> loaded, const Costs& costs) {
+/// What a way costs from the tool that is loaded on.
+double cost_along(const std::vector<ToolId>& way, std::optional<ToolId> loaded, const Costs& costs) {
+  double sum = 0;
+  for (const ToolId tool : way) {
+    if (loaded) sum += costs[*loaded][tool];
+    loaded = tool;
+  }
+  return sum;
+}
+
+/// Of many tools: always the nearest that is left; then stretches are turned round, or tools put elsewhere, as long as
+/// that costs less. Source: G. Croes, "A method for solving traveling-salesman problems", 1958; costs need not be the
+/// same both ways, so ways are reckoned anew.
+std::vector<ToolId> near_best(std::vector<ToolId> left, const std::optional<ToolId> loaded, const Costs& costs) {
   std::vector<ToolId> out;
+  auto at = loaded;
   while (!left.empty()) {
     auto next = left.begin();
     for (auto it = left.begin(); it != left.end(); ++it)
-      if (loaded && costs[*loaded][*it] < costs[*loaded][*next]) next = it;
-    loaded = *next;
+      if (at && costs[*at][*it] < costs[*at][*next]) next = it;
+    at = *next;
     out.push_back(*next);
     left.erase(next);
+  }
+  double cost = cost_along(out, loaded, costs);
+  const auto better = [&](std::vector<ToolId> way) {
+    const double now = cost_along(way, loaded, costs);
+    if (now >= cost - 1e-9) return false;
+    out = std::move(way), cost = now;
+    return true;
+  };
+  for (bool found = true; found;) {
+    found = false;
+    for (std::size_t i = 0; i < out.size(); ++i)
+      for (std::size_t j = i + 1; j < out.size(); ++j) {
+        const auto from = static_cast<std::ptrdiff_t>(i), to = static_cast<std::ptrdiff_t>(j);
+        auto turned = out, moved = out, back = out;
+        std::reverse(turned.begin() + from, turned.begin() + to + 1);
+        std::rotate(moved.begin() + from, moved.begin() + from + 1, moved.begin() + to + 1);
+        std::rotate(back.begin() + from, back.begin() + to, back.begin() + to + 1);
+        for (auto* way : {&turned, &moved, &back}) found = better(std::move(*way)) || found;
+      }
   }
   return out;
 }
@@ -102,7 +134,7 @@ ToolSets read_back(const ToolSets& layers, const std::vector<std::size_t>& index
     if (own.exact())
       out[index[k]] = own.way(at.first, last);
     else
-      out[index[k]] = nearest(set, k > 0 ? std::optional(layers[index[k - 1]][at.before]) : std::nullopt, costs);
+      out[index[k]] = near_best(set, k > 0 ? std::optional(layers[index[k - 1]][at.before]) : std::nullopt, costs);
     last = at.before;
   }
   return out;
@@ -125,7 +157,7 @@ ToolSets least(const ToolSets& layers, const Costs& costs) {
       if (below)
         for (std::size_t b = 0; b < below->size(); ++b)
           if (reached.back()[b].cost < reached.back()[from].cost) from = b;
-      const auto way = nearest(set, below ? std::optional((*below)[from]) : std::nullopt, costs);
+      const auto way = near_best(set, below ? std::optional((*below)[from]) : std::nullopt, costs);
       const auto last = static_cast<std::size_t>(std::find(set.begin(), set.end(), way.back()) - set.begin());
       now[last] = {below ? reached.back()[from].cost : 0, 0, from};
     } else {

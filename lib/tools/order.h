@@ -17,8 +17,8 @@ using ToolSets = std::vector<std::vector<ToolId>>;
 
 /// The order of each layer's tools.
 /// least: no order of all layers together costs less, as long as no layer has more than ten tools; a layer of more is
-/// put in order by the nearest tool that is left. Layer by layer the best way through its tools from each to each is
-/// found, and over the layers the cheapest chain of those.
+/// put in order by the nearest tool that is left, and that bettered as long as turning or moving a stretch does. Layer
+/// by layer the best way through its tools from each to each is found, and over the layers the cheapest chain of those.
 /// Cost: O(layers · 2ⁿ · n³) for n tools in a layer, once for each different set.
 /// Source: M. Held, R. Karp, "A dynamic programming approach to sequencing problems", 1962.
 /// Post: every layer's tools once each; an empty layer stays empty.

@@ -23,15 +23,15 @@ Um inner(Um side, Um line) {
 }
 
 /// Lines of a strip, when each is so long.
-Um lines_of(double mm3, Um line, Um height, Um length) {
+Um lines_of(const TowerLayer::Strip& strip, Um line, Um height, Um length) {
   const double each = to_mm(line) * to_mm(height) * to_mm(length);
-  return static_cast<Um>(std::ceil(mm3 / each - 1e-6));
+  return static_cast<Um>(std::ceil(strip.mm3 / each - 1e-6));
 }
 
 /// Do the layer's strips fit when lines are `along` long and lie side by side over `across`?
 bool fits(const TowerLayer& layer, Um line, Um along, Um across) {
   Um sum = 0;
-  for (const auto& strip : layer.strips) sum += lines_of(strip.mm3, line, layer.height, along) * line;
+  for (const auto& strip : layer.strips) sum += lines_of(strip, line, layer.height, along) * line;
   return sum <= across;
 }
 
@@ -98,6 +98,7 @@ TowerSize tower_size(const ToolSettings& settings, std::span<const TowerLayer> l
     out.depth += out.line;
     if (!settings.prime_tower_width) out.width += out.line;
   }
+  out.height = top;
   return out;
 }
 
@@ -136,16 +137,76 @@ void shorten(Bead& strip, double by_mm3, const Lines& lines) {
   to = {from.x + rounded((to.x - from.x) * stays / length), from.y + rounded((to.y - from.y) * stays / length)};
 }
 
+/// Ribs run along the diagonals, so many lines wide, and reach beyond the corners by a share of what of the tower is
+/// above.
+constexpr Um lines_of_rib = 4;
+constexpr double rib_by_height = 0.12;
+constexpr int corners_of_cone = 96;
+
+/// What the tower stands by at a height: beside its walls.
+Regions beside_walls(const ToolSettings& settings, const TowerSize& size, Um z) {
+  const Regions walls{{rectangle(0, size.width, size.depth), {}}};
+  const double above = std::max(0, size.height - z);
+  Regions all;
+  if (settings.prime_tower_shape == TowerShape::cone) {
+    const double radius = std::tan(settings.prime_tower_cone_angle / 2 * std::numbers::pi / 180) * above;
+    Ring ring;
+    for (int i = 0; i < corners_of_cone; ++i) {
+      const double a = 2 * std::numbers::pi * i / corners_of_cone;
+      ring.push_back({size.width / 2 + rounded(radius * std::cos(a)), size.depth / 2 + rounded(radius * std::sin(a))});
+    }
+    all.push_back({std::move(ring), {}});
+  }
+  if (settings.prime_tower_shape == TowerShape::ribs) {
+    const Um out = rounded(rib_by_height * above / std::numbers::sqrt2), side = lines_of_rib * size.line * 5 / 14;
+    for (const Point corner : {Point{0, 0}, {size.width, 0}, {size.width, size.depth}, {0, size.depth}}) {
+      const Um dx = corner.x == 0 ? -1 : 1, dy = corner.y == 0 ? -1 : 1;
+      // Half its width to both sides of the diagonal, from within the walls outwards.
+      const auto at = [&](Um along, Um aside) {
+        return Point{corner.x + dx * along - dy * aside, corner.y + dy * along + dx * aside};
+      };
+      Ring ring{at(-side, -side), at(out, -side), at(out, side), at(-side, side)};
+      if (double_area(ring) < 0) std::reverse(ring.begin(), ring.end());
+      all.push_back({std::move(ring), {}});
+    }
+  }
+  return geometry::subtract(all, walls);
+}
+
+/// Loops beside the wall. @param full as many as there is room for, else one
+void add_loops(const Regions& regions, Um line, bool full, Beads& out) {
+  for (Um in = line / 2;; in += line) {
+    const auto rest = geometry::offset(regions, {.by = -in});
+    for (const auto& region : rest) out.push_back(bead_of(region.outer, line, true));
+    if (rest.empty() || !full) return;
+  }
+}
+
+/// The outline that the brim goes round.
+Regions foot_of(const ToolSettings& settings, const TowerSize& size) {
+  auto out = beside_walls(settings, size, 0);
+  out.push_back({rectangle(0, size.width, size.depth), {}});
+  return geometry::unite(out);
+}
+
 /// The wall, and the brim of the lowest layer.
-Beads walls(const ToolSettings& settings, const TowerSize& size, std::size_t index) {
+Beads walls(const ToolSettings& settings, const TowerSize& size, std::size_t index, Um z) {
   const Um line = size.line;
   Bead wall = bead_of(rectangle(line / 2, size.width, size.depth), line, true);
   // The seam goes round, so that it is no edge that the tower breaks along.
   std::rotate(wall.path.begin(), wall.path.begin() + static_cast<std::ptrdiff_t>(index % 4), wall.path.end());
   Beads out{std::move(wall)};
+  if (settings.prime_tower_shape == TowerShape::plain) {
+    if (index == 0)
+      for (Um out_by = line; out_by <= settings.prime_tower_brim_width; out_by += line)
+        out.push_back(bead_of(rectangle(line / 2 - out_by, size.width, size.depth), line, true));
+    return out;
+  }
+  add_loops(beside_walls(settings, size, z), line, index == 0 || settings.prime_tower_shape == TowerShape::ribs, out);
   if (index == 0)
     for (Um out_by = line; out_by <= settings.prime_tower_brim_width; out_by += line)
-      out.push_back(bead_of(rectangle(line / 2 - out_by, size.width, size.depth), line, true));
+      for (const auto& region : geometry::offset(foot_of(settings, size), {.by = out_by - line / 2}))
+        out.push_back(bead_of(region.outer, line, true));
   return out;
 }
 
@@ -157,7 +218,7 @@ std::vector<TowerBeads> tower_beads(const ToolSettings& settings, const TowerSiz
   const Um line = size.line, half = line + line / 2;
   const Um along = along_y ? size.depth : size.width, across = along_y ? size.width : size.depth;
   const Lines lines{line, along_y, half, along - half, half, across - half, layer.height};
-  auto around = walls(settings, size, index);
+  auto around = walls(settings, size, index, layer.z);
   double of_walls = 0;
   for (const Bead& bead : around) of_walls += lines.mm3(bead);
   std::vector<TowerBeads> out;
@@ -176,9 +237,9 @@ std::vector<TowerBeads> tower_beads(const ToolSettings& settings, const TowerSiz
       last = &strip;
       continue;
     }
-    const Um count = lines_of(strip.mm3, line, layer.height, inner(along, line));
+    const Um count = lines_of(strip, line, layer.height, inner(along, line));
     Bead bead = bead_of(zigzag(at, line, count, lines.begin, lines.end, along_y), line, false);
-    shorten(bead, lines.mm3(bead) - strip.mm3, lines);
+    if (!strip.ram) shorten(bead, lines.mm3(bead) - strip.mm3, lines);
     add(strip.pass, std::move(bead), strip.ram);
     at += count * line;
   }
@@ -202,6 +263,9 @@ std::vector<TowerBeads> tower_beads(const ToolSettings& settings, const TowerSiz
 
 Ring tower_outline(const ToolSettings& settings, const TowerSize& size, Point corner) {
   const Um brim = settings.prime_tower_brim_width / size.line * size.line;
+  if (settings.prime_tower_shape != TowerShape::plain)
+    if (const auto foot = geometry::offset(foot_of(settings, size), {.by = brim}); !foot.empty())
+      return laid(foot.front().outer, settings.prime_tower_angle, corner);
   return laid(rectangle(-brim, size.width, size.depth), settings.prime_tower_angle, corner);
 }
 

@@ -18,17 +18,19 @@ struct TowerLayer {
   struct Strip {
     std::size_t pass = 0;  ///< the caller's number of what it is purged before
     double mm3 = 0;
-    bool ram = false;  ///< what is left of the filament before is shaped there, before the change
+    bool ram = false;  ///< it is laid by the filament before, at a pace of its own, before the change
   };
   std::vector<Strip> strips;  ///< in the order they are printed
   std::size_t wall_pass = 0;  ///< what prints wall and grid
   bool wall_purges = false;   ///< … which count to what that pass is to purge
 };
 
-/// The upright box that all layers fit in, in coordinates of its own: from 0, 0.
+/// The upright box that all layers fit in, in coordinates of its own: from 0, 0. What it stands by (prime_tower_shape)
+/// reaches beyond.
 struct TowerSize {
   Um width = 0, depth = 0;
-  Um line = 0;  ///< width of its lines
+  Um line = 0;    ///< width of its lines
+  Um height = 0;  ///< of the whole tower
 };
 
 /// @param layers upwards; a change of less height than that at which a bead holds is the caller's to avoid
@@ -44,7 +46,8 @@ struct TowerBeads {
 };
 
 /// Strips side by side, each crossing all of the tower, along X in even layers and along Y in odd ones, so that each
-/// crosses every filament below; then lines prime_tower_max_bridging_distance apart, and a wall around all.
+/// crosses every filament below; then lines prime_tower_max_bridging_distance apart, and a wall around all. Ribs and
+/// cone are loops of their own beside the wall, full in the lowest layer.
 /// @param index of the layer, from 0; the lowest is dense, and has the brim
 /// @param corner where 0, 0 of the tower comes to lie; it is turned about that by prime_tower_angle
 /// Post: the volume of what a pass lays down is what it is to purge; more where wall and grid alone are.

@@ -246,6 +246,13 @@ TEST_CASE("weft slice: --fill leaves room for the skirt, and prints more without
   CHECK(without > with_skirt);
 }
 
+TEST_CASE("objects: a skirt goes around one whose first layer is thicker, too") {
+  const Boxes boxes;
+  const auto report =
+      boxes.sliced({"base.stl", "lid.stl", "--for", "lid", "layer_height=0.3", "-s", "skirt_line_count=1"});
+  CHECK(report["features"]["skirt"]["mm"].get<double>() > 2 * 46 + 2 * 20);  // mm: both stand beside each other
+}
+
 TEST_CASE("weft slice: --place said twice prints two copies, each turned as it is told") {
   const Boxes boxes;
   boxes.scratch.write("bar.stl", box_stl(40, 10, 2));

@@ -125,6 +125,21 @@ TEST_CASE("surfaces: a vase takes one object, no support, and says where it ends
   CHECK(std::any_of(warnings.begin(), warnings.end(), [](const json& w) { return w["code"] == "spiral_ends"; }));
 }
 
+TEST_CASE("surfaces: a vase that is slowed down to cool keeps its speed to its end, where two turns are on one level") {
+  const Print print;
+  const auto gcode = print.slice({"pot.stl", "--set", "magic_spiralize=true", "--set", "cool_min_layer_time=6"});
+  double z = 0, f = 0, slowest = 1e9, fastest = 0;
+  for (const auto& line : lines_of(gcode)) {
+    if (!line.starts_with("G0 ") && !line.starts_with("G1 ")) continue;
+    z = word(line, 'Z', z), f = word(line, 'F', f);
+    if (z < 11 || line.find(" E") == std::string::npos || line.find(" E-") != std::string::npos) continue;
+    if (line.find(" X") == std::string::npos && line.find(" Y") == std::string::npos) continue;
+    slowest = std::min(slowest, f), fastest = std::max(fastest, f);
+  }
+  CHECK(slowest < 60 * 18);  // a turn of a hundred millimetres takes six seconds
+  CHECK(fastest <= 1.05 * slowest);
+}
+
 TEST_CASE("surfaces: one at a time, each object is a vase of its own") {
   const Print print;
   print.scratch.write("vase.stl", cone_stl(14, 12, 12, 120));

@@ -82,6 +82,7 @@ class Laws {
 
   void change(int tool) {
     if (tool_ == tool) faults_.insert("a tool that is loaded already");
+    if (tool_ && std::abs(drawn_[*tool_]) > 1e-4) faults_.insert("swapped while drawn back");
     end_of_pass();
     changed_ = tool_.has_value();
     tool_ = tool;

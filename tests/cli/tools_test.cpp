@@ -3,6 +3,8 @@
 #include "cli/program.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <sstream>
 
 #include <catch2/catch.hpp>
@@ -59,6 +61,36 @@ struct Boxes {
     return status == 0 ? scratch.read("out.gcode") : run.err;
   }
 };
+
+/// What moves filament alone around the first change to a tool, `14.4 F180`: neighbours one way at a speed are one.
+std::vector<std::string> filament_moves(const std::string& gcode, const std::string& tool) {
+  const auto lines = lines_of(gcode);
+  const auto of_change = [&](const std::string& line) {
+    return line == tool || line.starts_with("G0 ") || line.starts_with("G1 E");
+  };
+  const auto at = std::find(lines.begin(), lines.end(), tool);
+  auto first = at, last = at;
+  while (first != lines.begin() && of_change(*std::prev(first))) --first;
+  while (last != lines.end() && of_change(*last)) ++last;
+  std::vector<std::pair<double, std::string>> moves;  // mm, and the speed
+  for (auto line = first; line != last; ++line) {
+    if (*line == tool) moves.emplace_back(0, tool);
+    if (!line->starts_with("G1 E")) continue;
+    const double mm = std::stod(line->substr(4));
+    const auto speed = line->substr(line->find('F'));
+    if (!moves.empty() && moves.back().second == speed && mm * moves.back().first > 0)
+      moves.back().first += mm;
+    else
+      moves.emplace_back(mm, speed);
+  }
+  std::vector<std::string> out;
+  for (const auto& [mm, speed] : moves) {
+    std::ostringstream text;
+    if (speed != tool) text << std::round(mm * 1000) / 1000 << ' ';
+    out.push_back(text.str() + speed);
+  }
+  return out;
+}
 
 }  // namespace
 
@@ -150,8 +182,10 @@ TEST_CASE("cli: a tower that is told to stand outside the bed is refused with ho
   const auto error = boxes.slice({"a.stl", "b.stl@T1", "-s", "tool_nozzles=0,0", "-s", "prime_tower_position_x=215",
                                   "-s", "prime_tower_position_y=100"},
                                  5);
-  CHECK_THAT(error, Contains("prime_tower_position_x: the tower with its brim") && Contains("at +x"));
+  CHECK_THAT(error, Contains("prime_tower_position_x: the tower with its brim") && Contains("at +x; auto, or at most"));
   CHECK_FALSE(boxes.scratch.has("out.gcode"));
+  const auto half = boxes.slice({"a.stl", "b.stl@T1", "-s", "tool_nozzles=0,0", "-s", "prime_tower_position_y=5"}, 3);
+  CHECK_THAT(half, Contains("prime_tower_position_y: prime_tower_position_x is auto; say where it stands along both"));
 }
 
 TEST_CASE("cli: the last place where the tower fits passes, and the next one is refused") {
@@ -164,7 +198,7 @@ TEST_CASE("cli: the last place where the tower fits passes, and the next one is 
   };
   // 40 mm and a brim of four lines of 0.5 mm.
   CHECK_THAT(at("158", 0), Contains(";TYPE:Wipe tower"));
-  CHECK_THAT(at("158.5", 5), Contains("leaves the print surface by 0.5 mm at +x"));
+  CHECK_THAT(at("158.5", 5), Contains("leaves the print surface by 0.5 mm at +x; auto, or at most 158"));
 }
 
 TEST_CASE("cli: a tool that there is not is refused by name") {
@@ -284,6 +318,8 @@ TEST_CASE("cli: what is purged goes into infill first, and less of it into the t
   boxes.slice(into);
   const auto report = json::parse(boxes.scratch.read("out.json"));
   CHECK(report["purge"]["tower_mm3"].get<double>() < plain["purge"]["tower_mm3"].get<double>());
+  CHECK(report["purge"]["infill_mm3"].get<double>() > 0);
+  CHECK(report["purge"]["objects_mm3"].get<double>() == 0);
   CHECK(report["features"]["infill"]["mm3"].get<double>() ==
         Approx(plain["features"]["infill"]["mm3"].get<double>()).epsilon(0.001));
   CHECK(report["tools"][1]["filament"]["mm3"].get<double>() - report["tools"][1]["tower_mm3"].get<double>() >
@@ -383,10 +419,11 @@ TEST_CASE("cli: a filament that the file draws out of a shared nozzle is shaped,
                                   "-s",       "retraction_amount=0",
                                   "-s",       "relative_extrusion=true",
                                   "--report", "out.json"});
-  // 15 mm, then 70, 20 and 10 % of the 20 mm to the end of the tube, once to and fro, then on to 85 mm.
-  CHECK_THAT(gcode, Contains("G1 E-15 F6000\nG1 E-14 F5400\nG1 E-4 F2700\nG1 E-2 F1620\nG1 E10 F132\nG1 E-10 F204\n"
-                             "G1 E-50 F2000\nT1\n"));
-  CHECK_THAT(gcode, Contains("T1\nG1 E14.4 F180\nG1 E50.4 F1680\nG1 E7.2 F168\n"));
+  // 15 mm, then 70, 20 and 10 % of the 20 mm to the end of the tube, once to and fro, then on to 85 mm; pushed in bit
+  // by bit along the tower.
+  const auto moves = filament_moves(gcode, "T1");
+  CHECK(moves == std::vector<std::string>{"-15 F6000", "-14 F5400", "-4 F2700", "-2 F1620", "10 F132", "-10 F204",
+                                          "-50 F2000", "T1", "14.4 F180", "50.4 F1680", "7.2 F168"});
   const auto report = json::parse(boxes.scratch.read("out.json"));
   CHECK(report["audit"]["verdict"] == "pass");
 }

@@ -41,11 +41,35 @@ TEST_CASE("gcode: placeholders take weft's names and PrusaSlicer's, in braces an
   CHECK(expanded("M140 S{ first_layer_bed_temperature[0] }") == "M140 S60");
   CHECK(expanded("[first_layer_temperature_0]") == "210");
   CHECK(expanded("X{first_layer_print_min[0]} Y{first_layer_print_min[1]}") == "X10.5 Y20");
-  CHECK(expanded("[first_layer_print_min]") == "10.5, 20");
+  CHECK(expanded("[first_layer_print_min] {first_layer_print_min[1]}") == "10.5 20");
   CHECK(expanded("[first_layer_print_min_1]") == "20");
   CHECK(expanded("{filament_type}") == "PETG");
   CHECK(expanded("{if filament_type[0] == \"PETG\" and layer_height < 0.25}M900 K0.08{else}M900 K0.04{endif}") ==
         "M900 K0.08");
+}
+
+TEST_CASE("gcode: custom G-code may say where it has left the nozzle, and changes nothing else") {
+  const auto message = [](const std::string& code) {
+    Settings s;
+    s.gcode.tool_change_gcode = code;
+    return weft::test::settings_error([&] { check_custom_code(s); });
+  };
+  CHECK(message("{position[2] = position[2] + 2; zhop = 0.4; e_retracted[0] = 1}G1 Z{position[2] + zhop}") ==
+        "nothing was thrown");
+  CHECK(message("{layer_z = 3}").find("'layer_z' cannot be changed") != std::string::npos);
+}
+
+TEST_CASE("gcode: names that no profile has are as PrusaSlicer has them") {
+  CHECK(expanded("[printer_notes][duplicate_distance] {single_extruder_multi_material}") == "6 false");
+}
+
+TEST_CASE("gcode: what is purged, and where, has PrusaSlicer's names too") {
+  Settings s;
+  s.tools.prime_tower_width = 35_mm;
+  s.tools.purge_into_infill = true;
+  s.tools.switch_extruder_retraction_amount = 4_mm;
+  CHECK(expanded("[wipe_tower_width] [wipe_into_infill] {retract_length_toolchange[0]}", s) == "35 1 4");
+  CHECK(expanded("{if is_nil(idle_temperature[0])}off{endif} [wipe_tower_no_sparse_layers]") == "off 0");
 }
 
 TEST_CASE("gcode: under PrusaSlicer's names values have PrusaSlicer's units and words") {

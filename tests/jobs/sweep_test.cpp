@@ -20,6 +20,14 @@ TEST_CASE("sweep: values are a list, or a range whose steps are counted") {
   CHECK(parse_axis("infill_sparse_density=10:50").continuous());
 }
 
+TEST_CASE("sweep: a tool's own setting is varied, where it may be a tool's own") {
+  CHECK(parse_axis("tool.1.material-flow=90,100").key == "tool.1.material_flow");
+  CHECK(parse_axis("tool.2.material_flow=90:100").continuous());
+  CHECK_THROWS_WITH(parse_axis("tool.1.layer_height=0.1,0.2"), Contains("layer_height is no tool's own"));
+  CHECK_THROWS_WITH(parse_axis("tool.1.machine_width=100,200"), Contains("machine_width is no tool's own"));
+  CHECK_THROWS_WITH(parse_axis("tool.1.materialflow=1,2"), Contains("did you mean 'material_flow'?"));
+}
+
 TEST_CASE("sweep: what is no list of values is refused with a hint") {
   for (const auto* wrong :
        {"layer_height", "=1,2", "layer_height=", "layer_height=0.1,,0.2", "layer_height=0.1,0.1",

@@ -58,6 +58,7 @@ TEST_CASE("macro: conditions stand around text, or within braces") {
         "three");
   CHECK(expanded("{local x = 0; if layer_num > 2 then x = 1; else x = 2; endif; x}") == "1");
   CHECK(expanded("{local x = 0}\n{\n  if notes =~ /.*MK3.*/ then\n    x = 5;\n  endif\n}{x}") == "\n5");
+  CHECK(expanded("{\nlocal x = 1;\nif x > 0 then\n x = 2;\nelse\nendif\n\"x\" + x;\n}") == "x2");
   CHECK(expanded("{if false}a{elsif false}b{elsif true}c{elsif true}d{else}e{endif}") == "c");
   CHECK(expanded("{if true}{if false}a{else}b{endif}{else}{if true}c{endif}{endif}") == "b");
 }

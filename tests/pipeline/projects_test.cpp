@@ -236,6 +236,21 @@ TEST_CASE("project: heights of layers that come with an object are its own, unle
                     [](const Notice& notice) { return notice.code == "layer_heights_left_out"; }));
 }
 
+TEST_CASE("project: heights of layers hold where nothing else is said of the object, too") {
+  const Folder folder;
+  const auto bare = [&](const Files& more) {
+    const auto file = folder.write(
+        "b.3mf", fixtures::three_mf(model("<object id=\"7\" type=\"model\">" + mesh_of({body}) + "</object>",
+                                          "<item objectid=\"7\" printable=\"1\"/>"),
+                                    more));
+    return printed(plain_job(file)).report.layers;
+  };
+  const auto plain = bare({});
+  CHECK(bare({{"Metadata/Slic3r_PE_layer_heights_profile.txt", "object_id=1|0;0.2;0.2;0.2;2;0.1;6;0.1\n"}}) >
+        plain + 10);
+  CHECK(bare({{"Metadata/Slic3r_PE_layer_heights_profile.txt", "object_id=2|0;0.2;0.2;0.2;2;0.1;6;0.1\n"}}) == plain);
+}
+
 TEST_CASE("project: one of OrcaSlicer is printed as a plate that says the same in weft's words") {
   const Folder folder;
   auto dense = plug;

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cuboid.h"
+#include "model_of_boxes.h"
 #include "pipeline/pipeline.h"
 #include "settings/catalogue.h"
 
 #include <array>
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <set>
 #include <string>
@@ -13,45 +11,12 @@
 #include <vector>
 
 #include <catch2/catch.hpp>
-#include <unistd.h>
 
 using namespace weft;
+using weft::test::Corners;
+using Model = weft::test::ModelOfBoxes;
 
 namespace {
-
-using Corners = std::array<double, 6>;
-
-/// Boxes that stand on each other, as a file.
-class Model {
- public:
-  explicit Model(const std::vector<Corners>& boxes) {
-    std::string name = (std::filesystem::temp_directory_path() / "weft-keys-XXXXXX.stl").string();
-    ::close(::mkstemps(name.data(), 4));
-    path_ = name;
-    std::ofstream out(path_);
-    out << "solid s\n";
-    for (const auto& b : boxes) box(b, out);
-    out << "endsolid s\n";
-  }
-  Model(const Model&) = delete;
-  Model& operator=(const Model&) = delete;
-  ~Model() { std::filesystem::remove(path_); }
-  const std::string& path() const { return path_; }
-
- private:
-  static void box(const Corners& b, std::ofstream& out) {
-    for (const auto& f : cuboid_faces) {
-      out << "facet normal 0 0 0\nouter loop\n";
-      for (const int v : f) {
-        const bool right = v % 4 == 1 || v % 4 == 2, behind = v % 4 >= 2;
-        out << "vertex " << (right ? b[3] : b[0]) << ' ' << (behind ? b[4] : b[1]) << ' ' << (v >= 4 ? b[5] : b[2])
-            << '\n';
-      }
-      out << "endloop\nendfacet\n";
-    }
-  }
-  std::string path_;
-};
 
 /// What a row is tried on.
 enum class On { tee, over, bridge, stairs, slope, tiny, fork, corner };
@@ -180,7 +145,7 @@ std::vector<Row> rows() {
       {"support_bottom_stair_step_height", "1", On::stairs, all_support, less, c},
       {"support_bottom_stair_step_width", "0.3", On::stairs, all_support, more,
        with(c, {{"support_bottom_stair_step_height", "1"}})},
-      {"support_synchronize_layers", "true", On::tee, all_support, less, with(c, {{"support_top_distance", "0.13"}})},
+      {"support_synchronize_layers", "true", On::tee, layers, less, with(c, {{"support_top_distance", "0.13"}})},
       {"support_infill_sparse_thickness", "0.1", On::tee, layers, more, c},
       {"support_line_width", "0.8", On::tee, length, less, c},
       {"support_wall_count", "2", On::tee, columns, more, c},
@@ -209,7 +174,7 @@ std::vector<Row> rows() {
       {"support_tower_maximum_supported_diameter", "1", On::tiny, columns, less,
        with(c, {{"support_use_towers", "true"}})},
       {"support_tower_roof_angle", "85", On::tiny, columns, less, with(c, {{"support_use_towers", "true"}})},
-      {"support_tree_style", "strong", On::tee, slender, less, t},
+      {"support_tree_style", "strong", On::tee, columns, more, t},
       {"support_tree_angle", "10", On::tee, any, other, t},
       {"support_tree_angle_slow", "10", On::tee, any, other, t},
       {"support_tree_branch_diameter", "4", On::tee, slender, less, t},

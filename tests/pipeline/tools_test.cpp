@@ -150,6 +150,8 @@ TEST_CASE("tools: tool_change_gcode knows from which tool to which, and may choo
   auto settings = settings_for(Firmware::marlin2);
   settings.gcode.tool_change_gcode = "; {previous_extruder} to {next_extruder} at {toolchange_z}";
   CHECK_THAT(Printed(settings).text, Contains("; 0 to 0 at 0.2\nT0\n") && Contains("; 0 to 1 at 0.2\nT1\n"));
+  settings.gcode.tool_change_gcode = "; {current_extruder}";
+  CHECK_THAT(Printed(settings).text, Contains("; 0\nT1\n"));  // as in PrusaSlicer: until it is changed
   settings.gcode.tool_change_gcode = "G4 P100\nT{next_extruder}";
   const auto text = Printed(settings).text;
   CHECK_THAT(text, Contains("G4 P100\nT1\nG0 X20"));

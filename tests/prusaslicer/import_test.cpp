@@ -109,6 +109,13 @@ TEST_CASE("prusaslicer: the second values of all limits are those of silent mode
   CHECK(value_of(translated(off), "machine_silent_limits") == "(absent)");
 }
 
+TEST_CASE("prusaslicer: arcs stand off their moves by gcode_resolution") {
+  CHECK(value_of(translated("arc_fitting = emit_center\ngcode_resolution = 0.02\n"), "arc_tolerance") == "0.02");
+  CHECK(value_of(translated("arc_fitting = emit_center\ngcode_resolution = 0\n"), "arc_tolerance") == "0.001");
+  CHECK(value_of(translated("arc_fitting = disabled\ngcode_resolution = 0.02\n"), "arc_tolerance") == "(absent)");
+  CHECK(value_of(translated("arc_fitting = emit_center\ngcode_resolution = 0.02\n"), "resolution") == "0.02");
+}
+
 TEST_CASE("prusaslicer: what layers of varying height may be is said for adaptive ones") {
   const auto t = translated("min_layer_height = 0.05\nmax_layer_height = 0\n");
   CHECK(value_of(t, "adaptive_layer_height_min") == "0.05");

@@ -145,3 +145,44 @@ TEST_CASE("prusaslicer: filament G-code goes with its filament, with semicolons 
   CHECK(value_of(t, "machine_extruder_end_code") == "; done");
   CHECK(value_of(t, "tool.1.machine_extruder_end_code") == "(absent)");
 }
+
+TEST_CASE("prusaslicer: a tower that nobody asked for or forbade stands where filaments share a nozzle") {
+  CHECK(value_of(translated(shared), "prime_tower_enable") == "(absent)");
+  CHECK(value_of(translated(shared + "wipe_tower = 0\n"), "prime_tower_enable") == "false");
+}
+
+TEST_CASE("prusaslicer: a tower stands where a profile says it, of which one half may be PrusaSlicer's own") {
+  CHECK(value_of(translated(shared), "prime_tower_position_y") == "(absent)");
+  CHECK(value_of(translated(shared + "wipe_tower_x = 60\n"), "prime_tower_position_y") == "140");
+}
+
+TEST_CASE("prusaslicer: what a tower stands by, its layers without a change, and how deep paint goes") {
+  const auto t = translated(shared +
+                            "wipe_tower_cone_angle = 25\nwipe_tower_no_sparse_layers = 1\n"
+                            "mmu_segmented_region_max_width = 1.5\n");
+  CHECK(value_of(t, "prime_tower_shape") == "cone");
+  CHECK(value_of(t, "prime_tower_cone_angle") == "25");
+  CHECK(value_of(t, "prime_tower_sparse") == "false");
+  CHECK(value_of(t, "paint_depth") == "1.5");
+  CHECK(value_of(translated(shared + "mmu_segmented_region_max_width = 0\n"), "paint_depth") == "1000");
+}
+
+TEST_CASE("prusaslicer: nozzles of their own are rammed where their filaments say so") {
+  const std::string own =
+      "nozzle_diameter = 0.4,0.4\nfilament_multitool_ramming = 1,0\nfilament_multitool_ramming_volume = 10,10\n"
+      "filament_multitool_ramming_flow = 15,15\n";
+  const auto t = translated(own);
+  CHECK(value_of(t, "filament_multitool_ramming_volume") == "10");
+  CHECK(value_of(t, "filament_multitool_ramming_flow") == "15");
+  CHECK(value_of(translated(own + "single_extruder_multi_material = 1\n"), "filament_multitool_ramming_volume") ==
+        "(absent)");
+}
+
+TEST_CASE("prusaslicer: what is written at a colour change and a pause comes in where a profile says it") {
+  const auto t = translated(
+      "nozzle_diameter = 0.4\nprinter_technology = FFF\ncolor_change_gcode = M600\\nG1 E0.4 F1500\n"
+      "pause_print_gcode = M601\n");
+  CHECK(value_of(t, "color_change_gcode") == "M600\\nG1 E0.4 F1500");
+  CHECK(value_of(t, "pause_gcode") == "M601");
+  CHECK(value_of(translated(shared), "pause_gcode") == "(absent)");
+}

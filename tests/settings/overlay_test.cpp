@@ -54,6 +54,9 @@ TEST_CASE("overlay: a value where it may not differ is refused, and the message 
              Contains("height range 1 … 2: slicing_mode holds for a whole object"));
   const Overlay modifier{.what = "modifier 'grip'", .scope = Scope::region};
   CHECK_THAT(refused(modifier, "layer_height", "0.1"), Contains("layer_height holds for a whole layer"));
+  const Overlay tool{.what = "tool 1", .scope = Scope::tool};
+  CHECK_THAT(refused(tool, "layer_height", "0.3"), Contains("tool 1: layer_height holds for a whole layer"));
+  CHECK_THAT(refused(tool, "slicing_mode", "even_odd"), Contains("tool 1: slicing_mode holds for a whole object"));
   CHECK_THAT(refused(of_object(), "infill_before_walls", "true"),
              Contains("infill_before_walls holds for the whole plate"));
   CHECK_THAT(refused(of_object(), "speed_travel", "100"), Contains("speed_travel holds for the whole plate"));

@@ -2,6 +2,7 @@
 #include "tools/order.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <random>
 
 #include <catch2/catch.hpp>
@@ -86,4 +87,28 @@ TEST_CASE("tools: a layer of more tools than are tried exactly has each of them 
     for (std::size_t b = 0; b < 14; ++b) costs[a][b] = a == b ? 0 : static_cast<double>(1 + (a * 7 + b * 3) % 11);
   const ToolSets layers{many, {3, 4}, many};
   CHECK(sorted(tools::ordered(layers, costs, ToolOrder::least)) == layers);
+}
+
+TEST_CASE("tools: an order of many tools is bettered until no stretch is cheaper turned or moved", "[tools]") {
+  // Tools on a line, whose changes cost their distance: there is a way that goes along it once.
+  const std::vector<int> places{5, 0, 9, 2, 7, 1, 11, 4, 10, 3, 8, 6};
+  Costs costs(12, std::vector<double>(12, 0));
+  std::vector<ToolId> all;
+  for (std::size_t a = 0; a < 12; ++a) {
+    all.push_back(static_cast<ToolId>(a));
+    for (std::size_t b = 0; b < 12; ++b) costs[a][b] = std::abs(places[a] - places[b]);
+  }
+  const auto order = tools::ordered({all}, costs, ToolOrder::least);
+  CHECK(tools::cost_of(order, costs) == 11);
+}
+
+TEST_CASE("tools: three filaments of which two print in each layer change sixty times in fifty layers", "[tools]") {
+  ToolSets layers;
+  const std::vector<std::vector<ToolId>> pairs{{0, 2}, {0, 1}, {1, 2}, {0, 1}, {0, 2}};
+  for (std::size_t i = 0; i < 50; ++i) layers.push_back(pairs[i % pairs.size()]);
+  Costs even(3, std::vector<double>(3, 1));
+  for (std::size_t i = 0; i < 3; ++i) even[i][i] = 0;
+  const double least = tools::cost_of(tools::ordered(layers, even, ToolOrder::least), even);
+  CHECK(least == 60);
+  CHECK(tools::cost_of(tools::ordered(layers, even, ToolOrder::cyclic), even) > least);
 }

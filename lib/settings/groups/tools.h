@@ -23,6 +23,13 @@ constexpr auto choices_of(ToolSelect) {
                     Choice<ToolSelect>{ToolSelect::swap, "swap"}};
 }
 
+/// What a tower has beside its walls, to stand by: nothing, ribs at its corners, or a cone around its foot.
+enum class TowerShape { plain, ribs, cone };
+constexpr auto choices_of(TowerShape) {
+  return std::array{Choice<TowerShape>{TowerShape::plain, "plain"}, Choice<TowerShape>{TowerShape::ribs, "ribs"},
+                    Choice<TowerShape>{TowerShape::cone, "cone"}};
+}
+
 /// Along what a gradient runs.
 enum class GradientAxis { x, y, z };
 constexpr auto choices_of(GradientAxis) {
@@ -30,12 +37,12 @@ constexpr auto choices_of(GradientAxis) {
                     Choice<GradientAxis>{GradientAxis::z, "z"}};
 }
 
-/// How a share of a filament is made: by whole lines, by whole layers, or in the nozzle.
-enum class GradientMode { lines, layers, mix };
+/// How a share of a filament is made: by whole lines, by stripes across the axis, by whole layers, or in the nozzle.
+enum class GradientMode { lines, stripes, layers, mix };
 constexpr auto choices_of(GradientMode) {
-  return std::array{Choice<GradientMode>{GradientMode::lines, "lines"},
-                    Choice<GradientMode>{GradientMode::layers, "layers"},
-                    Choice<GradientMode>{GradientMode::mix, "mix"}};
+  return std::array{
+      Choice<GradientMode>{GradientMode::lines, "lines"}, Choice<GradientMode>{GradientMode::stripes, "stripes"},
+      Choice<GradientMode>{GradientMode::layers, "layers"}, Choice<GradientMode>{GradientMode::mix, "mix"}};
 }
 
 /// Which tools there are, what each of them prints, how one follows the other, and what happens at heights. A tool is
@@ -66,6 +73,8 @@ struct ToolSettings {
   Um switch_extruder_retraction_amount = 10_mm;
   Um switch_extruder_extra_prime_amount = 0_mm;
   std::string filament_ramming_parameters;
+  double filament_multitool_ramming_volume = 0;
+  double filament_multitool_ramming_flow = 10;
   double filament_unloading_speed_start = 100;
   double filament_unloading_speed = 90;
   double filament_loading_speed_start = 3;
@@ -88,6 +97,9 @@ struct ToolSettings {
   double prime_tower_angle = 0;
   Um prime_tower_brim_width = 2_mm;
   Um prime_tower_max_bridging_distance = 10_mm;
+  TowerShape prime_tower_shape = TowerShape::plain;
+  double prime_tower_cone_angle = 30;
+  bool prime_tower_sparse = true;
   std::optional<int> prime_tower_extruder_nr;
   double prime_tower_min_volume = 15;
   std::optional<Numbers> purge_volumes;
@@ -99,6 +111,10 @@ struct ToolSettings {
   GradientAxis gradient_axis = GradientAxis::z;
   ValuesAt gradient_stops;
   GradientMode gradient_mode = GradientMode::lines;
+  Um gradient_stripe_period = 4_mm;
+  Um paint_depth = 3_mm;
+  double colour_match = 20;
+  bool prime_line = false;
   bool ooze_shield_enabled = false;
   Um ooze_shield_dist = 2_mm;
   HeightMarks pause_at_heights;
@@ -165,6 +181,12 @@ inline constexpr Rows tool_schema{
         "filament_ramming_parameters", Scope::tool, &ToolSettings::filament_ramming_parameters,
         "Before the filament is drawn out of a shared nozzle its tip is shaped: width and spacing of lines in percent, "
         "then mm³/s, each for a quarter of a second: 120 100 6.6 6.8 7.2; empty: it is not."),
+    setting("filament_multitool_ramming_volume", Scope::tool, &ToolSettings::filament_multitool_ramming_volume,
+            Unit::mm3, 0, 1000,
+            "Before a tool with a nozzle of its own is put away so much is laid on the tower, quickly: what has been "
+            "hot for long is out, and less oozes; 0: nothing."),
+    setting("filament_multitool_ramming_flow", Scope::tool, &ToolSettings::filament_multitool_ramming_flow, Unit::mm3_s,
+            0.1, 200, "How fast that is laid."),
     setting("filament_unloading_speed_start", Scope::tool, &ToolSettings::filament_unloading_speed_start, Unit::mm_s,
             0.1, 500, "Speed of the first 15 mm that are drawn out."),
     setting("filament_unloading_speed", Scope::tool, &ToolSettings::filament_unloading_speed, Unit::mm_s, 0.1, 500,
@@ -211,6 +233,13 @@ inline constexpr Rows tool_schema{
             "How far the tower's first layer reaches beyond it."),
     setting("prime_tower_max_bridging_distance", Scope::plate, &ToolSettings::prime_tower_max_bridging_distance,
             Unit::mm, 1_mm, 50_mm, "Between the lines where a layer of the tower is not filled by purging."),
+    setting("prime_tower_shape", Scope::plate, &ToolSettings::prime_tower_shape,
+            "What the tower has beside its walls to stand by: plain, ribs at its corners, or a cone around its foot."),
+    setting("prime_tower_cone_angle", Scope::plate, &ToolSettings::prime_tower_cone_angle, Unit::degrees, 0, 90,
+            "Angle at the tip of that cone, which is as high as the tower."),
+    setting("prime_tower_sparse", Scope::plate, &ToolSettings::prime_tower_sparse,
+            "The tower keeps up with what is printed, in layers without a change too; off: it has only those with "
+            "one, lies lower in the end, and the nozzle goes down to it, as far as the head has room."),
     setting(
         "prime_tower_extruder_nr", Scope::plate, &ToolSettings::prime_tower_extruder_nr, Unit::none, 0, 31,
         "The tool of the tower's wall, in layers that it prints in; auto: where filaments are of one kind, whichever "
@@ -235,8 +264,17 @@ inline constexpr Rows tool_schema{
     setting("gradient_stops", Scope::object, &ToolSettings::gradient_stops, Unit::none, -10000, 10000,
             "Share of the second tool at places, mm:%, even between them: 0:0, 30:100. Of x and y as on the bed."),
     setting("gradient_mode", Scope::object, &ToolSettings::gradient_mode,
-            "How the share is made: lines (each of one of the two), layers (in turn), or mix (in the nozzle: M163 or "
-            "M567)."),
+            "How the share is made: lines (each of one of the two), stripes (across x or y), layers (in turn), or mix "
+            "(in the nozzle: M163 or M567)."),
+    setting("gradient_stripe_period", Scope::object, &ToolSettings::gradient_stripe_period, Unit::mm, 0.5_mm, 200_mm,
+            "A stripe of the first tool and one of the second together."),
+    setting("paint_depth", Scope::object, &ToolSettings::paint_depth, Unit::mm, 0.1_mm, 1000_mm,
+            "How deep what is painted on a surface for another tool reaches into the part."),
+    setting("colour_match", Scope::plate, &ToolSettings::colour_match, Unit::none, 0, 400,
+            "A colour of a 3MF goes to the tool of the nearest filament_colour; one that differs by more than this "
+            "(ΔE 1976) is told."),
+    setting("prime_line", Scope::plate, &ToolSettings::prime_line,
+            "Each tool that prints lays a line at the front of the bed first."),
     setting(
         "ooze_shield_enabled", Scope::plate, &ToolSettings::ooze_shield_enabled,
         "A wall around all objects, up to the last change of the tool, takes off what oozes from nozzles that wait."),

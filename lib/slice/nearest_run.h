@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "core/polygon.h"
+
+#include <functional>
+#include <span>
+#include <vector>
+
+/// Private to slice: which part of a region is nearest to which runs of its outline.
+namespace weft::slice {
+
+/// @param kind_at of a place on the outline, 0 … count − 1
+/// @param borders places on the outline where the kind changes: edges are divided there
+/// @return of each kind the regions of what is nearest to outline of that kind; up to rounding they do not overlap.
+///         Nothing where the outline's medial axis cannot be found.
+/// Source: F. Aurenhammer, "Voronoi diagrams", ACM Computing Surveys 23, 1991: cells of segments.
+std::vector<Regions> nearest_to(const Region& region, int count, std::span<const Point> borders,
+                                const std::function<int(Point)>& kind_at);
+
+}  // namespace weft::slice

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "model_of_boxes.h"
+#include "pipeline/pipeline.h"
+
+#include <algorithm>
+
+#include <catch2/catch.hpp>
+
+using namespace weft;
+using weft::test::Corners;
+using weft::test::ModelOfBoxes;
+
+namespace {
+
+/// A gallows with something that hangs from its arm, thicker towards the arm.
+std::vector<Corners> gallows(double thin) {
+  return {{-3, -3, 0, 3, 3, 20},
+          {-3, -3, 20, 20, 3, 24},
+          {15 - thin / 2, -thin / 2, 8, 15 + thin / 2, thin / 2, 12},
+          {14, -1, 12, 16, 1, 20}};
+}
+
+Job job_of(const ModelOfBoxes& model) {
+  Job job;
+  job.models = {model.path()};
+  job.audit = audit::Mode::annotate;
+  return job;
+}
+
+std::vector<std::string> told(const Job& job, std::string_view code) {
+  Report report;
+  REQUIRE(run(job, {}, report));
+  std::vector<std::string> out;
+  for (const auto& warning : report.warnings)
+    if (warning.code == code) out.push_back(warning.message);
+  return out;
+}
+
+bool says(const std::vector<std::string>& lines, std::string_view what) {
+  return lines.size() == 1 && lines.front().find(what) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("support: off, what begins in the air is told, where the first bead of it lies", "[support]") {
+  const ModelOfBoxes thick(gallows(1));
+  const auto of_thick = told(job_of(thick), "support_missing");
+  CHECK(says(of_thick, "1 place begins in the air"));
+  CHECK(says(of_thick, ", 8.000)"));
+  // A tip thinner than any bead is left out: what is printed first above it is what begins in the air.
+  const ModelOfBoxes thin(gallows(0.1));
+  CHECK(says(told(job_of(thin), "support_missing"), ", 12.000)"));
+}
+
+TEST_CASE("support: on, it holds what is printed first above a tip that is too thin for a bead", "[support]") {
+  const ModelOfBoxes thin(gallows(0.1));
+  Job job = job_of(thin);
+  job.settings.support.support_enable = true;
+  Report report;
+  REQUIRE(run(job, {}, report));
+  CHECK(report.support.islands == 1);
+  CHECK(report.support.left_mm2 < 0.1);
+  CHECK(told(job, "support_missing").empty());
+}
+
+TEST_CASE("support: an enforcer that meets no downward face is told, and one that does is not", "[support]") {
+  const ModelOfBoxes model(gallows(1));
+  for (const auto& [mark, idle] : {std::pair{"box:-1,-1,30,1,1,31", true}, std::pair{"box:5,-2,19,10,2,21", false}}) {
+    Job job = job_of(model);
+    job.settings.support.support_enable = true;
+    job.settings.support.support_auto = false;
+    job.marks = {{.model = 0, .kind = mesh::MarkKind::support_enforcer, .source = mark}};
+    INFO(mark);
+    CHECK(says(told(job, "support_enforcer_idle"), "meets no downward face") == idle);
+  }
+}
