@@ -301,10 +301,13 @@ double Auditor::bead_height_mm() const {
   return said > 0 ? said : layer_height_mm_;
 }
 
-/// The nozzle passes beads of the layer that it prints; the rest of what stands must not meet the head.
+/// The nozzle passes beads of the layer that it prints, lower ones beside higher ones; the rest of what stands must not
+/// meet the head.
 void Auditor::judge_head(const Motion& m) {
   if (!m.z_known) return;
-  const auto met = head_->meets(m.path, m.z_from, m.z_to, std::max(volumes_.tolerance_mm, bead_height_mm()));
+  if (const int layer = reader_.context().layer(); layer != head_layer_) head_layer_ = layer, highest_bead_mm_ = 0;
+  highest_bead_mm_ = std::max(highest_bead_mm_, bead_height_mm());
+  const auto met = head_->meets(m.path, m.z_from, m.z_to, std::max(volumes_.tolerance_mm, highest_bead_mm_));
   if (!met || met->depth_mm <= violation_.excess.mm) return;
   violation_ = {.kind = Finding::Kind::head, .move = m.kind, .excess = {}, .z_mm = m.z_to};
   violation_.excess.mm = met->depth_mm, violation_.excess.at = met->nozzle;

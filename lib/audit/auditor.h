@@ -60,6 +60,8 @@ class Auditor {
   Reader reader_;
   Tally tally_;
   std::optional<HeadWatch> head_;  ///< absent: nothing is known of it
+  int head_layer_ = -1;
+  double highest_bead_mm_ = 0;  ///< of that layer so far
   Owners owners_;
   Tally unmarked_;  ///< what counts only if no comment ever tells print from custom G-code
   std::int64_t checked_ = 0, unaudited_ = 0;
