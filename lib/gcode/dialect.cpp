@@ -139,6 +139,11 @@ void Dialect::temperature(Text& out, const SetTemperature& heat) const {
   if (heat.wait) out << "M116 P" << std::int64_t{heat.tool} << '\n';
 }
 
+/// Source: Duet3D, "GCode dictionary", M568, since 3.3: A1 is standby. Older firmware answers with its settings.
+void Dialect::stand_by(Text& out, ToolId tool) const {
+  if (selects_to_heat()) out << "M568 P" << std::int64_t{tool} << " A1\n";
+}
+
 std::string_view Dialect::advance_command() const {
   switch (firmware) {
     case Firmware::klipper:

@@ -49,6 +49,8 @@ struct Dialect {
   std::string_view advance_command() const;
   /// Heaters of a tool that is not selected are off, whatever temperature it is given: it is selected first.
   bool selects_to_heat() const { return firmware == Firmware::reprapfirmware; }
+  /// …or told to stand by, which heats it before it is selected for the first time. Pre: it has a temperature
+  void stand_by(Text& out, ToolId tool) const;
   /// What a mixing nozzle makes of two filaments. @param share of the second, 0 … 1
   void mix(Text& out, double share) const;
   /// Waits for the user; what firmwares call this they do in ways of their own.

@@ -389,7 +389,11 @@ class LayerText {
     out_ << "G92 E0\n";
     e_wanted_ = 0, e_written_ = 0;
   }
-  void print(const SetTemperature& heat) { job_.dialect.temperature(out_, heat); }
+  void print(const SetTemperature& heat) {
+    job_.dialect.temperature(out_, heat);
+    const bool nozzle = heat.heater == SetTemperature::Heater::nozzle && heat.tool != any_tool;
+    if (nozzle && !heat.wait && heat.celsius > 0 && heat.tool != state_.tool) job_.dialect.stand_by(out_, heat.tool);
+  }
   void print(const Feed& step) {
     hold();
     if (step.mm == 0) {

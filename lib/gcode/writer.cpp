@@ -187,7 +187,10 @@ void Writer::heat_at_start(Text& out, bool wait) const {
   if (wait || shares_nozzle(job_.tools)) return;
   const auto& cold = job_.cold_at_start;
   for (const ToolId tool : used_)
-    if (tool != used_.front() && std::find(cold.begin(), cold.end(), tool) == cold.end()) heat(tool);
+    if (tool != used_.front() && std::find(cold.begin(), cold.end(), tool) == cold.end()) {
+      heat(tool);
+      dialect_.stand_by(out, tool);
+    }
 }
 
 /// The nozzle's temperature when the first layer is over, or another begins; others get theirs when they are loaded.

@@ -182,13 +182,15 @@ TEST_CASE("change: a nozzle that is put away lays what it is to be emptied of on
   CHECK(rammed["audit"]["verdict"] == "pass");
 }
 
-TEST_CASE("change: RepRapFirmware selects the first tool before it waits for its heat") {
+TEST_CASE("change: RepRapFirmware selects the first tool before it waits for its heat, and has the others stand by") {
   const Boxes boxes;
   const auto gcode = boxes.slice({"-s", "nozzle_diameter=0.4,0.4", "-s", "firmware=reprapfirmware"});
   CHECK_THAT(gcode, Contains("\nT0\nG10 P0 S"));
   const auto lines = lines_of(gcode);
   CHECK(std::count(lines.begin(), lines.end(), "M116 P0") > 0);
   CHECK(std::find(lines.begin(), lines.end(), "T0") < std::find(lines.begin(), lines.end(), "M116 P0"));
+  CHECK(std::find(lines.begin(), lines.end(), "M568 P1 A1") < std::find(lines.begin(), lines.end(), "T1"));
+  CHECK(std::find(lines.begin(), lines.end(), "M568 P0 A1") > std::find(lines.begin(), lines.end(), "T1"));
 }
 
 TEST_CASE("change: filaments that share a nozzle without a tower are told to mix") {

@@ -123,7 +123,7 @@ TEST_CASE("tools: each firmware is told in its own words, and the place is said 
              Contains("M104 T1 S190\nACTIVATE_EXTRUDER EXTRUDER=extruder\n") &&
                  Contains("M109 T1 S215\nACTIVATE_EXTRUDER EXTRUDER=extruder1\nG0 X20 Y40 F9000\nG0 Z.2") &&
                  Contains("M117 lay the nut in\nPAUSE\nG0 X20 Y40 F9000\nG0 Z.4"));
-  CHECK_THAT(Printed(settings_for(Firmware::reprapfirmware)).text, Contains("G10 P1 S190 R190\n") &&
+  CHECK_THAT(Printed(settings_for(Firmware::reprapfirmware)).text, Contains("G10 P1 S190 R190\nM568 P1 A1\n") &&
                                                                        Contains("G10 P1 S215 R215\nM116 P1\nT1\n") &&
                                                                        Contains("M226\nG0 X20 Y40 F9000\nG0 Z.4"));
   CHECK_THAT(Printed(settings_for(Firmware::repetier)).text,
