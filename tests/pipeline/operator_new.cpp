@@ -11,6 +11,10 @@ void* operator new(std::size_t bytes) {
   if (void* const p = std::malloc(bytes > 0 ? bytes : 1)) return p;
   throw std::bad_alloc();
 }
+// A sanitizer's own would not go through the one above, but its memory through the operator delete below.
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
+  return std::malloc(bytes > 0 ? bytes : 1);
+}
 void operator delete(void* p) noexcept {
   std::free(p);
 }
