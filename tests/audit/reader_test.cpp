@@ -46,7 +46,7 @@ TEST_CASE("audit: a bead, an arc or a relative move from an unknown place is not
   CHECK(bench.moves("PRINT_START\nG91\nG1 Z10\nG90\nG1 X5 Y5 Z5\n").unaudited_moves == 1);
 }
 
-TEST_CASE("audit: a raise off the bed before homing is what it is; a high one, and one after homing, are not audited",
+TEST_CASE("audit: a raise off the bed before homing is what it is, a high one, and one after homing, are not audited",
           "[audit]") {
   const Bench bench;
   CHECK(bench("G91\nG1 Z5 F600\nG90\nG28\nG1 X10 Y10 Z5\n").clean());
@@ -98,7 +98,7 @@ TEST_CASE("audit: the whole way of the first move after homing is judged", "[aud
   CHECK(bench("G28\nG1 Z5\nG1 X190 Y50\n").violation_count == 1);
 }
 
-TEST_CASE("audit: G10 and G11 retract; tool offsets count when the tool is used; workspaces where they are known",
+TEST_CASE("audit: G10 and G11 retract, tool offsets count when the tool is used, workspaces where they are known",
           "[audit]") {
   Bench bench;
   CHECK(bench.moves("G10\nG1 X50\nG11\nG10 S1\nG10 P0 S200 R150\nG10 P1 X10 Y5\nG1 X60\n").clean());

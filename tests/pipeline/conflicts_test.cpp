@@ -139,7 +139,7 @@ TEST_CASE("conflicts: depth between strokes of varying width is the deepest of a
   }
 }
 
-TEST_CASE("conflicts: all pairs are told, with names, place, layer and depth; an object and its support are one") {
+TEST_CASE("conflicts: all pairs are told, with names, place, layer and depth, an object and its support are one") {
   const Bead wall = square({10'000, 10'000}, 5'000, 400, false), inside = square({12'700, 10'000}, 5'000, 400, false);
   auto low = layer(200, {{wall}, {square({40'000, 0}, 5'000, 400, false)}}),
        high = layer(400, {{wall}, {inside}}, {bead({{{7'300, 5'000}, 400}, {{7'300, 15'000}, 400}}, Role::skirt)});

@@ -112,7 +112,7 @@ TEST_CASE("one at a time: an order is found exactly when brute force finds one")
   CHECK(none >= 10);
 }
 
-TEST_CASE("one at a time: low ones first, then the nearest; what hinders is named") {
+TEST_CASE("one at a time: low ones first, then the nearest, what hinders is named") {
   Settings settings;
   settings.plate = with_head();
   settings.adhesion.skirt_line_count = 0;

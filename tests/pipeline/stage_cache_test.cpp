@@ -254,7 +254,7 @@ TEST_CASE("cache: the folder stays within its bounds") {
   CHECK(folder.entries().size() > 20);
 }
 
-TEST_CASE("cache: several threads that want one result make it once; when the first gives up the next makes it") {
+TEST_CASE("cache: several threads that want one result make it once, when the first gives up the next makes it") {
   StageCache cache({});
   constexpr StageCache::Kind kind{[](const void*) { return std::string(); },
                                   [](std::string_view) -> std::shared_ptr<const void> { return nullptr; },

@@ -49,7 +49,7 @@ TEST_CASE("travel: a scarf seam holds the volume of the wall and covers its ramp
   }
 }
 
-TEST_CASE("travel: outer walls have scarf seams from the second layer on; the nozzle goes down to where they begin",
+TEST_CASE("travel: outer walls have scarf seams from the second layer on, the nozzle goes down to where they begin",
           "[travel]") {
   TravelSettings settings;
   settings.scarf_joint_seam_length = 5000;

@@ -62,7 +62,7 @@ TEST_CASE("spiral: turns follow each other without a gap in x, y or z, and rise 
   }
 }
 
-TEST_CASE("spiral: passing over, a turn lies between two loops; else it keeps to its own") {
+TEST_CASE("spiral: passing over, a turn lies between two loops, else it keeps to its own") {
   for (const bool smooth : {true, false}) {
     Spiral spiral({.smooth = smooth});
     spiral.turn(ring(10'000, 200), 200, {true, false}, Point{10'000, 0});
