@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Heights of layers, flow, pressure and the fan, as users meet them.
-#include "cli/program.h"
+#include "cli/print.h"
 
 #include <cmath>
 #include <sstream>
@@ -13,25 +13,15 @@ using nlohmann::json;
 
 namespace {
 
-struct Print {
-  Scratch scratch;
-  Print() {
+struct Boxes : Print {
+  Boxes() {
     scratch.write("box.stl", box_stl(20, 20, 5.37F));
     scratch.write("thin.stl", box_stl(20, 20, 2));
-  }
-  std::string slice(std::vector<std::string> more, int status = 0) const {
-    std::vector<std::string> words{"slice", "-o", "out.gcode", "--report", "report.json", "-q"};
-    words.insert(words.end(), more.begin(), more.end());
-    const auto run = weft(words, scratch.path());
-    INFO(run.err);
-    REQUIRE(run.status == status);
-    return status == 0 ? scratch.read("out.gcode") : run.err;
   }
   std::string refused(const std::string& line) const {
     scratch.write("p.ini", "# 1\n# 2\n" + line + "\n");
     return slice({"box.stl", "-p", "p.ini"}, 3);
   }
-  json report() const { return json::parse(scratch.read("report.json")); }
 };
 
 std::vector<double> heights_of(const std::string& gcode) {
@@ -53,7 +43,7 @@ std::string commands_of(const std::string& gcode) {
 }  // namespace
 
 TEST_CASE("heights: layers meet the top, by ranges and by the surface") {
-  const Print print;
+  const Boxes print;
   const auto plain = heights_of(print.slice({"box.stl"}));
   CHECK(plain.back() != Approx(5.37));
   const auto adaptive = heights_of(print.slice({"box.stl", "--set", "adaptive_layer_height_enabled=true"}));
@@ -73,7 +63,7 @@ TEST_CASE("heights: layers meet the top, by ranges and by the surface") {
 }
 
 TEST_CASE("heights: objects of one plate have layers of their own, which are printed by height") {
-  const Print print;
+  const Boxes print;
   const auto gcode = print.slice({"box.stl", "thin.stl", "--for", "thin", "layer_height_ranges=0.2-2:0.15"});
   double before = 0;
   const auto heights = heights_of(gcode);
@@ -89,7 +79,7 @@ TEST_CASE("heights: objects of one plate have layers of their own, which are pri
 }
 
 TEST_CASE("motion: what is wrong with a setting is said with its line") {
-  const Print print;
+  const Boxes print;
   CHECK_THAT(print.refused("adaptive_layer_height_max = 0.25\nadaptive_layer_height_min = 0.3"),
              Contains("p.ini:4: adaptive_layer_height_min: 0.3 mm is more than adaptive_layer_height_max, 0.25 mm"));
   CHECK_THAT(print.refused("layer_height_ranges = 5-20:0.2; 18-30:0.1"),
@@ -101,7 +91,7 @@ TEST_CASE("motion: what is wrong with a setting is said with its line") {
 }
 
 TEST_CASE("motion: doubts about slopes and arcs say what they do") {
-  const Print print;
+  const Boxes print;
   const auto doubt = [&](const std::string& lines) {
     print.scratch.write("p.ini", lines);
     const auto run = weft({"profile", "check", "p.ini"}, print.scratch.path());
@@ -116,7 +106,7 @@ TEST_CASE("motion: doubts about slopes and arcs say what they do") {
 }
 
 TEST_CASE("motion: what is off changes no byte, and what is on is in the file") {
-  const Print print;
+  const Boxes print;
   const auto plain = commands_of(print.slice({"box.stl"}));
   for (const char* off :
        {"brim_ears_max_angle=90", "fuzzy_skin_scale=2", "spiral_smoothing=50", "pressure_advance_step=0.01",
@@ -135,7 +125,7 @@ TEST_CASE("motion: what is off changes no byte, and what is on is in the file") 
 }
 
 TEST_CASE("motion: a report tells what a print asks of nozzle, fan and eye") {
-  const Print print;
+  const Boxes print;
   print.slice({"box.stl", "--set", "ironing_enabled=true"});
   const auto r = print.report();
   CHECK(r["per_layer"].size() == r["layers"]);
@@ -153,7 +143,7 @@ TEST_CASE("motion: a report tells what a print asks of nozzle, fan and eye") {
 }
 
 TEST_CASE("motion: where the machine has a silent mode, M73 tells its times, too") {
-  const Print print;
+  const Boxes print;
   const std::string limits = "machine_silent_limits=50,50,5,20,300,300,100,1000,4,0.2,2";
   const auto gcode = print.slice({"box.stl", "--set", limits});
   CHECK_THAT(gcode, Contains("\nM73 P0 R") && Contains("\nM73 Q0 S") && Contains("\nM73 Q100 S0\n") &&
@@ -164,7 +154,7 @@ TEST_CASE("motion: where the machine has a silent mode, M73 tells its times, too
 }
 
 TEST_CASE("audit: --time tells what a file's moves take, about as its slicer did") {
-  const Print print;
+  const Boxes print;
   for (const char* firmware : {"klipper", "marlin2", "reprapfirmware"}) {
     INFO(firmware);
     const std::string set = std::string("firmware=") + firmware;

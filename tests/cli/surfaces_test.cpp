@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Vases, arcs, ironing, rough walls and single walls, as users meet them.
-#include "cli/program.h"
+#include "cli/print.h"
+#include "source.h"
 
 #include <algorithm>
 #include <array>
@@ -40,21 +41,11 @@ std::string cone_stl(float r0, float r1, float height, int count) {
   return out;
 }
 
-struct Print {
-  Scratch scratch;
-  Print() {
+struct Models : Print {
+  Models() {
     scratch.write("pot.stl", cone_stl(12, 16, 12, 120));
     scratch.write("box.stl", box_stl(20, 20, 2));
   }
-  std::string slice(std::vector<std::string> more, int status = 0) const {
-    std::vector<std::string> words{"slice", "-o", "out.gcode", "--report", "report.json", "-q"};
-    words.insert(words.end(), more.begin(), more.end());
-    const auto run = weft(words, scratch.path());
-    INFO(run.err);
-    REQUIRE(run.status == status);
-    return status == 0 ? scratch.read("out.gcode") : run.err;
-  }
-  json report() const { return json::parse(scratch.read("report.json")); }
 };
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -80,7 +71,7 @@ std::string commands_of(const std::string& gcode) {
 }  // namespace
 
 TEST_CASE("surfaces: a vase rises without an end: above the bottom no travel, no line that only lifts, one speed") {
-  const Print print;
+  const Models print;
   const auto gcode = print.slice({"pot.stl", "--set", "magic_spiralize=true", "--set", "cool_min_layer_time=0"});
   double x = 0, y = 0, z = 0, f = 0, highest = 0;
   std::size_t rising = 0, turns = 0;
@@ -114,7 +105,7 @@ TEST_CASE("surfaces: a vase rises without an end: above the bottom no travel, no
 }
 
 TEST_CASE("surfaces: a vase takes one object, no support, and says where it ends") {
-  const Print print;
+  const Models print;
   CHECK_THAT(print.slice({"pot.stl", "--copies", "2", "--set", "magic_spiralize=true"}, 3),
              Contains("magic_spiralize: 2 objects on the plate; a spiral takes one"));
   CHECK_THAT(print.slice({"pot.stl", "--set", "magic_spiralize=true", "--set", "support_enable=true"}, 3),
@@ -126,7 +117,7 @@ TEST_CASE("surfaces: a vase takes one object, no support, and says where it ends
 }
 
 TEST_CASE("surfaces: a vase that is slowed down to cool keeps its speed to its end, where two turns are on one level") {
-  const Print print;
+  const Models print;
   const auto gcode = print.slice({"pot.stl", "--set", "magic_spiralize=true", "--set", "cool_min_layer_time=6"});
   double z = 0, f = 0, slowest = 1e9, fastest = 0;
   for (const auto& line : lines_of(gcode)) {
@@ -141,7 +132,7 @@ TEST_CASE("surfaces: a vase that is slowed down to cool keeps its speed to its e
 }
 
 TEST_CASE("surfaces: one at a time, each object is a vase of its own") {
-  const Print print;
+  const Models print;
   print.scratch.write("vase.stl", cone_stl(14, 12, 12, 120));
   const auto gcode = print.slice({"pot.stl", "vase.stl", "--place", "pot=60,60", "--place", "vase=160,160", "--set",
                                   "magic_spiralize=true", "--set", "print_sequence=one_at_a_time", "--set",
@@ -162,7 +153,7 @@ TEST_CASE("surfaces: one at a time, each object is a vase of its own") {
 }
 
 TEST_CASE("surfaces: arcs make a round part's file smaller, lay the same plastic, and pass the audit") {
-  const Print print;
+  const Models print;
   const auto plain = print.slice({"pot.stl"});
   const auto before = print.report();
   const auto arcs = print.slice({"pot.stl", "--set", "arc_fitting=true"});
@@ -187,7 +178,7 @@ TEST_CASE("surfaces: arcs make a round part's file smaller, lay the same plastic
 }
 
 TEST_CASE("surfaces: ironing comes last on its layer, and is told as what it is") {
-  const Print print;
+  const Models print;
   const auto plain = print.slice({"box.stl"});
   const auto gcode = print.slice({"box.stl", "--set", "ironing_enabled=true"});
   const auto report = print.report();
@@ -200,7 +191,7 @@ TEST_CASE("surfaces: ironing comes last on its layer, and is told as what it is"
 }
 
 TEST_CASE("surfaces: ironing that lets plastic stand in the melt for minutes is told") {
-  const Print print;
+  const Models print;
   print.scratch.write("plate.stl", box_stl(60, 60, 1));
   print.slice({"plate.stl", "--set", "ironing_enabled=true"});
   const auto told = [&] {
@@ -213,7 +204,7 @@ TEST_CASE("surfaces: ironing that lets plastic stand in the melt for minutes is 
 }
 
 TEST_CASE("surfaces: in a layer of many minutes M73 goes on counting") {
-  const Print print;
+  const Models print;
   print.scratch.write("plate.stl", box_stl(100, 100, 0.4F));
   const auto gcode = print.slice({"plate.stl", "--set", "speed_topbottom=20", "--set", "speed_top_skin=20"});
   std::size_t within = 0;
@@ -232,7 +223,7 @@ TEST_CASE("surfaces: in a layer of many minutes M73 goes on counting") {
 }
 
 TEST_CASE("surfaces: rough walls are the same for any number of threads, and off they change nothing") {
-  const Print print;
+  const Models print;
   const auto plain = print.slice({"pot.stl"});
   const auto fuzzy = print.slice({"pot.stl", "--set", "magic_fuzzy_skin_enabled=true", "--threads", "1"});
   CHECK(print.slice({"pot.stl", "--set", "magic_fuzzy_skin_enabled=true", "--threads", "3"}) == fuzzy);
@@ -242,7 +233,7 @@ TEST_CASE("surfaces: rough walls are the same for any number of threads, and off
 }
 
 TEST_CASE("surfaces: values that make no sense are refused by name") {
-  const Print print;
+  const Models print;
   CHECK_THAT(print.slice({"box.stl", "--set", "ironing_flow=150"}, 3), Contains("ironing_flow"));
   CHECK_THAT(print.slice({"box.stl", "--set", "arc_tolerance=1"}, 3), Contains("arc_tolerance"));
   CHECK_THAT(print.slice({"box.stl", "--set", "top_one_wall=some"}, 3), Contains("top_one_wall"));
@@ -269,4 +260,44 @@ TEST_CASE("surfaces: PrusaSlicer's keys for them are taken over") {
     CHECK_THAT(run.out, Contains(std::string("\n") + line));
   }
   CHECK_THAT(run.out + run.err, !Contains("not supported yet"));
+}
+
+TEST_CASE("surfaces: a vase begins and ends with as much plastic as it is told") {
+  const Models print;
+  const auto mm3 = [&](const std::string& key, const std::string& percent) {
+    print.slice({"pot.stl", "-s", "magic_spiralize=true", "-s", key + "=" + percent});
+    return print.report()["filament"]["mm3"].get<double>();
+  };
+  const double plain = mm3("spiral_start_flow", "0");
+  for (const auto* key : {"spiral_start_flow", "spiral_finish_flow"}) {
+    INFO(key);
+    const double half = mm3(key, "50") - plain, all = mm3(key, "100") - plain;
+    CHECK(half > 0);
+    CHECK(all == Approx(2 * half).epsilon(0.02));  // it grows, or falls, evenly along the turn
+  }
+}
+
+TEST_CASE("surfaces: smaller waves lie over those of rough walls, with the same plastic") {
+  const Models print;
+  const auto rough = [&](const char* octaves) {
+    return commands_of(print.slice({"pot.stl", "-s", "magic_fuzzy_skin_enabled=true", "-s", "fuzzy_skin_noise=perlin",
+                                    "-s", std::string("fuzzy_skin_octaves=") + octaves}));
+  };
+  const auto one = rough("1");
+  const double mm3 = print.report()["filament"]["mm3"];
+  CHECK(rough("4") != one);
+  CHECK(print.report()["filament"]["mm3"].get<double>() == Approx(mm3).epsilon(0.01));
+}
+
+TEST_CASE("surfaces: branches of lightning are the shorter the more they draw back and straighten downwards") {
+  const Models print;
+  const auto mm_of = [&](const std::string& key, const char* degrees) {
+    print.slice({(tests::source / "examples/bracket.stl").string(), "-s", "infill_pattern=lightning", "-s",
+                 "infill_sparse_density=20", "-s", key + "=" + degrees});
+    return print.report()["features"]["infill"]["mm"].get<double>();
+  };
+  for (const auto* key : {"lightning_infill_prune_angle", "lightning_infill_straightening_angle"}) {
+    INFO(key);
+    CHECK(mm_of(key, "10") > mm_of(key, "80"));
+  }
 }

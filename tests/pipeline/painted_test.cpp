@@ -172,6 +172,9 @@ TEST_CASE("painted: colours of a file go to the tools whose filaments are neares
   auto green = whole;
   green.of_object = "pid=\"1\" pindex=\"1\"";
   CHECK_THAT(printed(folder.write("g.3mf", project(green)), colours).warnings(), Contains("#00FF00 is printed with T"));
+  auto content = colours;
+  content.emplace_back("colour_match", "400");
+  CHECK_THAT(printed(folder.write("g.3mf", project(green)), content).warnings(), !Contains("#00FF00"));
 }
 
 TEST_CASE("painted: a layer that nothing is painted on is as it was") {
