@@ -70,7 +70,9 @@ class Cells {
   void walk(std::uint32_t first) {
     if (seen_[first]) return;
     feet_.clear(), inner_.clear();
+    below_ = nullptr;
     const int kind_here = kind(first);
+    auto last = first;
     for (auto h = first; !seen_[h] && kind(h) == kind_here; h = axis_.half_edges[h].next) {
       seen_[h] = true;
       // Both sides of an edge round the same nodes, so that what is beside each other shares its border.
@@ -81,6 +83,13 @@ class Cells {
       if (h != even) std::reverse(nodes_.begin(), nodes_.end());
       const auto& site = axis_.sites[axis_.half_edges[h].site];
       for (std::size_t i = 0; i + 1 < nodes_.size(); ++i) strip(nodes_[i], nodes_[i + 1], site);
+      // Along the outline its own corners and the ends of the run: more would not lie on it, once rounded.
+      if (h == first || axis_.half_edges[last].site != axis_.half_edges[h].site)
+        put(geometry::foot_on(site, nodes_.front().at), feet_);
+      last = h;
+      if (const auto next = axis_.half_edges[h].next;
+          seen_[next] || axis_.half_edges[next].site != axis_.half_edges[h].site || kind(next) != kind_here)
+        put(geometry::foot_on(site, nodes_.back().at), feet_);
     }
     feet_.insert(feet_.end(), inner_.rbegin(), inner_.rend());
     rings_[static_cast<std::size_t>(kind_here)].push_back(feet_);
@@ -88,21 +97,30 @@ class Cells {
 
   /// What lies between a straight piece of the axis and its site.
   void strip(const Node& from, const Node& to, const MedialAxis::Site& site) {
-    put(geometry::foot_on(site, from.at), feet_), put(geometry::foot_on(site, to.at), feet_);
     const bool deep = from.clearance > depth_, deep_at_end = to.clearance > depth_;
-    if (!deep) put(from.at, inner_);
+    if (!deep) put(from.at, inner_), below_ = nullptr;
     if (!deep && !deep_at_end) return put(to.at, inner_);
-    const double share = (depth_ - from.clearance) / (to.clearance - from.clearance);
-    const Place across = deep != deep_at_end ? geometry::lerp(from.at, to.at, share) : from.at;
+    const Place across = deep == deep_at_end ? from.at : deep ? at_depth(to, from) : at_depth(from, to);
     along_depth(deep ? from.at : across, deep_at_end ? to.at : across, site);
-    if (!deep_at_end) put(to.at, inner_);
+    if (!deep_at_end) put(to.at, inner_), below_ = nullptr;
+  }
+
+  Place at_depth(const Node& above, const Node& below) const {
+    return geometry::lerp(above.at, below.at, (depth_ - above.clearance) / (below.clearance - above.clearance));
   }
 
   /// At the depth below the site, where the ways from it to two places lead.
   void along_depth(Place from, Place to, const MedialAxis::Site& site) {
     const Place foot = geometry::foot_on(site, from), foot_of_to = geometry::foot_on(site, to);
-    const auto below = [this](Place p, Place towards) { return geometry::lerp(p, towards, depth_ / geometry::distance(p, towards)); };
-    put(below(foot, from), inner_);
+    const auto below = [this](Place p, Place towards) {
+      return geometry::lerp(p, towards, depth_ / geometry::distance(p, towards));
+    };
+    if (below_ != &site) {
+      put(below(foot, from), inner_);
+      begun_ = inner_.size();
+    } else if (!site.corner && inner_.size() > begun_) {
+      inner_.pop_back();  // straight on
+    }
     if (site.corner) {
       const double ax = from.x - foot.x, ay = from.y - foot.y, bx = to.x - foot.x, by = to.y - foot.y;
       const double angle = std::atan2(ax * by - ay * bx, ax * bx + ay * by);
@@ -114,11 +132,16 @@ class Cells {
       }
     }
     put(below(foot_of_to, to), inner_);
+    below_ = &site;
   }
 
   void put(Place p, Ring& ring) const {
     const Point at{axis_.origin.x + rounded(p.x), axis_.origin.y + rounded(p.y)};
-    if (ring.empty() || ring.back() != at) ring.push_back(at);
+    if (!ring.empty() && ring.back() == at) return;
+    if (ring.size() > 1 && ring[ring.size() - 2] == at)
+      ring.pop_back();  // there and back again: one kind on both sides
+    else
+      ring.push_back(at);
   }
 
   const MedialAxis& axis_;
@@ -126,7 +149,9 @@ class Cells {
   std::vector<std::vector<Ring>> rings_;
   double depth_;
   std::vector<bool> seen_;
-  Ring feet_, inner_;  // of the walk under way
+  Ring feet_, inner_;                        // of the walk under way
+  const MedialAxis::Site* below_ = nullptr;  // inner_ ends at the depth below it
+  std::size_t begun_ = 0;                    // and had so many points when it came there
   std::vector<Node> nodes_;
 };
 
