@@ -8,6 +8,7 @@
 #include "mesh/transform.h"
 #include "model/flow.h"
 #include "slice/slice.h"
+#include "support/plastic.h"
 #include "support/support.h"
 #include "tasks/parallel.h"
 
@@ -23,15 +24,13 @@ constexpr std::size_t hull_candidates = 40, flat_candidates = 24, sliced_candida
 constexpr int coarse_layers = 60;
 
 /// Plastic that a way of laying it costs, mm³: what support takes, and what the rest is worth beside it.
-double cost_of(const SupportSettings& s, const Report::Orientation& o, double widest_mm2) {
+double cost_of(double planned_mm3, const Report::Orientation& o, double widest_mm2) {
   constexpr double mm3_by_scar_mm2 = 0.5;   // a scar is filed off
   constexpr double mm3_by_height_mm = 2;    // each layer is begun, cooled and ended
   constexpr double mm3_without_foot = 300;  // it comes off the bed
-  const double roof = s.support_roof_enable ? to_mm(s.support_roof_height) : 0;
   const double foot = std::min(1.0, o.foot_mm2 / std::max(1.0, 0.1 * widest_mm2));
   const double slender = o.height_mm / std::sqrt(std::max(o.foot_mm2, 0.01));
-  return o.support_mm3 * s.support_infill_rate / 100 + o.contact_mm2 * roof +
-         mm3_by_scar_mm2 * (o.contact_mm2 + o.on_part_mm2) + mm3_by_height_mm * o.height_mm +
+  return planned_mm3 + mm3_by_scar_mm2 * (o.contact_mm2 + o.on_part_mm2) + mm3_by_height_mm * o.height_mm +
          mm3_without_foot * (1 - foot) + 10 * std::clamp(slender - 8, 0.0, 30.0);
 }
 
@@ -72,9 +71,7 @@ Report::Orientation judged(const Settings& settings, const Mesh& model, const st
   for (std::size_t i = layers.size(); i-- > 0;) {
     widest_mm2 = std::max(widest_mm2, area_mm2(layers[i].regions));
     if (!falling.empty()) {
-      const auto cut = geometry::cut(falling, layers[i].regions);
-      out.on_part_mm2 += area_mm2(cut.inside);
-      falling = cut.outside;
+      falling = geometry::subtract(falling, layers[i].regions);
       out.support_mm3 += area_mm2(falling) * to_mm(layers[i].height);
     }
     out.contact_mm2 += area_mm2(demand[i].wanted);
@@ -83,7 +80,9 @@ Report::Orientation judged(const Settings& settings, const Mesh& model, const st
     falling = geometry::simplified(geometry::unite(falling), 50);
   }
   if (!layers.empty()) out.foot_mm2 = area_mm2(layers.front().regions);
-  out.cost_mm3 = cost_of(s, out, widest_mm2);
+  const auto plan = support::plan(s, object, demand);  // branches take much less than columns where they are high
+  out.on_part_mm2 = plan.figures.on_part_mm2;
+  out.cost_mm3 = cost_of(support::plastic_mm3(s, nozzle, plan), out, widest_mm2);
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include "support/columns.h"
 #include "support/lengths.h"
 #include "support/patches.h"
+#include "support/plastic.h"
 #include "support/tree.h"
 #include "tasks/parallel.h"
 
@@ -16,15 +17,6 @@
 namespace weft::support {
 using namespace weft::literals;
 namespace {
-
-double perimeter_mm(const Regions& regions) {
-  double um = 0;
-  for (const Region& region : regions) {
-    um += perimeter_of(region.outer);
-    for (const Ring& hole : region.holes) um += perimeter_of(hole);
-  }
-  return um / 1000;
-}
 
 /// What the columns of a patch would take, mm³.
 class Guess {
@@ -46,7 +38,7 @@ class Guess {
       falling = geometry::simplified(geometry::unite(falling), coarse);
       if (s_.support_join_distance > 0) falling = geometry::closing(falling, s_.support_join_distance / 2);
       mm3 += lost(k, falling);
-      for (const Region& region : falling) mm3 += column_mm3(region, height);
+      for (const Region& region : falling) mm3 += column_mm3(s_, line_, region, height);
       height = 0;
     }
     return mm3 + foot_mm3(falling) - roof_mm3(patch);
@@ -65,13 +57,6 @@ class Guess {
     if (const Regions kept_off = room_.keep_out(level, near).near; !kept_off.empty())
       falling = opened(geometry::subtract(falling, kept_off), line_ / 2);
     return mm3;
-  }
-  /// What the beads of an area of columns take: a loop where it is narrow, else lines and what joins them at every
-  /// other end.
-  double column_mm3(const Region& area, Um height) const {
-    const double mm2 = area_mm2(area), loop = perimeter_mm({area}) * to_mm(line_);
-    const bool narrow = geometry::offset({area}, {.by = -hollow_column(line_, s_.support_infill_rate / 100)}).empty();
-    return to_mm(height) * std::min(mm2, narrow ? loop : mm2 * s_.support_infill_rate / 100 + loop / 2);
   }
   /// What the first layer of what stands there takes, with what spreads around it.
   double foot_mm3(const Regions& standing) const {

@@ -10,6 +10,7 @@
 #include "support/kinds.h"
 #include "support/landing.h"
 #include "support/lengths.h"
+#include "support/rungs.h"
 #include "support/support.h"
 #include "support/trapped.h"
 #include "support/tree.h"
@@ -304,6 +305,7 @@ Plan plan(const SupportSettings& settings, const Object& object, const Demand& d
   Caps caps = caps_on(room, stack, demand, out.layers);
   note_reached(object, stack, demand, caps, out);
   out.figures.on_part_mm2 = land(room, out.layers);
+  lay_rungs(room, {out.layers.data(), used});
   std::move(caps.layers.begin(), caps.layers.end(), std::back_inserter(out.layers));
   std::stable_sort(out.layers.begin(), out.layers.end(),
                    [](const SupportLayer& a, const SupportLayer& b) { return a.z < b.z; });

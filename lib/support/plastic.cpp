@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/plastic.h"
+
+#include "geometry/offset.h"
+#include "support/lengths.h"
+
+#include <algorithm>
+
+namespace weft::support {
+namespace {
+
+double perimeter_mm(const Region& region) {
+  double um = perimeter_of(region.outer);
+  for (const Ring& hole : region.holes) um += perimeter_of(hole);
+  return um / 1000;
+}
+
+/// Loops along rims, as far as there is room for them.
+double loops_mm2(const Regions& regions, Um line) {
+  double mm2 = 0;
+  for (const Region& region : regions) mm2 += std::min(area_mm2(region), perimeter_mm(region) * to_mm(line));
+  return mm2;
+}
+
+}  // namespace
+
+double column_mm3(const SupportSettings& settings, Um line, const Region& area, Um height) {
+  const double mm2 = area_mm2(area), loop = perimeter_mm(area) * to_mm(line),
+               share = settings.support_infill_rate / 100;
+  const bool narrow = geometry::offset({area}, {.by = -hollow_column(line, share)}).empty();
+  return to_mm(height) * std::min(mm2, narrow ? loop : mm2 * share + loop / 2);
+}
+
+double plastic_mm3(const SupportSettings& settings, Um nozzle, const Plan& plan) {
+  const Um line = line_width(settings, nozzle);
+  double mm3 = 0;
+  for (const SupportLayer& layer : plan.layers) {
+    for (const Region& column : layer.columns)
+      mm3 += layer.first ? area_mm2(column) * to_mm(layer.height) * settings.support_initial_layer_density / 100
+                         : column_mm3(settings, line, column, layer.height);
+    double mm2 = area_mm2(layer.roof) + area_mm2(layer.bottom);
+    mm2 += loops_mm2(layer.branches, line) + loops_mm2(layer.joists.area, line);
+    for (const Polyline& joist : layer.joists.lines) mm2 += length_of(joist) / 1000 * to_mm(line);
+    mm3 += mm2 * to_mm(layer.height);
+  }
+  return mm3;
+}
+
+}  // namespace weft::support
