@@ -51,7 +51,8 @@ std::vector<SlicedLayer> sliced(const Settings& settings, const Mesh& mesh) {
   return out;
 }
 
-Report::Orientation judged(const Settings& settings, const Mesh& model, const std::array<double, 3>& down) {
+/// @param plan  whether support is planned for it, which costs; else it is reckoned as columns
+Report::Orientation judged(const Settings& settings, const Mesh& model, const std::array<double, 3>& down, bool plan) {
   Mesh mesh = mesh::transformed(model, mesh::laid_on(down), {});
   mesh = mesh::moved(std::move(mesh), {0, 0, -box_of(mesh).min.z});
   const auto layers = sliced(settings, mesh);
@@ -71,7 +72,9 @@ Report::Orientation judged(const Settings& settings, const Mesh& model, const st
   for (std::size_t i = layers.size(); i-- > 0;) {
     widest_mm2 = std::max(widest_mm2, area_mm2(layers[i].regions));
     if (!falling.empty()) {
-      falling = geometry::subtract(falling, layers[i].regions);
+      const auto cut = geometry::cut(falling, layers[i].regions);
+      out.on_part_mm2 += area_mm2(cut.inside);
+      falling = cut.outside;
       out.support_mm3 += area_mm2(falling) * to_mm(layers[i].height);
     }
     out.contact_mm2 += area_mm2(demand[i].wanted);
@@ -80,9 +83,14 @@ Report::Orientation judged(const Settings& settings, const Mesh& model, const st
     falling = geometry::simplified(geometry::unite(falling), 50);
   }
   if (!layers.empty()) out.foot_mm2 = area_mm2(layers.front().regions);
-  const auto plan = support::plan(s, object, demand);  // branches take much less than columns where they are high
-  out.on_part_mm2 = plan.figures.on_part_mm2;
-  out.cost_mm3 = cost_of(support::plastic_mm3(s, nozzle, plan), out, widest_mm2);
+  if (!plan) {
+    const double roof = s.support_roof_enable ? to_mm(s.support_roof_height) : 0;
+    out.cost_mm3 = cost_of(out.support_mm3 * s.support_infill_rate / 100 + out.contact_mm2 * roof, out, widest_mm2);
+    return out;
+  }
+  const auto planned = support::plan(s, object, demand);
+  out.on_part_mm2 = planned.figures.on_part_mm2;
+  out.cost_mm3 = cost_of(support::plastic_mm3(s, nozzle, planned), out, widest_mm2);
   return out;
 }
 
@@ -101,8 +109,22 @@ std::vector<Report::Orientation> orientations_of(const Settings& settings, const
   if (std::none_of(guesses.begin(), guesses.end(), [](const auto& g) { return g.second == 0; }))
     guesses.emplace_back(0.0, std::size_t{0});  // as the file has it: it is to be no worse
   auto out = tasks::parallel_map(
-      guesses.size(), [&](std::size_t i) { return judged(settings, mesh, candidates[guesses[i].second].down); });
-  std::stable_sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.cost_mm3 < b.cost_mm3; });
+      guesses.size(), [&](std::size_t i) { return judged(settings, mesh, candidates[guesses[i].second].down, false); });
+  const auto cheaper = [](const auto& a, const auto& b) { return a.cost_mm3 < b.cost_mm3; };
+  const auto as_given = std::find_if(guesses.begin(), guesses.end(), [](const auto& g) { return g.second == 0; });
+  const double given_mm3 = out[static_cast<std::size_t>(as_given - guesses.begin())].cost_mm3;
+  std::stable_sort(out.begin(), out.end(), cheaper);
+  // Branches take less than columns where they are high: what is not decided by far is decided by a plan of both.
+  constexpr double by_far = 0.6;
+  const auto& given_down = candidates.front().down;
+  if (out.front().down != given_down && out.front().cost_mm3 > by_far * given_mm3) {
+    const std::array downs{given_down, out.front().down};
+    auto both =
+        tasks::parallel_map(downs.size(), [&](std::size_t i) { return judged(settings, mesh, downs[i], true); });
+    std::stable_sort(both.begin(), both.end(), cheaper);
+    std::erase_if(out, [&](const auto& o) { return o.down == downs[0] || o.down == downs[1]; });
+    out.insert(out.begin(), both.begin(), both.end());
+  }
   if (out.size() > told) out.resize(told);
   return out;
 }
