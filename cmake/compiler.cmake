@@ -24,9 +24,15 @@ if(WEFT_SANITIZE AND NOT WEFT_SANITIZE MATCHES fuzzer)
 endif()
 
 if(WEFT_SANITIZE)
-  # With instrumentation GCC 12 sees uninitialised members in its own <regex> that are not.
-  add_compile_options(-fsanitize=${WEFT_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+  add_compile_options(-fsanitize=${WEFT_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${WEFT_SANITIZE})
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    # With instrumentation GCC 12 sees uninitialised members in its own <regex> that are not.
+    add_compile_options(-Wno-maybe-uninitialized)
+    # A null pointer that is followed ends under the address sanitizer as well, and alignment is checked by the fuzzers'
+    # build (clang): asked for at every access, the two are a quarter of the time that GCC takes here.
+    add_compile_options(-fno-sanitize=null,alignment)
+  endif()
 endif()
 
 find_program(CCACHE ccache)

@@ -24,7 +24,9 @@ bool curves(const Move& in, const Move& out) {
 }  // namespace
 
 void even_curves(const Rules& rules, Extrude& bead) {
-  const auto [moves, ends] = moves_of(rules, bead);
+  const BeadMoves printed = moves_of(rules, bead);
+  const auto& moves = printed.moves;
+  const auto& ends = printed.ends;
   std::vector<float> speeds = bead.segment_speed_mm_s;
   bool changed = false;
   const auto slow_down = [&](std::size_t first, std::size_t last) {  // moves

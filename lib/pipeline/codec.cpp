@@ -222,12 +222,13 @@ void walk(A& a, T& v) {
   for_each_field(v, [&](auto& field) { walk(a, field); });
 }
 
-/// A whole number as its difference from the one before.
+/// A whole number as its difference from the one before, modulo 2⁶⁴: bytes that nobody wrote may hold any.
 template <class A, class T>
 void difference(A& a, T& v, std::int64_t& before) {
-  auto step = reads<A> ? std::int64_t{0} : static_cast<std::int64_t>(v) - before;
+  const auto last = static_cast<std::uint64_t>(before);
+  auto step = static_cast<std::int64_t>(reads<A> ? 0 : static_cast<std::uint64_t>(v) - last);
   a(step);
-  before += step;
+  before = static_cast<std::int64_t>(last + static_cast<std::uint64_t>(step));
   if constexpr (reads<A>) v = static_cast<T>(before);
 }
 /// A number by the bits that differ from those of the usual one, which takes one byte.

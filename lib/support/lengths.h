@@ -74,9 +74,9 @@ inline Um roof_covers(const BranchStyle& style, Um nozzle) {
   return (style.tip + roof_span(nozzle)) * 10 / 17;
 }
 
-inline Regions grown(const Regions& regions, Um by) {
+inline Regions grown(const Regions& regions, Um by, Um arc_tolerance = coarse_arc) {
   if (regions.empty() || by == 0) return regions;
-  return geometry::offset_apart(regions, {.by = by, .corner = geometry::Corner::round, .arc_tolerance = coarse_arc});
+  return geometry::offset_apart(regions, {.by = by, .corner = geometry::Corner::round, .arc_tolerance = arc_tolerance});
 }
 
 /// As geometry::opening, with arcs of as many corners as support needs.

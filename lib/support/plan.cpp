@@ -119,10 +119,6 @@ void spread_first(const Room& room, const Stack& stack, SupportLayer& first) {
   first.branches.clear();
 }
 
-Region within(const Box& box) {
-  return {{box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}}, {}};
-}
-
 /// Whether the underside of a layer is so near to the bed that no support has room between them.
 bool on_the_bed(const Object& object, const SlicedLayer& layer) {
   return !object.on_raft && layer.z - layer.height <= object.layers.front()->z;
@@ -157,10 +153,11 @@ void note_reached(const Object& object, const Stack& stack, const Demand& demand
         continue;
       }
       out.contact_mm2 += area_mm2(geometry::intersect({wanted}, near));
-      const Regions wide = grown(near, reached);
-      append(left, geometry::opening(geometry::subtract({wanted}, wide), 20));
-      const Regions here = geometry::trimmed(object.layers[i]->regions, box.grown(reached));
-      append(out.held, geometry::intersect(here, geometry::intersect(wide, {within(box.grown(reached))})));
+      // It is a judgement of reach: beads' finer corners do not matter to it.
+      constexpr Um coarse = 80;
+      const Regions wide = grown(geometry::simplified(near, coarse), reached, coarse);
+      append(left, geometry::opening(geometry::subtract({wanted}, wide), coarse));
+      append(out.held, geometry::intersect(geometry::trimmed(object.layers[i]->regions, box.grown(reached)), wide));
     }
     if (out.held.size() > 1) out.held = geometry::unite(out.held);
     out.left_mm2 = area_mm2(left);
@@ -213,9 +210,10 @@ Standing stand(const Room& room, const Stack& stack, const std::vector<Regions>&
     return out;
   }
   const Field field(s, room.object(), stack, others);
-  Split split = s.support_structure == SupportStructure::hybrid ? cheaper(room, stack, field, others)
+  Roofs roofs(room, stack, others);
+  Split split = s.support_structure == SupportStructure::hybrid ? cheaper(room, stack, field, others, roofs)
                                                                 : Split{others, std::vector<Regions>(count)};
-  out.branches = tree(room, stack, field, split.for_branches);
+  out.branches = tree(room, stack, field, split.for_branches, std::move(roofs));
   out.under_columns = std::move(split.for_columns);
   const auto left = left_by(out.branches, split.for_branches);
   for (std::size_t k = 0; k < count; ++k) {

@@ -46,9 +46,10 @@ std::vector<Um> main_tops(const SupportSettings& settings, const Object& object,
   std::sort(order.begin(), order.end());
   std::vector<Um> out;
   const Um apart = 6 * most;  // levels between two that far apart are lower by no more than a seventh
-  for (const auto& [mm2, top] : order)
-    if (std::none_of(out.begin(), out.end(), [&](Um other) { return std::abs(other - top) < apart; }))
-      out.push_back(top);
+  for (const auto& [mm2, top] : order) {
+    const auto near = [apart, top = top](Um other) { return std::abs(other - top) < apart; };
+    if (std::none_of(out.begin(), out.end(), near)) out.push_back(top);
+  }
   const Um last = held_mm2.empty() ? 0 : held_mm2.rbegin()->first;
   if (!out.empty() && *std::max_element(out.begin(), out.end()) < last) out.push_back(last);
   std::sort(out.begin(), out.end());

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/stop.h"
 #include "geometry/boolean.h"
-#include "geometry/simplify.h"
-#include "geometry/touching.h"
 #include "travel/blocks.h"
 #include "travel/box_columns.h"
 #include "travel/comb_base.h"
+#include "travel/obstacles.h"
 #include "travel/off_surfaces.h"
 
 #include <algorithm>
@@ -24,65 +23,6 @@ Comb comb_boundary(const TravelSettings& settings, const LayerInput& input) {
   if (settings.retraction_combing == Combing::noskin)
     return Comb(geometry::subtract(base, gathered(input, &ObjectLayer::skin)));
   return Comb(base);
-}
-
-/// Travels keep this far from the edges of the room, µm.
-constexpr Um clearance = 100;
-
-/// Where the nozzle may go at all; nothing where any straight way between two places of the room stays in it.
-Regions free_area(const Room& room) {
-  if (room.reach.size() < 3) return {};
-  bool convex = true;
-  const std::size_t n = room.reach.size();
-  for (std::size_t i = 0; i < n; ++i)
-    convex = convex && orient(room.reach[i], room.reach[(i + 1) % n], room.reach[(i + 2) % n]) >= 0;
-  if (convex && room.no_go.empty()) return {};
-  const Regions reach{{room.reach, {}}};
-  if (room.no_go.empty()) return reach;
-  return geometry::subtract(reach, geometry::offset(geometry::regions_from_rings(room.no_go), {.by = clearance}));
-}
-
-/// What travels go round.
-Regions obstacles_of(const TravelSettings& settings, const LayerInput& input) {
-  constexpr Um coarse = 50;  // support is kept off by much more
-  Regions out;
-  const auto add = [&](const Regions& more) { out.insert(out.end(), more.begin(), more.end()); };
-  for (const auto& object : input.objects) {
-    if (!object.support && settings.travel_avoid_other_parts) add(object.outline);
-    if (object.support && settings.travel_avoid_supports) add(geometry::simplified(object.outline, coarse));
-  }
-  if (settings.travel_avoid_supports) add(geometry::simplified(input.support, coarse));
-  return out;
-}
-
-/// Whether a box lies within a convex ring.
-bool surrounds(const Ring& ring, const Box& box) {
-  const std::size_t n = ring.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    if (orient(ring[i], ring[(i + 1) % n], ring[(i + 2) % n]) < 0) return false;
-    for (const Point p : {box.min, Point{box.max.x, box.min.y}, box.max, Point{box.min.x, box.max.y}})
-      if (orient(ring[i], ring[(i + 1) % n], p) <= 0) return false;
-  }
-  return true;
-}
-
-/// The room less what travels go round and what is to be kept from it.
-Regions area_around(const TravelSettings& settings, const Regions& outline, const Room& room, const Regions& free) {
-  if (outline.empty()) return {};
-  Regions place = free;
-  if (place.empty() && room.reach.size() >= 3) place = {{room.reach, {}}};
-  if (place.empty()) {
-    const Box box = box_of(outline).grown(2 * settings.travel_avoid_distance + 10000);
-    place = {{{box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}}, {}}};
-  }
-  const Regions kept_off =
-      geometry::offset_apart(outline, {.by = settings.travel_avoid_distance, .corner = geometry::Corner::round});
-  // Mostly all of that lies inside: then it is holes of the place, and no sweep is needed to know.
-  if (place.size() > 1 || !place.front().holes.empty() || !surrounds(place.front().outer, box_of(kept_off)))
-    return geometry::subtract(place, kept_off);
-  auto rings = geometry::rings_of(place);
-  for (Ring& ring : geometry::rings_of(kept_off)) rings.push_back(std::move(ring));
-  return geometry::regions_from_rings(rings, geometry::WindingRule::even_odd);
 }
 
 /// Of each ring, whether what it goes round is a hole: whether an odd number of the others is round it.
@@ -160,9 +100,7 @@ void prepare_ways(const TravelSettings& settings, Prepared& layer) {
   } else {
     layer.comb = comb_boundary(settings, layer.input);
   }
-  const auto free = free_area(layer.input.room);
-  layer.free = Comb(free);
-  layer.around = Comb(area_around(settings, obstacles_of(settings, layer.input), layer.input.room, free));
+  layer.free = Comb(free_area(layer.input.room));
 }
 
 Prepared prepare(const TravelSettings& settings, LayerInput input) {

@@ -82,7 +82,6 @@ struct Prepared {
   Comb narrows;                    ///< where they may where that has no way; empty: nowhere
   Comb outline;                    ///< what a travel may not leave unretracted
   Comb free;                       ///< where the nozzle may go at all; empty: wherever a straight way may lead
-  Comb around;  ///< the same less what travels go round, and what is to be kept from it; empty: it is passed over
 };
 
 /// What the seams of a block go by.

@@ -52,8 +52,8 @@ bool Router::too_long(double combed_um, double straight_um) const {
 /// Over the part's edge: round the other parts where asked, round what may not be entered in any case.
 Way Router::direct(Point p, Point q) const {
   Way way{{q}, false, leaves_outline(p, {q}), false};
-  if (way.crosses && !layer_.around.empty()) {
-    auto round = layer_.around.way(p, q, {layer_.around.hole_around(p), layer_.around.hole_around(q)});
+  if (way.crosses) {
+    auto round = obstacles_.way(p, q);
     // Parts are gone round however long it takes where that is asked for; support, where it costs little.
     if (round && (settings_.travel_avoid_other_parts || !too_long(length_from(p, *round), distance(p, q))))
       way.points = std::move(*round);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include "travel/obstacles.h"
 #include "travel/travel.h"
 
 #include <optional>
@@ -19,7 +20,11 @@ class Router {
  public:
   /// The arguments must outlive the router.
   Router(const TravelSettings& settings, const RetractionSettings& retraction, const Prepared& layer)
-      : settings_(settings), retraction_(retraction), layer_(layer), outline_(layer.outline) {}
+      : settings_(settings),
+        retraction_(retraction),
+        layer_(layer),
+        outline_(layer.outline),
+        obstacles_(settings, layer.input) {}
 
   Way way(Point p, Point q) const;
 
@@ -36,6 +41,7 @@ class Router {
   const RetractionSettings& retraction_;
   const Prepared& layer_;
   const Comb& outline_;
+  Obstacles obstacles_;
   mutable std::optional<Comb> half_a_bead_in_;  ///< made when a way asks for it: in most layers none does
 };
 

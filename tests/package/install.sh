@@ -30,10 +30,12 @@ for library in CGAL Clipper Boost Eigen fmt oneTBB nlohmann-json nettle zlib min
   check "the copyright file names $library" grep -q "third-party/$library" moved/share/doc/weft/copyright
 done
 
-# The library, for a program that embeds it. Its archives are there when everything was built.
+# The library, for a program that embeds it. Its archives are there when everything was built; built with sanitizers, they
+# ask for them.
+sanitizers=$(sed -n 's/^WEFT_SANITIZE:[A-Z]*=//p' "$build/CMakeCache.txt")
 if "$cmake" --install "$build" --prefix "$scratch/dev" --component dev > "$scratch/log" 2>&1; then
   check "a program finds the library" "$cmake" -S "$root/tests/package/embed" -B "$scratch/embed" -G Ninja \
-    -DCMAKE_PREFIX_PATH="$scratch/dev"
+    -DCMAKE_PREFIX_PATH="$scratch/dev" ${sanitizers:+-DCMAKE_CXX_FLAGS=-fsanitize=$sanitizers}
   check "and is built with it" "$cmake" --build "$scratch/embed"
   check "and slices" bash -c "'$scratch/embed/embeds_weft' '$root/examples/box.stl' | grep -q ' layers'"
   # What it was found with are packages that weft-dev names.

@@ -235,10 +235,10 @@ TEST_CASE("travel: retracted travels go round other parts when asked, and keep t
   TravelSettings settings;
   settings.travel_avoid_other_parts = true;
   settings.travel_avoid_distance = 1000;
-  const auto prepared = prepare(settings, sample::layer(parts));
-  REQUIRE_FALSE(prepared.around.empty());
+  const auto layer = sample::layer(parts);
+  const Obstacles obstacles(settings, layer);
   const Point p{4000, 4000}, q{28000, 4000};
-  const auto way = prepared.around.way(p, q, {prepared.around.hole_around(p), prepared.around.hole_around(q)});
+  const auto way = obstacles.way(p, q);
   REQUIRE(way);
   CHECK(way->size() > 1);
   Point at = p;

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "travel/obstacles.h"
+
+#include "geometry/boolean.h"
+#include "geometry/simplify.h"
+#include "geometry/touching.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace weft::travel {
+namespace {
+
+/// Travels keep this far from the edges of the room, µm.
+constexpr Um clearance = 100;
+
+bool turns_left(const Ring& ring) {
+  const std::size_t n = ring.size();
+  for (std::size_t i = 0; i < n; ++i)
+    if (orient(ring[i], ring[(i + 1) % n], ring[(i + 2) % n]) < 0) return false;
+  return true;
+}
+
+Regions obstacles_of(const TravelSettings& settings, const LayerInput& input) {
+  constexpr Um coarse = 50;  // support is kept off by much more
+  Regions out;
+  const auto add = [&](const Regions& more) { out.insert(out.end(), more.begin(), more.end()); };
+  for (const auto& object : input.objects) {
+    if (!object.support && settings.travel_avoid_other_parts) add(object.outline);
+    if (object.support && settings.travel_avoid_supports) add(geometry::simplified(object.outline, coarse));
+  }
+  if (settings.travel_avoid_supports) add(geometry::simplified(input.support, coarse));
+  return out;
+}
+
+/// Whether a box lies within a convex ring.
+bool surrounds(const Ring& ring, const Box& box) {
+  const std::size_t n = ring.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (orient(ring[i], ring[(i + 1) % n], ring[(i + 2) % n]) < 0) return false;
+    for (const Point p : {box.min, Point{box.max.x, box.min.y}, box.max, Point{box.min.x, box.max.y}})
+      if (orient(ring[i], ring[(i + 1) % n], p) <= 0) return false;
+  }
+  return true;
+}
+
+/// The room less what travels go round and what is to be kept from it.
+Regions area_around(const TravelSettings& settings, const Regions& obstacles, const Room& room) {
+  Regions place = free_area(room);
+  if (place.empty() && room.reach.size() >= 3) place = {{room.reach, {}}};
+  if (place.empty()) {
+    const Box box = box_of(obstacles).grown(2 * settings.travel_avoid_distance + 10000);
+    place = {{{box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}}, {}}};
+  }
+  const Regions kept_off =
+      geometry::offset_apart(obstacles, {.by = settings.travel_avoid_distance, .corner = geometry::Corner::round});
+  // Mostly all of that lies inside: then it is holes of the place, and no sweep is needed to know.
+  if (place.size() > 1 || !place.front().holes.empty() || !surrounds(place.front().outer, box_of(kept_off)))
+    return geometry::subtract(place, kept_off);
+  auto rings = geometry::rings_of(place);
+  for (Ring& ring : geometry::rings_of(kept_off)) rings.push_back(std::move(ring));
+  return geometry::regions_from_rings(rings, geometry::WindingRule::even_odd);
+}
+
+/// Whether the straight way from p to q meets a box.
+bool meets(Point p, Point q, const Box& box) {
+  if (!box.overlaps({{std::min(p.x, q.x), std::min(p.y, q.y)}, {std::max(p.x, q.x), std::max(p.y, q.y)}})) return false;
+  int left = 0, right = 0;
+  for (const Point corner : {box.min, Point{box.max.x, box.min.y}, box.max, Point{box.min.x, box.max.y}}) {
+    const auto side = orient(p, q, corner);
+    left += side >= 0, right += side <= 0;
+  }
+  return left > 0 && right > 0;
+}
+
+/// Whether p lies in a ring or no further from it than that.
+bool is_near(const Ring& ring, Point p, double within) {
+  if (side_of(ring, p) != Side::outside) return true;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point a = ring[i], b = ring[(i + 1) % ring.size()];
+    const double x = static_cast<double>(b.x) - a.x, y = static_cast<double>(b.y) - a.y, square = x * x + y * y;
+    const double t =
+        square > 0 ? ((static_cast<double>(p.x) - a.x) * x + (static_cast<double>(p.y) - a.y) * y) / square : 0;
+    if (distance(p, lerp(a, b, std::clamp(t, 0.0, 1.0))) <= within) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Regions free_area(const Room& room) {
+  if (room.reach.size() < 3) return {};
+  if (turns_left(room.reach) && room.no_go.empty()) return {};
+  const Regions reach{{room.reach, {}}};
+  if (room.no_go.empty()) return reach;
+  return geometry::subtract(reach, geometry::offset(geometry::regions_from_rings(room.no_go), {.by = clearance}));
+}
+
+Obstacles::Obstacles(const TravelSettings& settings, const LayerInput& input)
+    : settings_(settings), input_(input), what_(obstacles_of(settings, input)) {
+  for (const Region& region : what_) {
+    reach_.push_back(box_of(region.outer).grown(settings.travel_avoid_distance + 2));
+    convex_.push_back(region.holes.empty() && turns_left(region.outer));
+  }
+}
+
+/// Whether p lies in what is kept off a convex obstacle: a way that begins or ends there leaves it just once.
+bool Obstacles::leaves_freely(std::size_t i, Point p) const {
+  constexpr Um doubt = 20;  // of the arcs at its corners
+  return convex_[i] && reach_[i].contains(p) && is_near(what_[i].outer, p, settings_.travel_avoid_distance - doubt);
+}
+
+bool Obstacles::nothing_between(Point p, Point q) const {
+  if (!input_.room.no_go.empty() || (input_.room.reach.size() >= 3 && !turns_left(input_.room.reach))) return false;
+  for (std::size_t i = 0; i < what_.size(); ++i)
+    if (meets(p, q, reach_[i]) && !leaves_freely(i, p) && !leaves_freely(i, q)) return false;
+  return true;
+}
+
+const Comb& Obstacles::around() const {
+  if (!around_) around_.emplace(area_around(settings_, what_, input_.room));
+  return *around_;
+}
+
+std::optional<Polyline> Obstacles::way(Point p, Point q) const {
+  if (what_.empty()) return std::nullopt;
+  if (nothing_between(p, q)) return Polyline{q};
+  const Comb& comb = around();
+  if (comb.empty()) return std::nullopt;
+  return comb.way(p, q, {comb.hole_around(p), comb.hole_around(q)});
+}
+
+}  // namespace weft::travel
