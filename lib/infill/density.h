@@ -34,6 +34,12 @@ class Density {
   /// 0 … 1, at a height over the bed.
   double at(Point p, double z_um) const;
 
+  /// Is there one pattern for all of it, which may go by the density from place to place, not by levels?
+  bool goes_on() const {
+    return patterns_.empty() && infill_.infill_density_dither == DensityDither::none &&
+           infill_.infill_multiplier == 1 && infill_.infill_wall_line_count == 0;
+  }
+
   /// A part of a region whose density is within a factor of √2 of `level`, or is `level` on average when it was
   /// dithered.
   struct Part {
@@ -49,6 +55,10 @@ class Density {
 
   /// Widths of beads that were laid at a level, from `from` on, follow the density along them.
   void follow(double level, double z_um, std::size_t from, Beads& beads) const;
+
+  /// Makes beads wider or narrower, all alike, so that they cover of the region what the density asks for: what joins
+  /// lines lies at borders of parts, where the density is least or greatest.
+  void even(const Region& region, double z_um, std::size_t from, Beads& beads) const;
 
  private:
   /// A number for each cell of a box.
@@ -67,6 +77,7 @@ class Density {
   /// Of places a step apart over a box, log₂ of the density over the nominal one.
   struct Levels;
   Levels levels_of(const Box& box, double z_um) const;
+  double plastic_um2(const Region& region, double z_um) const;
   static Regions above(const Levels& levels, double end);
   double base() const { return std::max(infill_.infill_sparse_density, 1.0) / 100; }
   InfillPattern pattern_at(double density) const;

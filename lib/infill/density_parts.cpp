@@ -7,6 +7,8 @@
 #include "infill/dither.h"
 #include "infill/level_set.h"
 #include "infill/mask.h"
+#include "infill/scan.h"
+#include "infill/web.h"
 
 #include <algorithm>
 #include <cmath>
@@ -181,6 +183,39 @@ void Density::follow(double level, double z_um, std::size_t from, Beads& beads) 
     }
     bead.path = std::move(path);
   }
+}
+
+/// The density over the region, summed along lines across it.
+double Density::plastic_um2(const Region& region, double z_um) const {
+  constexpr double few = 12;  // lines over what is small
+  const Frame frame(0, region.outer.front());
+  const Outline outline(region, frame);
+  const double high = outline.greatest_y() - outline.least_y(), apart = std::min<double>(step, high / few);
+  if (apart <= 0) return 0;
+  const LineSet lines{outline.least_y() + apart / 2, apart, static_cast<int>(std::floor(high / apart))};
+  double sum = 0, area = 0;
+  for (const Interval& i : outline.cut(lines)) {
+    const double wide = i.to - i.from, pieces = std::ceil(wide / apart), y = lines.y(i.line);
+    area += wide;
+    for (double k = half; k < pieces; ++k) sum += at(frame.back({i.from + k * wide / pieces, y}), z_um) * wide / pieces;
+  }
+  return area > 0 ? sum / area * area_mm2(region) * 1e6 : 0;
+}
+
+void Density::even(const Region& region, double z_um, std::size_t from, Beads& beads) const {
+  constexpr double most = 1 / least_narrowing;
+  double laid = 0;
+  for (std::size_t b = from; b < beads.size(); ++b) {
+    const std::vector<Junction>& path = beads[b].path;
+    for (std::size_t i = 0; i + (beads[b].closed ? 0 : 1) < path.size(); ++i) {
+      const Junction &a = path[i], &c = path[(i + 1) % path.size()];
+      laid += distance(a.at, c.at) * (a.width + c.width) / 2;
+    }
+  }
+  if (laid <= 0) return;
+  const double share = std::clamp(plastic_um2(region, z_um) / laid, least_narrowing, most);
+  for (std::size_t b = from; b < beads.size(); ++b)
+    for (Junction& j : beads[b].path) j.width = std::max(1, rounded(j.width * share));
 }
 
 }  // namespace weft::infill

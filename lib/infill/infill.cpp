@@ -4,6 +4,7 @@
 #include "core/stop.h"
 #include "geometry/boolean.h"
 #include "geometry/offset.h"
+#include "infill/concentric.h"
 #include "infill/small_areas.h"
 #include "infill/solid.h"
 #include "infill/sparse.h"
@@ -118,19 +119,28 @@ double depth_of_walls(const FillInput& input) {
   return (outer + spacing(outer)) / 2.0 + (input.wall_count - 1.0) * spacing(inner);
 }
 
-/// Sparse lines, as dense at each place as it is asked for there.
+/// Sparse lines, as dense at each place as it is asked for there. Branches have no density to meet.
 void fill_as_dense(const Region& region, SparseStyle style, Beads& beads) {
   const Density* density = style.prepared != nullptr && style.prepared->density ? &*style.prepared->density : nullptr;
-  if (density == nullptr) return fill_sparse(region, style, beads);
+  if (density == nullptr || style.pattern == InfillPattern::lightning) return fill_sparse(region, style, beads);
+  if (density->goes_on() && style.pattern == InfillPattern::concentric) {
+    const std::size_t own = beads.size();
+    fill_concentric(region, style, *density, beads);
+    return density->even(region, style.z, own, beads);
+  }
   constexpr double least = 0.005, most = 0.95;  // what is less is nothing
+  const std::size_t first = beads.size();
   const std::vector<Density::Part> parts = density->parts(region, style.z, style.index);
   for (const Density::Part& part : parts) {
     if (part.level < least) continue;
     const std::size_t from = beads.size();
     style.density = std::min(part.level, most), style.pattern = part.pattern, style.even = !part.dithered;
     fill_sparse(part.region, style, beads);
-    if (!part.dithered) density->follow(style.density, style.z, from, beads);
+    if (part.dithered) continue;
+    density->follow(style.density, style.z, from, beads);
+    density->even(part.region, style.z, from, beads);
   }
+  density->even(region, style.z, first, beads);
 }
 
 /// Solid layers that are laid as a pattern of sparse infill, dense.

@@ -3,6 +3,7 @@
 
 #include "core/stop.h"
 #include "geometry/offset.h"
+#include "infill/concentric.h"
 #include "infill/fermat.h"
 #include "infill/few_points.h"
 #include "infill/medial.h"
@@ -19,37 +20,6 @@
 
 namespace weft::infill {
 namespace {
-
-/// Loops at even distances from the edge; their width makes up for the middle, where they do not come out even.
-void fill_concentric(const Region& region, const SparseStyle& style, Beads& beads) {
-  // rings side by side, and the middles of two such groups
-  const double among = style.multiplier - 1.0, spacing = style.multiplier * style.band / style.density;
-  std::vector<Ring> loops;
-  double way = 0;
-  Regions rest{region};
-  for (int i = 0; !rest.empty(); ++i) {
-    const double step = i % style.multiplier != 0
-                            ? style.band
-                            : (i == 0 ? spacing / 2 - among / 2 * style.band : spacing - among * style.band);
-    rest = geometry::offset(rest, {.by = -std::max(1, rounded(step))});
-    for (Region& r : rest) {
-      loops.push_back(r.outer);
-      loops.insert(loops.end(), r.holes.begin(), r.holes.end());
-    }
-  }
-  std::erase_if(loops, [&](const Ring& loop) { return perimeter_of(loop) < style.band; });
-  for (Ring& loop : loops) loop = few_points(loop, true, tolerance_of(style.density));
-  for (const Ring& loop : loops) way += perimeter_of(loop);
-  if (way <= 0) return;
-  const double wanted = style.density * area_mm2(region) * 1e6 / style.band;  // length of beads
-  const Um width = std::max(1, rounded(style.band * std::clamp(wanted / way, least_narrowing, 1 / least_narrowing)));
-  for (const Ring& loop : loops) {
-    Bead& bead = beads.emplace_back();
-    bead.role = Role::infill, bead.part = style.part, bead.closed = true;
-    bead.path.reserve(loop.size());
-    for (const Point p : loop) bead.path.push_back({p, width, static_cast<float>(style.layers)});
-  }
-}
 
 /// Of the region in a frame.
 Span2 span_of(const Region& region, const Frame& frame) {

@@ -2,10 +2,12 @@
 #include "infill/density.h"
 
 #include "areas.h"
+#include "infill/concentric.h"
 #include "infill/prepared.h"
 #include "infill/sparse.h"
 #include "settings_error.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -148,8 +150,11 @@ TEST_CASE("density: a wedge of densities is laid as it is asked for, by every wa
                                .reach = 30'000,
                                .even = !part.dithered},
                               beads);
-          if (!part.dithered) prepared.density->follow(part.level, z, from, beads);
+          if (part.dithered) continue;
+          prepared.density->follow(part.level, z, from, beads);
+          prepared.density->even(part.region, z, from, beads);
         }
+        prepared.density->even(block.outline.front(), z, 0, beads);
         const auto [l, r] = halves(beads, 30'000);
         left += l / 1'200 / layers, right += r / 1'200 / layers;
       }
@@ -157,6 +162,33 @@ TEST_CASE("density: a wedge of densities is laid as it is asked for, by every wa
       CHECK(left == Approx(0.175).epsilon(0.08));
       CHECK(right == Approx(0.325).epsilon(0.08));
     }
+}
+
+TEST_CASE("density: rings are as far apart at each place as it asks for, and the plastic is what it asks for",
+          "[infill]") {
+  const Block block;
+  const File csv("r.csv", "0,0,0,0.1\n60,0,0,0.4\n");
+  InfillSettings s;
+  s.infill_density_field = csv.path.string(), s.infill_pattern = InfillPattern::concentric;
+  const Density density = density_of(s, block);
+  REQUIRE(density.goes_on());
+  Beads beads;
+  infill::fill_concentric(block.outline.front(), {.density = 0.2, .band = 420, .z = 5'000}, density, beads);
+  for (const Bead& bead : beads) CHECK(bead.closed);
+  // along the middle from the left, rings are met 420 / 0.1 … apart, half of that from the edge
+  std::vector<double> met;
+  for (const Bead& bead : beads)
+    for (std::size_t i = 0; i < bead.path.size(); ++i) {
+      const Point a = bead.path[i].at, b = bead.path[(i + 1) % bead.path.size()].at;
+      if ((a.y < 20'000) != (b.y < 20'000)) met.push_back(a.x + (20'000.0 - a.y) / (b.y - a.y) * (b.x - a.x));
+    }
+  std::sort(met.begin(), met.end());
+  REQUIRE(met.size() > 8);
+  // ∫ρ dx / band = k + ½ with ρ = 0.1 + 0.3 x / 60 mm
+  const auto before = [](double x) { return (0.1 * x + 0.0025e-3 * x * x) / 420; };
+  for (std::size_t k = 0; k < 3; ++k) CHECK(before(met[k]) == Approx(static_cast<double>(k) + 0.5).margin(0.06));
+  density.even(block.outline.front(), 5'000, 0, beads);
+  CHECK(covered_mm2(beads) == Approx(0.25 * 60 * 40).epsilon(0.005));
 }
 
 TEST_CASE("density: patterns go by it", "[infill]") {
