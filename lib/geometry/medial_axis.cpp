@@ -18,14 +18,10 @@ double length_of(double x, double y) {  // std::hypot guards against overflow th
   return std::sqrt(x * x + y * y);
 }
 
-double distance_between(Place p, Place q) {
-  return length_of(q.x - p.x, q.y - p.y);
-}
-
 /// Distance from p to the line of a site's edge, or to its corner: inside a cell of the diagram the nearest point of
 /// the edge is never one of its ends.
 double distance_to(const Site& site, Place p) {
-  if (site.corner) return distance_between(site.a, p);
+  if (site.corner) return distance(site.a, p);
   const double ux = site.b.x - site.a.x, uy = site.b.y - site.a.y;
   return std::abs(ux * (p.y - site.a.y) - uy * (p.x - site.a.x)) / length_of(ux, uy);
 }
@@ -74,7 +70,7 @@ void refine(const Diagram& diagram, Vortex& v) {
       const Site& s = diagram.sites[v.site[i]];
       double gx, gy;
       if (s.corner) {
-        const double d = std::max(1e-9, distance_between(s.a, v.at));
+        const double d = std::max(1e-9, distance(s.a, v.at));
         gx = (v.at.x - s.a.x) / d, gy = (v.at.y - s.a.y) / d;
       } else {
         const double ux = s.b.x - s.a.x, uy = s.b.y - s.a.y, length = length_of(ux, uy);

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "core/polygon.h"
+#include "geometry/place.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace weft::geometry {
-
-/// A place in fractional microns relative to MedialAxis::origin.
-struct Place {
-  double x = 0, y = 0;
-};
 
 /// The medial axis of a region: every point with more than one nearest point on the outline, with its clearance.
 ///

@@ -23,15 +23,16 @@ struct Off {
 /// @param beyond  whether a point lies farther than the bound beyond an end
 Off off_chord(std::span<const Point> points, double bound, bool& beyond) {
   const Point a = points.front(), b = points.back();
-  const double dx = b.x - a.x, dy = b.y - a.y, length = std::max(std::hypot(dx, dy), 1e-9);
-  Off out;
-  beyond = false;
+  const double dx = b.x - a.x, dy = b.y - a.y, length = std::max(std::sqrt(dx * dx + dy * dy), 1e-9);
+  // all times the length: the loop divides nothing
+  double least = 0, most = 0, first = 0, last = 0;
   for (const Point p : points.subspan(1)) {
-    const double x = p.x - a.x, y = p.y - a.y, off = (dx * y - dy * x) / length, along = (x * dx + y * dy) / length;
-    out.least = std::min(out.least, off), out.most = std::max(out.most, off);
-    beyond = beyond || along < -bound || along > length + bound;
+    const double x = p.x - a.x, y = p.y - a.y, off = dx * y - dy * x, along = x * dx + y * dy;
+    least = std::min(least, off), most = std::max(most, off);
+    first = std::min(first, along), last = std::max(last, along);
   }
-  return out;
+  beyond = first < -bound * length || last > (length + bound) * length;
+  return {least / length, most / length};
 }
 
 /// A chord of the new line: where it ends in the old one, and how far it is to be moved.

@@ -4,6 +4,7 @@
 #include "core/stop.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -48,22 +49,19 @@ std::vector<std::vector<Turned>> gyroid_curves(const Span2& area, double period,
   const auto last = static_cast<long>(std::ceil(along(area.max) / turn * steps)) + 1;
   std::vector<std::vector<Turned>> curves;
   for (int branch = 0; branch < 2; ++branch) {
-    std::vector<double> values;
-    values.reserve(static_cast<std::size_t>(last - first + 1));
-    double least = 1e300, greatest = -1e300;
-    for (long i = first; i <= last; ++i) {
-      values.push_back(slice.at(turn * static_cast<double>(((i % steps) + steps) % steps) / steps, branch));
-      least = std::min(least, values.back()), greatest = std::max(greatest, values.back());
-    }
-    const auto from = static_cast<long>(std::floor((across(area.min) - greatest) / turn));
-    const auto to = static_cast<long>(std::ceil((across(area.max) - least) / turn));
+    std::array<double, steps> values{};
+    for (std::size_t i = 0; i < steps; ++i) values[i] = slice.at(turn * static_cast<double>(i) / steps, branch);
+    const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+    const auto from = static_cast<long>(std::floor((across(area.min) - *greatest) / turn));
+    const auto to = static_cast<long>(std::ceil((across(area.max) - *least) / turn));
     for (long k = from; k <= to; ++k) {
       stop_if_asked();
       std::vector<Turned>& curve = curves.emplace_back();
-      curve.reserve(values.size());
+      curve.reserve(static_cast<std::size_t>(last - first + 1));
       for (long i = first; i <= last; ++i) {
         const double t = turn * static_cast<double>(i) / steps * unit;
-        const double v = (values[static_cast<std::size_t>(i - first)] + turn * static_cast<double>(k)) * unit;
+        const double v =
+            (values[static_cast<std::size_t>(((i % steps) + steps) % steps)] + turn * static_cast<double>(k)) * unit;
         curve.push_back(slice.over_x ? Turned{t, v} : Turned{v, t});
       }
     }

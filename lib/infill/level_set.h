@@ -34,14 +34,21 @@ struct LevelGrid {
 /// Source: Lorensen & Cline 1987, "Marching cubes", in the plane. Cost: O(nodes), about 10 ns each.
 std::vector<Curve> zero_curves(const LevelGrid& grid, const std::vector<double>& values);
 
-/// The same; each place is mended by one secant step with the function itself. @param f f(x, y), fractional microns
-template <class F>
-void mend_zero_curves(const F& f, double step, std::vector<Curve>& curves) {
+/// What a function is at a place, and a little beside it along either axis.
+struct ValuesAround {
+  double here = 0, along_x = 0, along_y = 0;
+};
+
+/// Each place of the curves is mended by one secant step with the function itself.
+/// @param around  around(x, y, d): at x, y, and d beside it; fractional microns
+template <class Around>
+void mend_zero_curves(const Around& around, double step, std::vector<Curve>& curves) {
   const double d = step * 1e-3;
   for (Curve& curve : curves) {
     stop_if_asked();
     for (Turned& p : curve.points) {
-      const double v = f(p.x, p.y), gx = (f(p.x + d, p.y) - v) / d, gy = (f(p.x, p.y + d) - v) / d;
+      const ValuesAround f = around(p.x, p.y, d);
+      const double v = f.here, gx = (f.along_x - v) / d, gy = (f.along_y - v) / d;
       const double g2 = gx * gx + gy * gy;
       if (g2 <= 0) continue;
       const double by = v / g2;

@@ -70,7 +70,7 @@ std::vector<Step> change_before(const Passes& passes, std::size_t index, const T
   std::vector<Step> out;
   const auto ram = passes.ram.find(index);
   const auto entry = passes.entry.find(index);
-  const auto goal = ram != passes.ram.end()       ? std::optional(ram->second.path.front().at)
+  const auto goal = ram != passes.ram.end()       ? std::optional(ram->second.line.path.front().at)
                     : entry != passes.entry.end() ? std::optional(entry->second.front())
                                                   : std::nullopt;
   if (goal) {
@@ -81,7 +81,7 @@ std::vector<Step> change_before(const Passes& passes, std::size_t index, const T
   const auto add = [&](std::vector<Step> steps) {
     out.insert(out.end(), std::make_move_iterator(steps.begin()), std::make_move_iterator(steps.end()));
   };
-  if (ram != passes.ram.end()) add(lay_rammed(before, ram->second, layer.height, shared));
+  if (ram != passes.ram.end()) add(lay_rammed(before, ram->second.line, ram->second.height, shared));
   const int celsius = celsius_of(after, first_layer), was = celsius_of(before, first_layer);
   // It gets hotter while the tip cools far above; colder it would not melt what is to be purged.
   if (swaps && celsius > was) out.emplace_back(SetTemperature{Heater::nozzle, any_tool, celsius, false});

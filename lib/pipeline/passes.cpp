@@ -153,7 +153,8 @@ void choose_wall(const WallTool& wall, const Passes& passes, tools::TowerLayer& 
   if (wall.purges) {
     double most = 0;
     for (const auto& strip : section.strips)
-      if (!strip.ram && strip.mm3 > most) most = strip.mm3, section.wall_pass = strip.pass, section.wall_purges = true;
+      if (!strip.ram && strip.pass >= passes.begin[layer] && strip.mm3 > most)
+        most = strip.mm3, section.wall_pass = strip.pass, section.wall_purges = true;
     return;
   }
   for (std::size_t p = passes.begin[layer]; p < passes.begin[layer + 1]; ++p)
@@ -180,6 +181,12 @@ void plan_tower(const std::vector<Settings>& tools, std::span<const travel::Laye
     tools::TowerLayer section{layers[i].z, layers[i].z - below, {}};
     if (!keeps_up) section.height = layers[i].height, section.z = below + layers[i].height;
     for (std::size_t p = passes.begin[i]; p < passes.begin[i + 1]; ++p) add_strips(tools, passes.passes[p], p, section);
+    if (keeps_up && !passes.tower.empty() && tools::lay_beside(section, passes.tower.back(), highest, nozzle)) {
+      below = layers[i].z;
+      passes.section_of.back() = i;
+      choose_wall(wall, passes, passes.tower.back(), i);
+      continue;
+    }
     const bool too_high = keeps_up && i + 1 < last && layers[i + 1].z - below > highest;
     if (section.strips.empty() && !too_high && i != 0) continue;
     below = section.z;
@@ -410,16 +417,17 @@ std::vector<travel::LayerInput> split(Passes& passes, const Settings& plate, Too
   if (!tools.several()) return layers;
   std::vector<travel::LayerInput> out;
   std::size_t section = 0;
+  std::vector<tools::TowerBeads> tower;
+  const auto lay_section = [&] {
+    tower.clear();
+    if (section < passes.tower.size())
+      tower = tools::tower_beads(plate.tools, passes.size, passes.tower[section], section, passes.corner);
+  };
+  lay_section();
   for (std::size_t i = 0; i < layers.size(); ++i) {
     auto& layer = layers[i];
-    std::vector<tools::TowerBeads> tower;
-    float higher = 1;  // than its layer a section may be
-    if (section < passes.tower.size() && passes.section_of[section] == i) {
-      passes.lag[i] = layer.z - passes.tower[section].z;
-      higher = static_cast<float>(passes.tower[section].height) / static_cast<float>(layer.height);
-      tower = tools::tower_beads(plate.tools, passes.size, passes.tower[section], section, passes.corner);
-      ++section;
-    }
+    const bool ends = section < passes.tower.size() && passes.section_of[section] == i;
+    if (ends) passes.lag[i] = layer.z - passes.tower[section].z;
     for (std::size_t p = passes.begin[i]; p < passes.begin[i + 1]; ++p) {
       const bool first = p == passes.begin[i];
       auto input = beads_of_pass(passes.passes[p], first, tools, scopes, layer);
@@ -431,13 +439,14 @@ std::vector<travel::LayerInput> split(Passes& passes, const Settings& plate, Too
         passes.entry.emplace(p, first_piece(purged->second.front()));
         put(purged->second);
       }
-      for (auto& [pass, beads, ram] : tower) {
+      for (auto& [pass, beads, ram, height] : tower) {
         if (pass != p || beads.empty()) continue;
         passes.entry.insert_or_assign(p, first_piece(beads.front()));
         if (ram) {
-          passes.ram.emplace(p, std::move(beads.front()));
+          passes.ram.emplace(p, Passes::Ram{std::move(beads.front()), height});
           continue;
         }
+        const float higher = static_cast<float>(height) / static_cast<float>(layer.height);
         for (auto& bead : beads) {
           bead.scope = layer.scope;
           give(bead, passes.passes[p].tool, tools, scopes);
@@ -448,6 +457,7 @@ std::vector<travel::LayerInput> split(Passes& passes, const Settings& plate, Too
       out.push_back(std::move(input));
     }
     layer = {};
+    if (ends) ++section, lay_section();
   }
   passes.into.clear();
   return out;

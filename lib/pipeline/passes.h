@@ -28,14 +28,18 @@ struct Passes {
   std::vector<ToolPass> passes;          ///< in the order they are printed
   std::vector<std::size_t> begin;        ///< of each layer its first pass, and one more for the end
   std::vector<tools::TowerLayer> tower;  ///< sections of the tower, upwards; empty: there is none
-  std::vector<std::size_t> section_of;   ///< layer of each section
+  std::vector<std::size_t> section_of;   ///< of each section the layer that it ends with
   std::map<std::size_t, Um> lag;         ///< by layer: how far below it its section lies
   tools::TowerSize size;
   Point corner;
   Regions shield;  ///< what the ooze shield encloses; empty: there is none
   Report::Purged purged;
   std::map<std::size_t, Beads> into;  ///< by pass: beads that are printed with what is purged before it
-  std::map<std::size_t, Bead> ram;    ///< by pass: what the tool before lays something on, at a pace of its own
+  struct Ram {
+    Bead line;
+    Um height = 0;
+  };
+  std::map<std::size_t, Ram> ram;  ///< by pass: what the tool before lays something on, at a pace of its own
   std::map<std::size_t, std::array<Point, 2>>
       entry;  ///< by pass: the first piece that is purged, over which tools change
 

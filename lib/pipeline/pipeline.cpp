@@ -17,6 +17,7 @@
 #include "pipeline/one_at_a_time.h"
 #include "pipeline/passes.h"
 #include "pipeline/place_heat.h"
+#include "pipeline/plan_moves.h"
 #include "pipeline/plate.h"
 #include "pipeline/provenance.h"
 #include "pipeline/room_around.h"
@@ -62,7 +63,7 @@ void write_gcode(const gcode::Job& job, PrintPlan& plan, std::vector<std::string
   const std::string tail = writer.tail();
   const auto let_go = [](auto& list) { std::exchange(list, {}); };  // not `list = {}`: that keeps its room
   const auto write = [&](std::size_t i) {
-    decode(packed[i], plan.layers[i]);
+    unpack_steps(packed[i], plan.layers[i]);
     let_go(packed[i]);
     if (i < heat.size()) add_heat(heat[i], plan.layers[i]);
     auto block = writer.layer(i);

@@ -117,7 +117,7 @@ class Mover {
     const motion::AllRules all(rules_, of_tools_, begun.loaded);
     auto planned = motion::plan_layer(all, std::move(begun.plan), begun.start);
     const auto& plan = planned.plan;
-    PackedLayer out{{plan.z, plan.height, plan.time}, {}, {}, planned.statistics};
+    PackedLayer out{{plan.z, plan.height, plan.time, plan.scope}, {}, {}, planned.statistics};
     if (what_.with_figures) {
       out.figures = figured_[layer];
       out.figures->motion = motion::figures_of(all, plan, begun.start);
@@ -171,6 +171,12 @@ class Mover {
 };
 
 }  // namespace
+
+void unpack_steps(std::string_view packed, LayerPlan& bare) {
+  LayerPlan whole;
+  decode(packed, whole);
+  bare.steps = std::move(whole.steps);
+}
 
 std::vector<PackedLayer> plan_moves(const MovesOf& of, std::vector<travel::Prepared> prepared,
                                     std::vector<travel::Ordered> ordered, Notices& notices, MovesFor what) {

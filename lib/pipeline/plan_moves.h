@@ -12,6 +12,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// From the order of beads to moves: ways, what hangs, what follows a surface, speeds and times.
@@ -26,6 +27,9 @@ struct PackedLayer {
   LayerTimes times{};
   std::optional<FiguredLayer> figures{};
 };
+
+/// Puts the steps back into a layer that is bare. What else it says is not written to: others read it meanwhile.
+void unpack_steps(std::string_view packed, LayerPlan& bare);
 
 /// What the moves of all layers hang on, beside the beads.
 struct MovesOf {

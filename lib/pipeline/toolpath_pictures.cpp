@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/toolpath_pictures.h"
 
-#include "pipeline/codec.h"
+#include "pipeline/plan_moves.h"
 #include "preview/preview.h"
 #include "tasks/parallel.h"
 
@@ -25,7 +25,7 @@ std::vector<gcode::Thumbnail> pictures_of_toolpaths(const gcode::Job& job, Print
   const gcode::Writer writer(job);
   std::string text = writer.head();
   const auto write = [&](std::size_t i) {
-    decode(packed[i], plan.layers[i]);
+    unpack_steps(packed[i], plan.layers[i]);
     auto block = writer.layer(i);
     std::exchange(plan.layers[i].steps, {});
     return block;

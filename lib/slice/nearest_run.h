@@ -11,10 +11,13 @@ namespace weft::slice {
 
 /// @param kind_at of a place on the outline, 0 … count − 1
 /// @param borders places on the outline where the kind changes: edges are divided there
+/// @param depth what is farther from the outline is nobody's; above 0
 /// @return of each kind the regions of what is nearest to outline of that kind; up to rounding they do not overlap.
-///         Nothing where the outline's medial axis cannot be found.
+///         Of an outline that is all of the last kind, which is nobody's, nothing; nor where its medial axis cannot be
+///         found.
+/// Cost:   that of the axis, and of a union of what was walked along.
 /// Source: F. Aurenhammer, "Voronoi diagrams", ACM Computing Surveys 23, 1991: cells of segments.
-std::vector<Regions> nearest_to(const Region& region, int count, std::span<const Point> borders,
+std::vector<Regions> nearest_to(const Region& region, int count, std::span<const Point> borders, Um depth,
                                 const std::function<int(Point)>& kind_at);
 
 }  // namespace weft::slice

@@ -24,16 +24,45 @@ constexpr double on_outline_um = 40;
 constexpr Um beside = 5;
 
 bool apart(const Region& a, const Regions& b) {
-  return geometry::intersect(geometry::offset({a}, {.by = beside}), b).empty();
+  const Box around = box_of(a.outer).grown(beside);
+  Regions near;
+  for (const Region& region : b)
+    if (around.overlaps(box_of(region.outer))) near.push_back(region);
+  return near.empty() || geometry::intersect(geometry::offset({a}, {.by = beside}), near).empty();
 }
 
-/// To the first that touches it.
-void give(const Region& region, std::vector<Regions>& paints) {
-  for (auto& paint : paints) {
-    if (paint.empty() || apart(region, paint)) continue;
-    paint = geometry::unite(paint, {region});
-    return;
+/// What is left over goes to the first paint that it touches.
+void give(Regions rests, std::vector<Regions>& paints) {
+  std::vector<Regions> given(paints.size());
+  for (Region& rest : rests)
+    for (std::size_t k = 0; k < paints.size(); ++k) {
+      if (apart(rest, paints[k])) continue;
+      given[k].push_back(std::move(rest));
+      break;
+    }
+  for (std::size_t k = 0; k < paints.size(); ++k)
+    if (!given[k].empty()) paints[k] = geometry::unite(paints[k], given[k]);
+}
+
+/// Is more of a region farther than `by` from its outline than could be nearer? A band along an outline is at most as
+/// large as its length, and the sectors round its reflex corners, make it.
+bool surely_wider(const Region& region, double by) {
+  double left = static_cast<double>(double_area(region.outer)) / 2;
+  const auto take = [&](const Ring& ring) {
+    for (std::size_t i = 0, n = ring.size(); i < n; ++i) {
+      const Point a = ring[i], b = ring[(i + 1) % n], c = ring[(i + 2) % n];
+      const Point u = b - a, v = c - b;
+      const double cross = static_cast<double>(u.x) * v.y - static_cast<double>(u.y) * v.x;
+      const double dot = static_cast<double>(u.x) * v.x + static_cast<double>(u.y) * v.y;
+      left -= distance(a, b) * by + std::max(0.0, -std::atan2(cross, dot)) * by * by / 2;
+    }
+  };
+  take(region.outer);
+  for (const Ring& hole : region.holes) {
+    left += static_cast<double>(double_area(hole)) / 2;  // negative
+    take(hole);
   }
+  return left > 0;
 }
 
 /// Where an edge of the mesh crosses a height, whichever way it is run through.
@@ -158,22 +187,23 @@ std::vector<Regions> Paint::areas(std::size_t i, const Regions& outline) const {
 void Paint::add_near(const Region& region, std::span<const Point> borders, const std::function<int(Point)>& kind_at,
                      std::vector<Regions>& own) const {
   const std::size_t bare = own.size();  // the kind of outline without paint
-  auto cells = nearest_to(region, static_cast<int>(bare) + 1, borders, kind_at);
+  auto cells = nearest_to(region, static_cast<int>(bare) + 1, borders, reach_.depth, kind_at);
   if (cells.empty()) return;
-  const auto painted = [&](std::size_t k) { return k != bare && !cells[k].empty(); };
   bool any = false;
-  for (std::size_t k = 0; k < bare; ++k) any = any || painted(k);
-  if (!any) return;
-  const auto core = geometry::offset({region}, {.by = -reach_.depth, .corner = geometry::Corner::round});
   for (std::size_t k = 0; k < bare; ++k) {
-    if (!painted(k)) continue;
-    auto near = core.empty() ? std::move(cells[k]) : geometry::subtract(cells[k], core);
-    std::erase_if(near, [&](const Region& piece) { return is_narrow(piece); });
-    std::move(near.begin(), near.end(), std::back_inserter(own[k]));
+    any = any || !cells[k].empty();
+    std::erase_if(cells[k], [&](const Region& piece) { return is_narrow(piece); });
+    std::move(cells[k].begin(), cells[k].end(), std::back_inserter(own[k]));
   }
+  if (!any) return;
   // Nothing could be printed of what is narrow between paints: it goes with one of them.
-  for (const Region& rest : cells[bare])
-    if (is_narrow(rest) && (core.empty() || apart(rest, core))) give(rest, own);
+  auto& rests = cells[bare];
+  std::erase_if(rests, [&](const Region& rest) { return !is_narrow(rest); });
+  if (rests.empty()) return;
+  const geometry::SegmentIndex outline(geometry::rings_of({region}));
+  const auto deep = [&](Point p) { return !outline.nearest(p, reach_.depth - beside); };
+  std::erase_if(rests, [&](const Region& rest) { return std::any_of(rest.outer.begin(), rest.outer.end(), deep); });
+  give(std::move(rests), own);
 }
 
 /// What lies below painted roofs and above painted floors, as far as it is not another paint's.
@@ -187,12 +217,14 @@ void Paint::add_flat(std::size_t i, const Regions& outline, std::vector<Regions>
     taken.insert(taken.end(), own[k].begin(), own[k].end());
   }
   if (taken.empty()) return;
-  for (const Region& rest : geometry::subtract(outline, taken))
-    if (is_narrow(rest)) give(rest, own);
+  auto rests = geometry::subtract(outline, taken);
+  std::erase_if(rests, [&](const Region& rest) { return !is_narrow(rest); });
+  give(std::move(rests), own);
 }
 
 bool Paint::is_narrow(const Region& region) const {
-  return reach_.least > 0 && geometry::offset({region}, {.by = -reach_.least / 2}).empty();
+  const Um within = reach_.least / 2;
+  return reach_.least > 0 && !surely_wider(region, within) && geometry::offset({region}, {.by = -within}).empty();
 }
 
 }  // namespace weft::slice

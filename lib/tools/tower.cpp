@@ -31,8 +31,15 @@ Um lines_of(const TowerLayer::Strip& strip, Um line, Um height, Um length) {
 /// Do the layer's strips fit when lines are `along` long and lie side by side over `across`?
 bool fits(const TowerLayer& layer, Um line, Um along, Um across) {
   Um sum = 0;
-  for (const auto& strip : layer.strips) sum += lines_of(strip, line, layer.height, along) * line;
+  for (const auto& strip : layer.strips) sum += lines_of(strip, line, layer.height_of(strip), along) * line;
   return sum <= across;
+}
+
+/// What a section's strips cover.
+double mm2_of(const TowerLayer& section) {
+  double sum = 0;
+  for (const auto& strip : section.strips) sum += strip.mm3 / to_mm(std::max(section.height_of(strip), Um{1}));
+  return sum;
 }
 
 Point turned(Point p, double degrees, Point corner) {
@@ -73,15 +80,24 @@ std::vector<Point> zigzag(Um at, Um pitch, Um count, Um begin, Um end, bool alon
 
 }  // namespace
 
+bool lay_beside(const TowerLayer& film, TowerLayer& section, Um held, Um nozzle) {
+  auto beside = film;
+  beside.height += section.height;
+  if (film.strips.empty() || beside.height > (2 * film.height < section.height ? nozzle : held)) return false;
+  if (mm2_of(beside) + mm2_of(section) >= mm2_of(film)) return false;
+  for (auto& strip : section.strips) strip.height = section.height_of(strip);
+  section.z = beside.z, section.height = beside.height;
+  section.strips.insert(section.strips.end(), beside.strips.begin(), beside.strips.end());
+  return true;
+}
+
 TowerSize tower_size(const ToolSettings& settings, std::span<const TowerLayer> layers, Um nozzle) {
   TowerSize out;
   out.line = rounded(lines_by_nozzle * nozzle);
   double most_mm2 = 0;
   Um top = 0;
   for (const auto& layer : layers) {
-    double mm3 = 0;
-    for (const auto& strip : layer.strips) mm3 += strip.mm3;
-    most_mm2 = std::max(most_mm2, mm3 / to_mm(std::max(layer.height, Um{1})));
+    most_mm2 = std::max(most_mm2, mm2_of(layer));
     top = std::max(top, layer.z);
   }
   const Um least = std::max(least_side, rounded(side_by_height * top));
@@ -222,9 +238,9 @@ std::vector<TowerBeads> tower_beads(const ToolSettings& settings, const TowerSiz
   double of_walls = 0;
   for (const Bead& bead : around) of_walls += lines.mm3(bead);
   std::vector<TowerBeads> out;
-  const auto add = [&](std::size_t pass, Bead bead, bool ram = false) {
+  const auto add = [&](std::size_t pass, Bead bead, Um height, bool ram = false) {
     auto at = std::find_if(out.begin(), out.end(), [&](const auto& b) { return b.pass == pass && b.ram == ram; });
-    if (at == out.end()) at = out.insert(out.end(), TowerBeads{pass, {}, ram});
+    if (at == out.end()) at = out.insert(out.end(), TowerBeads{pass, {}, ram, height});
     for (auto& junction : bead.path) junction.at = turned(junction.at, settings.prime_tower_angle, corner);
     at->beads.push_back(std::move(bead));
   };
@@ -237,10 +253,12 @@ std::vector<TowerBeads> tower_beads(const ToolSettings& settings, const TowerSiz
       last = &strip;
       continue;
     }
-    const Um count = lines_of(strip, line, layer.height, inner(along, line));
+    Lines own = lines;
+    own.height = layer.height_of(strip);
+    const Um count = lines_of(strip, line, own.height, inner(along, line));
     Bead bead = bead_of(zigzag(at, line, count, lines.begin, lines.end, along_y), line, false);
-    if (!strip.ram) shorten(bead, lines.mm3(bead) - strip.mm3, lines);
-    add(strip.pass, std::move(bead), strip.ram);
+    if (!strip.ram) shorten(bead, own.mm3(bead) - strip.mm3, own);
+    add(strip.pass, std::move(bead), own.height, strip.ram);
     at += count * line;
   }
   for (Um count = 0; last != nullptr; ++count) {
@@ -251,13 +269,13 @@ std::vector<TowerBeads> tower_beads(const ToolSettings& settings, const TowerSiz
     if (sum < last->mm3 && at + count * line <= lines.last) continue;
     if (strip) {
       shorten(*strip, sum - last->mm3, lines);
-      add(last->pass, std::move(*strip));
+      add(last->pass, std::move(*strip), layer.height);
     }
     at += count * line;
     break;
   }
-  if (auto rest = grid(settings, lines, index, at)) add(layer.wall_pass, std::move(*rest));
-  for (Bead& bead : around) add(layer.wall_pass, std::move(bead));
+  if (auto rest = grid(settings, lines, index, at)) add(layer.wall_pass, std::move(*rest), layer.height);
+  for (Bead& bead : around) add(layer.wall_pass, std::move(bead), layer.height);
   return out;
 }
 

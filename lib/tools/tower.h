@@ -11,7 +11,7 @@
 /// A tower of what is purged when tools change: beads like any others, so that every stage treats them so.
 namespace weft::tools {
 
-/// What is purged in one layer.
+/// What is purged in one section: in a layer, or in several that lie closer than a bead is high.
 struct TowerLayer {
   Um z = 0;
   Um height = 0;  ///< from the section below
@@ -19,11 +19,21 @@ struct TowerLayer {
     std::size_t pass = 0;  ///< the caller's number of what it is purged before
     double mm3 = 0;
     bool ram = false;  ///< it is laid by the filament before, at a pace of its own, before the change
+    Um height = 0;     ///< where it is laid lower than the section's top, with a layer below that; 0: the section's
   };
+  Um height_of(const Strip& strip) const { return strip.height != 0 ? strip.height : height; }
+
   std::vector<Strip> strips;  ///< in the order they are printed
-  std::size_t wall_pass = 0;  ///< what prints wall and grid
+  std::size_t wall_pass = 0;  ///< what prints wall and grid, in the highest of its layers
   bool wall_purges = false;   ///< … which count to what that pass is to purge
 };
+
+/// What is purged just above a section, as supports with layers of their own have it, would be a film as wide as the
+/// bed: it is laid beside what is purged in that one instead, where that needs less room.
+/// @param film a section of its own, on the other
+/// @param held as high beads hold on what is below; what is lower than half of the section may be as high as `nozzle`
+/// @return whether `section` has it now
+bool lay_beside(const TowerLayer& film, TowerLayer& section, Um held, Um nozzle);
 
 /// The upright box that all layers fit in, in coordinates of its own: from 0, 0. What it stands by (prime_tower_shape)
 /// reaches beyond.
@@ -43,6 +53,7 @@ struct TowerBeads {
   std::size_t pass = 0;
   Beads beads;
   bool ram = false;  ///< of such a strip: one bead
+  Um height = 0;
 };
 
 /// Strips side by side, each crossing all of the tower, along X in even layers and along Y in odd ones, so that each

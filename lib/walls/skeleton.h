@@ -11,10 +11,7 @@
 namespace weft::walls {
 
 struct Skeleton {
-  struct Node {
-    Place at;
-    double clearance = 0;  ///< µm
-  };
+  using Node = geometry::MedialAxis::Node;
   /// Directed piece of the axis with the outline on its right; twins are neighbours, an edge is a pair of them.
   struct Half {
     std::uint32_t from = 0, next = 0, previous = 0;

@@ -2,6 +2,7 @@
 #include "slice/paint.h"
 
 #include "core/polygon.h"
+#include "geometry/boolean.h"
 
 #include <cmath>
 
@@ -97,4 +98,71 @@ TEST_CASE("paint: a painted roof reaches down through the shells, a floor up, an
     }
     CHECK(covered == 4);
   }
+}
+
+namespace {
+
+/// Upright facets along an open or closed line, 4 mm high.
+Mesh fence(const Ring& line, bool closed) {
+  Mesh out;
+  const auto n = static_cast<std::uint32_t>(line.size());
+  for (const Point p : line)
+    for (const Um z : {Um{0}, 4_mm}) out.vertices.push_back({p.x, p.y, z});
+  for (std::uint32_t i = 0; i + (closed ? 0 : 1) < n; ++i) {
+    const std::uint32_t a = 2 * i, b = 2 * ((i + 1) % n);
+    out.triangles.push_back({a, b, b + 1});
+    out.triangles.push_back({a, b + 1, a + 1});
+  }
+  return out;
+}
+
+std::size_t corners_of(const Regions& regions) {
+  std::size_t out = 0;
+  for (const Ring& ring : geometry::rings_of(regions)) out += ring.size();
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("paint: round a reflex corner it is as deep as along walls") {
+  const Ring ell{{0, 0}, {20_mm, 0}, {20_mm, 10_mm}, {10_mm, 10_mm}, {10_mm, 20_mm}, {0, 20_mm}};
+  const std::vector<Mesh> painted{fence({{20_mm, 10_mm}, {10_mm, 10_mm}, {10_mm, 20_mm}}, false)};
+  const auto at = planes();
+  const slice::Paint paint(painted, at, {.depth = 3_mm});
+  const auto areas = paint.areas(5, {{ell, {}}});
+  REQUIRE(areas.size() == 1);
+  // Two bands less the triangles at their ends, and a quarter of a circle.
+  const double quarter = 3.14159265 * 9 / 4;
+  CHECK(mm2(areas[0]) == Approx(2 * (10 * 3 - 4.5) + quarter).margin(0.03));
+}
+
+TEST_CASE("paint: what is painted all round is a ring as deep as asked for, with the outline's own corners") {
+  Ring round;
+  for (int i = 0; i < 120; ++i) {
+    const double angle = i * 2 * 3.14159265358979 / 120;
+    round.push_back({rounded(10000 * std::cos(angle)), rounded(10000 * std::sin(angle))});
+  }
+  const std::vector<Mesh> painted{fence(round, true)};
+  const auto at = planes();
+  const slice::Paint paint(painted, at, {.depth = 3_mm});
+  const Regions outline{{round, {}}};
+  const auto areas = paint.areas(5, outline);
+  CHECK(mm2(areas[0]) == Approx(mm2(outline) * (1 - 0.7 * 0.7)).epsilon(0.002));
+  // Nothing is left beside it but what is deeper: corners between the outline's own would leave slivers there.
+  const auto rest = geometry::subtract(outline, areas[0]);
+  REQUIRE(rest.size() == 1);
+  CHECK(rest[0].holes.empty());
+  CHECK(mm2(rest) == Approx(mm2(outline) * 0.7 * 0.7).epsilon(0.002));
+  CHECK(corners_of(areas[0]) <= 2 * round.size() + 2);
+}
+
+TEST_CASE("paint: a thin part painted all round is painted throughout") {
+  const Ring bar{{0, 0}, {20_mm, 0}, {20_mm, 4_mm}, {0, 4_mm}};
+  const std::vector<Mesh> painted{fence(bar, true)};
+  const auto at = planes();
+  const slice::Paint paint(painted, at, {.depth = 3_mm});
+  const auto areas = paint.areas(5, {{bar, {}}});
+  REQUIRE(areas[0].size() == 1);
+  CHECK(areas[0][0].outer.size() == 4);
+  CHECK(mm2(areas[0]) == Approx(80));
 }

@@ -64,13 +64,13 @@ TEST_CASE("tools: every strip of a tower is at least what is to be purged, and l
     const auto beads = tools::tower_beads(settings, size, layers[i], i, {50_mm, 60_mm});
     for (const auto& strip : layers[i].strips) {
       double mm3 = 0;
-      for (const auto& [pass, own, ram] : beads)
+      for (const auto& [pass, own, ram, height] : beads)
         if (pass == strip.pass)
-          for (const auto& bead : own) mm3 += volume_mm3(bead, layers[i].height);
+          for (const auto& bead : own) mm3 += volume_mm3(bead, height);
       CHECK(mm3 >= strip.mm3);
       CHECK(mm3 < strip.mm3 + 0.11);  // mm³: two widths of a line stay
     }
-    for (const auto& [pass, own, ram] : beads)
+    for (const auto& [pass, own, ram, height] : beads)
       for (const auto& bead : own) {
         CHECK(bead.role == Role::wipe_tower);
         const Um brim = i == 0 ? settings.prime_tower_brim_width : 0;
@@ -143,4 +143,39 @@ TEST_CASE("tools: where a tip is shaped is a strip of its own", "[tools]") {
   REQUIRE(ram->beads.size() == 1);
   CHECK(ram->pass == 1);
   CHECK(volume_mm3(ram->beads.front(), 200) >= 20);
+}
+
+TEST_CASE("tools: what is purged just above a section is laid beside it, not as a film over all of the bed",
+          "[tools]") {
+  TowerLayer section{400, 180, {{1, 140}}, 1};
+  const TowerLayer film{420, 20, {{2, 140}}, 2};
+  REQUIRE(tools::lay_beside(film, section, 300, 400));
+  CHECK(section.z == 420);
+  CHECK(section.height == 200);
+  REQUIRE(section.strips.size() == 2);
+  CHECK(section.height_of(section.strips[0]) == 180);
+  CHECK(section.height_of(section.strips[1]) == 200);
+
+  const std::vector<TowerLayer> layers{{200, 200, {}, 0}, section};
+  const auto size = tools::tower_size({}, layers, 400);
+  CHECK(to_mm(size.width) * to_mm(size.depth) < 1.2 * (140 / 0.18 + 140 / 0.2));  // alone it covers 7,000 mm²
+  for (const auto& own : tools::tower_beads({}, size, section, 1, {})) {
+    double mm3 = 0;
+    for (const auto& bead : own.beads) mm3 += volume_mm3(bead, own.height);
+    if (own.pass != section.wall_pass) CHECK(mm3 == Approx(140).margin(0.5));
+    CHECK(own.height == (own.pass == 1 && !own.beads.front().closed ? 180 : 200));
+  }
+}
+
+TEST_CASE("tools: sections as high as their layers stay each on the one below", "[tools]") {
+  TowerLayer section{400, 200, {{1, 140}}, 1};
+  TowerLayer low{400, 100, {{1, 140}}, 1};
+  const TowerLayer next{600, 200, {{2, 140}}, 2}, thin{500, 100, {{2, 140}}, 2}, idle{420, 20, {}, 2};
+  CHECK_FALSE(tools::lay_beside(next, section, 300, 400));  // 0.4 mm would not hold
+  CHECK_FALSE(tools::lay_beside(thin, low, 300, 400));      // more room, not less
+  CHECK_FALSE(tools::lay_beside(idle, section, 300, 400));  // nothing to lay
+  const TowerLayer film{520, 20, {{2, 140}}, 2};
+  section.height = 320;
+  CHECK(tools::lay_beside(film, section, 300, 400));  // so low a film is held by what it is laid on
+  CHECK(section.z == 520);
 }

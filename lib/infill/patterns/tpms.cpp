@@ -15,7 +15,16 @@ constexpr double turn = 2 * std::numbers::pi;
 /// Sines and cosines of one coordinate.
 struct Wave {
   double s = 0, c = 0, c2 = 0;
-  explicit Wave(double t) : s(std::sin(t)), c(std::cos(t)), c2(std::cos(2 * t)) {}
+};
+Wave wave(double t) {
+  return {std::sin(t), std::cos(t), std::cos(2 * t)};
+}
+
+/// Of coordinates one after the other.
+struct Waves {
+  std::vector<double> s, c, c2;
+  void add(const Wave& w) { s.push_back(w.s), c.push_back(w.c), c2.push_back(w.c2); }
+  Wave operator[](std::size_t i) const { return {s[i], c[i], c2[i]}; }
 };
 
 struct Diamond {
@@ -42,19 +51,23 @@ Drawing cut_at(const PatternPlace& p, double period) {
   constexpr double off = 4;
   const double steps = std::clamp(std::ceil(std::sqrt(6 * length / (8 * off))), 16.0, 96.0);
   const LevelGrid grid(p.area, length / steps);
-  const Wave z(p.z / unit);
-  std::vector<Wave> across;
-  for (std::size_t i = 0; i < grid.columns; ++i) across.emplace_back(grid.x(i) / unit);
-  std::vector<double> values;
-  values.reserve(grid.columns * grid.rows);
+  const Wave z = wave(p.z / unit);
+  Waves across;
+  for (std::size_t i = 0; i < grid.columns; ++i) across.add(wave(grid.x(i) / unit));
+  std::vector<double> values(grid.columns * grid.rows);
   for (std::size_t j = 0; j < grid.rows; ++j) {
     stop_if_asked();
-    const Wave y(grid.y(j) / unit);
-    for (std::size_t i = 0; i < grid.columns; ++i) values.push_back(Surface::value(across[i], y, z));
+    const Wave y = wave(grid.y(j) / unit);
+    double* row = &values[j * grid.columns];
+    for (std::size_t i = 0; i < grid.columns; ++i) row[i] = Surface::value(across[i], y, z);
   }
   Drawing out{.curves = zero_curves(grid, values), .pitch = length / 2};
-  mend_zero_curves([&](double x, double y) { return Surface::value(Wave(x / unit), Wave(y / unit), z); }, grid.step,
-                   out.curves);
+  const auto around = [&](double x, double y, double d) {
+    const Wave wx = wave(x / unit), wy = wave(y / unit);
+    return ValuesAround{Surface::value(wx, wy, z), Surface::value(wave((x + d) / unit), wy, z),
+                        Surface::value(wx, wave((y + d) / unit), z)};
+  };
+  mend_zero_curves(around, grid.step, out.curves);
   return out;
 }
 
