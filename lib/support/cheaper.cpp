@@ -88,28 +88,18 @@ class Guess {
 
 }  // namespace
 
-Split cheaper(const Room& room, const Stack& stack, const Field& field, const std::vector<Regions>& contacts,
-              Roofs& roofs) {
+Split cheaper(const Room& room, const Stack& stack, const Field& field, const std::vector<Regions>& contacts) {
   const Patches patches(contacts, apart(room.settings(), room.object().nozzle));
   const Guess guess(room, stack);
   const auto& all = patches.all();
   const auto columns_mm3 = tasks::parallel_map(all.size(), [&](std::size_t i) { return guess.columns_mm3(all[i]); });
-  const auto by_branches_mm3 = branches_mm3(room, stack, field, contacts, roofs, patches);
+  const auto by_branches_mm3 = branches_mm3(room, stack, field, contacts, patches);
   // Where both take about the same, columns are done sooner and stand firmer; neither is reckoned better than that.
   constexpr double about_the_same = 0.8;
   Split out{std::vector<Regions>(contacts.size()), std::vector<Regions>(contacts.size())};
-  const auto by_branches = [&](std::size_t i) { return by_branches_mm3[i] < about_the_same * columns_mm3[i]; };
-  bool all_by_branches = true;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    all_by_branches = all_by_branches && by_branches(i);
+  for (std::size_t i = 0; i < all.size(); ++i)
     for (const auto& [k, regions] : all[i].contacts)
-      append((by_branches(i) ? out.for_branches : out.for_columns)[k], regions);
-  }
-  if (!all_by_branches)
-    roofs.keep([&](Point p) {
-      const auto patch = patches.at(p);
-      return patch && by_branches(*patch);
-    });
+      append((by_branches_mm3[i] < about_the_same * columns_mm3[i] ? out.for_branches : out.for_columns)[k], regions);
   return out;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "support/field.h"
-#include "support/roofs.h"
 #include "support/room.h"
 
 #include <vector>
@@ -15,8 +14,6 @@ struct Split {
 
 /// Of each patch of contacts what takes less plastic. Neither is planned for that: columns are looked at every two
 /// millimetres, branches as lines.
-/// @param roofs  of all contacts; takes what is left of them on branches
-Split cheaper(const Room& room, const Stack& stack, const Field& field, const std::vector<Regions>& contacts,
-              Roofs& roofs);
+Split cheaper(const Room& room, const Stack& stack, const Field& field, const std::vector<Regions>& contacts);
 
 }  // namespace weft::support

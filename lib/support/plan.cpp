@@ -211,10 +211,9 @@ Standing stand(const Room& room, const Stack& stack, const std::vector<Regions>&
     return out;
   }
   const Field field(s, room.object(), stack, others);
-  Roofs roofs(room, stack, others);
-  Split split = s.support_structure == SupportStructure::hybrid ? cheaper(room, stack, field, others, roofs)
+  Split split = s.support_structure == SupportStructure::hybrid ? cheaper(room, stack, field, others)
                                                                 : Split{others, std::vector<Regions>(count)};
-  out.branches = tree(room, stack, field, split.for_branches, std::move(roofs));
+  out.branches = tree(room, stack, field, split.for_branches);
   out.under_columns = std::move(split.for_columns);
   const auto left = left_by(out.branches, split.for_branches);
   for (std::size_t k = 0; k < count; ++k) {

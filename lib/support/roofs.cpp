@@ -3,7 +3,6 @@
 
 #include "core/stop.h"
 #include "geometry/boolean.h"
-#include "geometry/simplify.h"
 #include "support/branch_areas.h"
 #include "support/columns.h"
 #include "support/joists.h"
@@ -27,7 +26,7 @@ Regions around_level(const std::vector<Regions>& contacts, std::size_t k, std::s
 
 /// What of a contact, together with those of its neighbours, is wide enough to lie on more than one branch.
 Regions wide_part(const Regions& contact, const Regions& around, Um least) {
-  const Regions wide = opened(geometry::simplified(around, coarse_outline), least / 2);
+  const Regions wide = geometry::opening(around, least / 2);
   return wide.empty() ? wide : geometry::opening(geometry::intersect(contact, grown(wide, 50)), 20);
 }
 
@@ -86,12 +85,6 @@ void Roofs::begin_roofs() {
   for (auto* some : {&begins_, &around_})
     for (auto& regions : *some)
       if (regions.size() > 1) regions = geometry::unite(regions);
-}
-
-void Roofs::keep(const std::function<bool(Point)>& held) {
-  for (auto* some : {&bare_, &begins_, &around_, &laid_, &wide_})
-    for (auto& regions : *some)
-      std::erase_if(regions, [&](const Region& region) { return !held(region.outer.front()); });
 }
 
 void Roofs::rest(std::size_t level, const Branches& branches, Spans spans) {

@@ -3,7 +3,6 @@
 #include "support/room.h"
 #include "support/support.h"
 
-#include <functional>
 #include <vector>
 
 namespace weft::support {
@@ -15,9 +14,6 @@ class Roofs {
  public:
   /// @param contacts  by level; they outlive this
   Roofs(const Room& room, const Stack& stack, const std::vector<Regions>& contacts);
-
-  /// Forgets the roofs that begin where that is not so: what branches do not hold gets none on them.
-  void keep(const std::function<bool(Point)>& held);
 
   /// What tips that end on this level hold by themselves.
   const Regions& bare(std::size_t level) const { return bare_[level]; }

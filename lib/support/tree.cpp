@@ -7,6 +7,7 @@
 #include "support/branch_areas.h"
 #include "support/field.h"
 #include "support/lengths.h"
+#include "support/roofs.h"
 #include "support/tips.h"
 #include "tasks/parallel.h"
 
@@ -64,24 +65,25 @@ class Grower {
     tree_.left.resize(stack.levels.size());
   }
 
-  Tree tree(Roofs roofs) && {
-    grow(roofs, &roofs);
+  Tree tree() && {
+    Roofs roofs(room_, stack_, contacts_);
+    grow(roofs);
     tree_.areas = branch_areas(room_, stack_, contacts_, discs_);
     auto laid = std::move(roofs).laid(tree_.areas);
     tree_.roofs = std::move(laid.areas), tree_.joists = std::move(laid.joists);
     return std::move(tree_);
   }
-  std::vector<double> plastic_mm3(const Roofs& roofs) && {
-    grow(roofs, nullptr);
+  std::vector<double> plastic_mm3() && {
+    Roofs roofs(room_, stack_, contacts_);
+    grow(roofs);
     return std::move(mm3_);
   }
 
  private:
-  /// @param laid  takes what roofs rest on
-  void grow(const Roofs& roofs, Roofs* laid) {
+  void grow(Roofs& roofs) {
     for (std::size_t slab = field_.slabs(); slab-- > 0;) {
       stop_if_asked();
-      begin_tips(slab, roofs, laid);
+      begin_tips(slab, roofs);
       step(slab);
     }
   }
@@ -91,7 +93,7 @@ class Grower {
     return node.plate ? field_.to_plate(slab, p) : field_.to_anything(slab, p);
   }
 
-  void begin_tips(std::size_t slab, const Roofs& roofs, Roofs* laid) {
+  void begin_tips(std::size_t slab, Roofs& roofs) {
     static const Regions nothing;
     const Um covers = tip_covers(s_, style_);
     for (std::size_t k = field_.first_level(slab + 1); k-- > field_.first_level(slab);) {
@@ -101,7 +103,7 @@ class Grower {
       // Strands of a roof cross from branch to branch, but hang free at its rim.
       const Um spans = roof_covers(style_, o_.nozzle);
       begin_under(slab, k, roof, roofs.around(k), {spans, std::min(spans, covers)});
-      if (laid != nullptr) laid->rest(k, standing_at(stack_.levels[k].z), {spans + o_.nozzle, spans});
+      if (patches_ == nullptr) roofs.rest(k, standing_at(stack_.levels[k].z), {spans + o_.nozzle, spans});
     }
   }
   /// Those that end at that height, and those that come from above.
@@ -345,13 +347,13 @@ class Grower {
 
 }  // namespace
 
-Tree tree(const Room& room, const Stack& stack, const Field& field, const std::vector<Regions>& contacts, Roofs roofs) {
-  return Grower(room, stack, field, contacts).tree(std::move(roofs));
+Tree tree(const Room& room, const Stack& stack, const Field& field, const std::vector<Regions>& contacts) {
+  return Grower(room, stack, field, contacts).tree();
 }
 
 std::vector<double> branches_mm3(const Room& room, const Stack& stack, const Field& field,
-                                 const std::vector<Regions>& contacts, const Roofs& roofs, const Patches& patches) {
-  return Grower(room, stack, field, contacts, &patches).plastic_mm3(roofs);
+                                 const std::vector<Regions>& contacts, const Patches& patches) {
+  return Grower(room, stack, field, contacts, &patches).plastic_mm3();
 }
 
 }  // namespace weft::support

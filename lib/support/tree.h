@@ -2,7 +2,6 @@
 #pragma once
 #include "support/field.h"
 #include "support/patches.h"
-#include "support/roofs.h"
 #include "support/support.h"
 
 #include <vector>
@@ -23,12 +22,11 @@ struct Tree {
 /// Tips stand so near that no place of a contact is further than support_tree_branch_distance from one; branches lean
 /// no more than support_tree_angle, meet where that is no long way, and get down to the plate, or else to the part.
 /// Source: Vanek, Galicia, Benes 2014, "Clever support"; Schmidt & Umetani 2014, "Branching support structures".
-/// @param roofs  of the same contacts
-Tree tree(const Room& room, const Stack& stack, const Field& field, const std::vector<Regions>& contacts, Roofs roofs);
+Tree tree(const Room& room, const Stack& stack, const Field& field, const std::vector<Regions>& contacts);
 
 /// What branches for the contacts of each patch would take, mm³: those that patches share count for each by its tips,
 /// and what no branch gets to as columns. Points only: cheap beside the areas of branches.
 std::vector<double> branches_mm3(const Room& room, const Stack& stack, const Field& field,
-                                 const std::vector<Regions>& contacts, const Roofs& roofs, const Patches& patches);
+                                 const std::vector<Regions>& contacts, const Patches& patches);
 
 }  // namespace weft::support
