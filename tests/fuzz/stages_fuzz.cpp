@@ -127,7 +127,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   const auto report = audit::examine_text(settings.machine, settings.material, settings.audit, gcode);
   require(report.damaged_count == 0);
   require(report.unaudited_moves == 0);
-  require(report.clean());
+  require(report.clean() || report.empty());  // of what walls make no bead there is no move
   if (size % 8 == 0) require(gcode_of(settings, layers) == gcode);
   return 0;
 }
