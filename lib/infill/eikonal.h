@@ -6,12 +6,14 @@
 
 namespace weft::infill {
 
+/// What u is where no front has come to.
+inline constexpr double unreached = 1e18;
+
 /// |∇u| = slowness on a grid: when a front that starts at known places is everywhere.
 /// @param slowness of the front, by node, 1/µm
 /// @param u        known values; `unreached` where it is to be found, negative where the front does not go
 /// Post: what no front reaches stays `unreached`.
 /// Source: Zhao 2005, "A fast sweeping method for Eikonal equations". Cost: about 50 ns a node.
-inline constexpr double unreached = 1e18;
 void sweep_front(const LevelGrid& grid, const std::vector<double>& slowness, std::vector<double>& u);
 
 }  // namespace weft::infill
