@@ -7,7 +7,7 @@ namespace weft::support {
 
 /// What the beads of an area of columns of that height take, mm³: a loop where it is narrow, else lines and what joins
 /// them at every other end.
-/// @param line  width of a bead
+/// @param line  width of a bead, µm
 double column_mm3(const SupportSettings& settings, Um line, const Region& area, Um height);
 
 /// What the beads of a plan take, mm³, reckoned from its areas. Cost: an offset a column.

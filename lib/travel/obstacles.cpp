@@ -3,6 +3,7 @@
 
 #include "geometry/boolean.h"
 #include "geometry/simplify.h"
+#include "geometry/spatial_index.h"
 #include "geometry/touching.h"
 
 #include <algorithm>
@@ -14,6 +15,7 @@ namespace {
 /// Travels keep this far from the edges of the room, µm.
 constexpr Um clearance = 100;
 
+/// Whether a ring is convex, straight places allowed.
 bool turns_left(const Ring& ring) {
   const std::size_t n = ring.size();
   for (std::size_t i = 0; i < n; ++i)
@@ -35,12 +37,11 @@ Regions obstacles_of(const TravelSettings& settings, const LayerInput& input) {
 
 /// Whether a box lies within a convex ring.
 bool surrounds(const Ring& ring, const Box& box) {
+  if (!turns_left(ring)) return false;
   const std::size_t n = ring.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    if (orient(ring[i], ring[(i + 1) % n], ring[(i + 2) % n]) < 0) return false;
+  for (std::size_t i = 0; i < n; ++i)
     for (const Point p : {box.min, Point{box.max.x, box.min.y}, box.max, Point{box.min.x, box.max.y}})
       if (orient(ring[i], ring[(i + 1) % n], p) <= 0) return false;
-  }
   return true;
 }
 
@@ -76,13 +77,8 @@ bool meets(Point p, Point q, const Box& box) {
 /// Whether p lies in a ring or no further from it than that.
 bool is_near(const Ring& ring, Point p, double within) {
   if (side_of(ring, p) != Side::outside) return true;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Point a = ring[i], b = ring[(i + 1) % ring.size()];
-    const double x = static_cast<double>(b.x) - a.x, y = static_cast<double>(b.y) - a.y, square = x * x + y * y;
-    const double t =
-        square > 0 ? ((static_cast<double>(p.x) - a.x) * x + (static_cast<double>(p.y) - a.y) * y) / square : 0;
-    if (distance(p, lerp(a, b, std::clamp(t, 0.0, 1.0))) <= within) return true;
-  }
+  for (std::size_t i = 0; i < ring.size(); ++i)
+    if (geometry::foot_of(p, {ring[i], ring[(i + 1) % ring.size()]}).distance_um <= within) return true;
   return false;
 }
 
