@@ -26,18 +26,19 @@ constexpr Um over_line = 10;                 // and over the line beside it
 struct Sample {
   double along = 0;  // µm from the ring's first point, of the middle of what it stands for
   double length = 0;
-  double width = 0;  // of the belt there, from the wall
-  bool solid = false;
-  bool free = false;  // solid or sparse: a line may go on there
-  bool line = false;  // there is one
+  double width = 0;        // of the belt there, from the wall
+  double over = 0;         // by how much its mean is within the limits between which there is a line
+  bool free = false;       // solid or sparse: a line may go on there
+  bool line = false;       // there is one
+  bool all_solid = false;  // from wall to wall
 };
 
 /// A ring, and how a belt lies along it.
 class Along {
  public:
   /// @param depth of the ring below the wall
-  Along(const Ring& ring, double depth, const Mask& solid, const Mask& sparse, double band) : ring_(ring) {
-    const double cell = solid.grid().cell;
+  Along(const Ring& ring, double depth, const Mask& solid, const Mask& sparse, double band)
+      : ring_(ring), cell_(solid.grid().cell), most_(looked_at * band) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const Point a = ring[i], b = ring[(i + 1) % ring.size()];
       const double length = distance(a, b);
@@ -46,26 +47,26 @@ class Along {
       const int looks = static_cast<int>(std::ceil(length / step_um));
       for (int k = 0; k < looks; ++k) {
         const Point p = lerp(a, b, (k + 0.5) / looks);
-        Sample s{perimeter_ + (k + 0.5) / looks * length, length / looks, depth - band / 2, solid.at(p), false, false};
-        s.free = s.solid || sparse.at(p);
-        if (s.solid) {
-          double way = cell;
-          const auto at = [&](double d) { return Point{p.x + rounded(d * nx), p.y + rounded(d * ny)}; };
-          while (way + depth < looked_at * band && solid.at(at(way))) way += cell;
-          const bool beside_sparse = way + depth < looked_at * band && sparse.at(at(way));
-          s.width = beside_sparse ? depth + way - cell / 2 : looked_at * band;
-        }
+        const auto at = [&](double d) {
+          return Point{p.x + rounded((d - depth) * nx), p.y + rounded((d - depth) * ny)};
+        };
+        Sample s{perimeter_ + (k + 0.5) / looks * length, length / looks, 0};
+        s.free = solid.at(p) || sparse.at(p);
+        if (s.free) look_across(at, depth, solid, sparse, s);
         samples_.push_back(s);
       }
       perimeter_ += length;
     }
+    find_all_solid();
   }
 
   /// Decides where the line at that depth runs.
   void decide(double depth, double band) {
     const std::vector<double> mean = means();
-    for (std::size_t i = 0; i < samples_.size(); ++i)
-      samples_[i].line = samples_[i].free && mean[i] >= depth && mean[i] < widest * band;
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      samples_[i].over = std::min(mean[i] - depth, widest * band - mean[i]);
+      samples_[i].line = samples_[i].free && samples_[i].over >= 0;
+    }
     // a pause is closed where it is short, then what is short goes
     turn_short(false);
     turn_short(true);
@@ -81,7 +82,8 @@ class Along {
       std::size_t count = 1;
       while (samples_[(first + count) % n].line) ++count;
       const Sample &a = samples_[first], &b = samples_[(first + count - 1) % n];
-      out.push_back({between(a.along - a.length / 2, b.along + b.length / 2), false});
+      out.push_back(
+          {between(a.along - a.length / 2 + later(first), b.along + b.length / 2 + later(first + count)), false});
     }
     return out;
   }
@@ -91,6 +93,38 @@ class Along {
   }
 
  private:
+  /// From the wall to the first cell that is sparse, or half way to the other side.
+  template <class At>
+  void look_across(const At& at, double depth, const Mask& solid, const Mask& sparse, Sample& s) const {
+    double way = cell_ / 2;
+    for (; way < most_; way += cell_) {
+      const Point p = at(way);
+      if (sparse.at(p)) {
+        s.width = way - cell_ / 2;
+        return;
+      }
+      if (way >= depth && !solid.at(p)) break;
+    }
+    s.width = (way - cell_ / 2) / 2, s.all_solid = true;
+  }
+
+  /// A spike between belts is as wide as they are; where all is solid for longer there is no belt.
+  void find_all_solid() {
+    const std::size_t n = samples_.size();
+    const auto all_solid = [](const Sample& s) { return s.all_solid; };
+    if (std::all_of(samples_.begin(), samples_.end(), all_solid)) return widen(0, n);
+    for (std::size_t first = 0; first < n; ++first) {
+      if (!samples_[first].all_solid || samples_[(first + n - 1) % n].all_solid) continue;
+      double length = 0;
+      std::size_t count = 0;
+      for (; samples_[(first + count) % n].all_solid; ++count) length += samples_[(first + count) % n].length;
+      if (length >= shortest_um) widen(first, count);
+    }
+  }
+  void widen(std::size_t first, std::size_t count) {
+    for (std::size_t k = first; k < first + count; ++k) samples_[k % samples_.size()].width = most_;
+  }
+
   /// Of the widths around each place.
   std::vector<double> means() const {
     const std::size_t n = samples_.size();
@@ -115,19 +149,27 @@ class Along {
     return mean;
   }
 
+  /// How much later than that sample what it is begins: where its mean passes the limit.
+  double later(std::size_t i) const {
+    const std::size_t n = samples_.size();
+    const Sample &a = samples_[(i + n - 1) % n], &b = samples_[i % n];
+    if (!a.free || !b.free || (a.over >= 0) == (b.over >= 0)) return 0;
+    return a.over / (a.over - b.over) * (a.length + b.length) / 2 - a.length / 2;
+  }
+
   /// Runs that have a line, or none, and are short become the other; a pause only where a line may go on.
   void turn_short(bool line) {
     const std::size_t n = samples_.size();
     for (std::size_t first = 0; first < n; ++first) {
       if (samples_[first].line != line || samples_[(first + n - 1) % n].line == line) continue;
-      double length = 0;
+      double length = -later(first);
       bool may = true;
       std::size_t count = 0;
       for (; count < n && samples_[(first + count) % n].line == line; ++count) {
         length += samples_[(first + count) % n].length;
         may &= line || samples_[(first + count) % n].free;
       }
-      if (length >= shortest_um || !may) continue;
+      if (length + later(first + count) >= shortest_um || !may) continue;
       for (std::size_t k = 0; k < count; ++k) samples_[(first + k) % n].line = !line;
     }
   }
@@ -151,6 +193,7 @@ class Along {
   }
 
   Ring ring_;
+  double cell_, most_;
   std::vector<Sample> samples_;
   double perimeter_ = 0;
 };

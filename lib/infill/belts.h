@@ -30,9 +30,9 @@ struct Belts {
 /// (k − ½) · band runs where the belt is at least that wide. A belt's inner edge follows from what lies layers away and
 /// is not seen: it moves to the edge of the last line, by half a line at most. So a belt below half a line has none, as
 /// what it would close is below the walls of the next layer. Where lines begin and end is decided by the belt's mean
-/// width over some millimetres.
+/// width over some millimetres, so that equal places are alike, however the grid lies on them.
 /// @param inside of the walls, exactly
-/// @param solid,sparse cells of it
+/// @param solid,sparse cells of it; what is too narrow for a line of its own is solid, too
 /// @param band of a line, µm
 /// Cost: three offsets of the regions that have such belts, one of those that could; 20 µs a centimetre of wall.
 Belts find_belts(const Regions& inside, const Mask& solid, const Mask& sparse, Um band);

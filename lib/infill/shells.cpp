@@ -127,6 +127,7 @@ struct Split {
   double line = 0;  ///< width of an ordinary one, µm
   Mask solid, seen_above, air_below;
   std::optional<Mask> sparse;  ///< present when any
+  std::optional<Mask> thin;    ///< of it: what would be solid, but is too narrow for a line of its own
 };
 
 Split split_of(const ShellSettings& settings, const InfillSettings& infill, const ShellObject& object,
@@ -136,20 +137,21 @@ Split split_of(const ShellSettings& settings, const InfillSettings& infill, cons
   const Mask& inside = window.inside(index);
   const Reach reach = reach_of(settings, object.layers, index);
   const Mask none(grid);
-  Split out{static_cast<double>(flow::automatic_width(object.nozzle, layer.height)), inside, none, none, std::nullopt};
+  Split out{static_cast<double>(flow::automatic_width(object.nozzle, layer.height)), inside, none, none, {}, {}};
   if (reach.above > 0) out.seen_above = index + 1 < object.layers.size() ? inside - window.outline(index + 1) : inside;
   if (reach.below > 0 && index > 0) out.air_below = inside - window.outline(index - 1);
   const bool whole =
       settings.infill_solid_every_layers && index % static_cast<std::size_t>(*settings.infill_solid_every_layers) == 0;
   if (infill.infill_sparse_density >= 100 || whole) return out;
-  out.solid = solid_cells(window, object.layers, index, reach).opened(cells(0.3 * out.line, grid));
+  const Mask all = solid_cells(window, object.layers, index, reach);
+  out.solid = all.opened(cells(0.3 * out.line, grid));
   if (out.seen_above.any() || out.air_below.any())
     out.solid |= (out.seen_above | out.air_below).grown(cells(out.line, grid)) & inside;
   Mask sparse = inside - out.solid;
   if (layer.open != nullptr) sparse &= Mask(grid, *layer.open);
   if (out.solid.any()) sparse -= closed_strips(sparse, out.line);
   out.solid = inside - sparse;
-  if (sparse.any()) out.sparse = std::move(sparse);
+  if (sparse.any()) out.thin = all & sparse, out.sparse = std::move(sparse);
   return out;
 }
 
@@ -206,9 +208,10 @@ void find_internal_bridges(const ShellSettings& settings, const SparseStyle& bel
 }
 
 /// Narrow solid beside sparse infill is as wide as its lines; what is too short for one is sparse.
-void lay_belts(const Regions& inside, double line, Um band, Kinds& kinds) {
+/// @param thin of what is sparse: what belts may close
+void lay_belts(const Regions& inside, const Mask& thin, double line, Um band, Kinds& kinds) {
   const Grid& grid = kinds.inside.grid();
-  Belts belts = find_belts(inside, kinds.solid, *kinds.sparse, band);
+  Belts belts = find_belts(inside, kinds.solid | thin, *kinds.sparse - thin, band);
   if (!belts.found.empty()) {
     kinds.solid -= belts.area;
     const Mask left = (kinds.solid - kinds.solid.opened(cells(0.4 * line, grid))) & belts.area.grown(cells(line, grid));
@@ -266,7 +269,7 @@ Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, cons
   const Um height = object.layers[index].height;
   if (kinds.sparse)
     lay_belts(
-        *object.layers[index].inside, line,
+        *object.layers[index].inside, *split.thin & *kinds.sparse, line,
         flow::spacing(length_or(settings.skin_line_width, object.nozzle, flow::automatic_width(object.nozzle, height)),
                       height, object.overlap_factor),
         kinds);

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <catch2/catch.hpp>
 
@@ -55,7 +56,58 @@ struct Hill {
   }
 };
 
+/// A gear whose teeth lean: each layer is turned a little further.
+Region gear(int teeth, double turned) {
+  constexpr double profile[][2] = {{0, 13}, {0.15, 13}, {0.35, 16.5}, {0.6, 16.5}, {0.8, 13}};
+  Region region;
+  for (int tooth = 0; tooth < teeth; ++tooth)
+    for (const auto& [share, mm] : profile) {
+      const double a = 2 * std::numbers::pi * (tooth + share + turned) / teeth, radius = mm * teeth / 17.0;
+      region.outer.push_back({rounded(1000 * radius * std::cos(a)), rounded(1000 * radius * std::sin(a))});
+    }
+  return region;
+}
+
+/// Of belts, by the tooth of the gear that they lie in, mm.
+std::vector<double> belts_by_tooth(const LayerAreas& layer, int teeth, double turned) {
+  std::vector<double> mm(static_cast<std::size_t>(teeth), 0.0);
+  for (const PartAreas& part : layer)
+    for (const infill::BeltLine& line : part.belts)
+      for (std::size_t i = line.closed ? 0 : 1; i < line.path.size(); ++i) {
+        const Point a = line.path[i > 0 ? i - 1 : line.path.size() - 1], b = line.path[i], m = lerp(a, b, 0.5);
+        const double at = std::atan2(m.y, m.x) / (2 * std::numbers::pi) * teeth - turned - 0.475;
+        const int tooth = static_cast<int>(std::lround(at)) % teeth;
+        mm[static_cast<std::size_t>(tooth < 0 ? tooth + teeth : tooth)] += distance(a, b) / 1000;
+      }
+  return mm;
+}
+
 }  // namespace
+
+TEST_CASE("belts: equal teeth of a gear have equal belts, however the grid lies on them", "[infill][law]") {
+  const int teeth = GENERATE(9, 13, 17, 20);
+  const double lean =
+      GENERATE(0.006, 0.010, 0.014, 0.018);  // of a tooth a layer: no belt is about as long as the shortest
+  CAPTURE(teeth, lean);
+  std::vector<Regions> outlines, insides;
+  std::vector<infill::ShellLayer> layers;
+  constexpr int count = 13;
+  for (int i = 0; i < count; ++i) {
+    outlines.push_back({gear(teeth, i * lean)});
+    insides.push_back(geometry::offset(outlines.back(), {.by = -wall}));
+  }
+  for (std::size_t i = 0; i < outlines.size(); ++i)
+    layers.push_back({static_cast<Um>(200 * (i + 1)), 200, &outlines[i], &insides[i]});
+  ShellSettings shells;
+  shells.skin_line_width = 450;
+  const auto areas = infill::find_areas(shells, {}, {layers, infill::box_of(layers), 400}, 0, layers.size());
+  for (const std::size_t layer : {5U, 6U, 7U}) {
+    const auto mm = belts_by_tooth(areas[layer], teeth, static_cast<double>(layer) * lean);
+    const auto [least, most] = std::minmax_element(mm.begin(), mm.end());
+    CAPTURE(layer, *least, *most);
+    CHECK(*most - *least <= 0.5);  // lines begin and end on samples
+  }
+}
 
 TEST_CASE("belts: under a slope lines run along the wall, side by side, all as wide as any line", "[infill]") {
   const Um step = GENERATE(150, 250, 300);  // four solid layers: belts of 0.6 to 1.2 mm
