@@ -31,6 +31,7 @@
 #include "settings/tools.h"
 #include "tasks/parallel.h"
 #include "tasks/tasks.h"
+#include "tools/purge.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -378,6 +379,9 @@ std::optional<audit::Passed> print(const Job& job, Printing what, const Watch& w
                   std::move(digests),
                   tool_count(job.settings) > 1 ? settings_of_tools(job.settings) : std::vector<Settings>{},
                   std::move(cold_at_start)};
+  if (!text.tools.empty())
+    for (const auto& row : tools::purge_volumes(text.tools))
+      text.purge_volumes.insert(text.purge_volumes.end(), row.begin(), row.end());
   const bool of_models = job.settings.gcode.thumbnail_content == ThumbnailContent::model;
   text.thumbnails = of_models ? std::move(planned.thumbnails) : pictures_of_toolpaths(text, plan, packed);
   write_gcode(text, plan, std::move(packed), heat, check, report);
