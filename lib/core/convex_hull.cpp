@@ -37,4 +37,10 @@ Ring convex_hull(std::vector<Point> points) {
   return chains(std::move(points));
 }
 
+bool is_convex(const Ring& ring) {
+  for (std::size_t i = 0; i < ring.size(); ++i)
+    if (orient(ring[i], ring[(i + 1) % ring.size()], ring[(i + 2) % ring.size()]) < 0) return false;
+  return true;
+}
+
 }  // namespace weft

@@ -13,6 +13,9 @@ namespace weft {
 /// Cost: O(n log n). Exact. Source: Andrew 1979, "Another efficient algorithm for convex hulls in two dimensions".
 Ring convex_hull(std::vector<Point> points);
 
+/// Whether the ring turns right nowhere; straight places are allowed. Pre: simple, counter-clockwise. O(n), exact.
+bool is_convex(const Ring& ring);
+
 /// The outermost points in eight directions. What lies strictly within the octagon of them is no corner of the hull,
 /// and need not be sorted. Source: Akl & Toussaint 1978, "A fast convex hull algorithm".
 class Outermost {

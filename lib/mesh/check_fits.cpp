@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/convex_hull.h"
 #include "core/error.h"
 #include "mesh/fits.h"
 #include "mesh/placement.h"

@@ -19,12 +19,6 @@ double distance_to_segment(Point p, Point a, Point b) {
 
 }  // namespace
 
-bool is_convex(const Ring& ring) {
-  for (std::size_t i = 0; i < ring.size(); ++i)
-    if (orient(ring[i], ring[(i + 1) % ring.size()], ring[(i + 2) % ring.size()]) < 0) return false;
-  return true;
-}
-
 double outside_by(Point p, const Ring& ring) {
   if (side_of(ring, p) != Side::outside) return 0;
   double nearest = std::numeric_limits<double>::infinity();

@@ -7,8 +7,6 @@
 /// Exact questions about shapes on a plate. Everything that only touches is inside, and outside of what is kept out.
 namespace weft::mesh {
 
-bool is_convex(const Ring& ring);
-
 /// How far p is outside the ring, fractional microns; 0 when it is in or on it.
 double outside_by(Point p, const Ring& ring);
 

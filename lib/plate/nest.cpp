@@ -33,12 +33,6 @@ std::size_t most_corners(std::size_t shapes) {
   return shapes <= 8 ? 80 : shapes <= 40 ? 40 : 24;
 }
 
-bool is_convex(const Ring& ring) {
-  for (std::size_t i = 0; i < ring.size(); ++i)
-    if (orient(ring[i], ring[(i + 1) % ring.size()], ring[(i + 2) % ring.size()]) < 0) return false;
-  return true;
-}
-
 Ring turned_round(Ring ring) {
   for (Point& p : ring) p = -p;
   return ring;

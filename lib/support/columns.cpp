@@ -139,6 +139,10 @@ void thicken(Regions& area, const Regions& fresh, Um line) {
   area = geometry::unite(area);
 }
 
+Regions without_thin(const Regions& area, Um radius) {
+  return geometry::offset(geometry::offset(area, {.by = -radius}), {.by = radius, .miter_limit = 8});
+}
+
 namespace {
 
 /// What of a level hangs, but for slivers along edges: an area that was opened by 0.4 lines is none.
@@ -183,12 +187,6 @@ void rest_on(const Room& room, const Stack::Level& level, const Regions& below, 
 namespace {
 
 constexpr Um corner_bound = 40_um;
-
-/// What is thinner than twice the radius goes. Other corners stay as they are: opened level by level, they would be cut
-/// a little each time.
-Regions without_thin(const Regions& area, Um radius) {
-  return geometry::offset(geometry::offset(area, {.by = -radius}), {.by = radius, .miter_limit = 8});
-}
 
 /// Columns of one patch.
 class Falling {

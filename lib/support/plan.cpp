@@ -70,7 +70,7 @@ class Interfaces {
     if (!out.roof.empty() || !out.bottom.empty()) {
       Regions dense = out.roof;
       append(dense, out.bottom);
-      out.columns = geometry::opening(geometry::subtract(out.columns, dense), line_ * 4 / 10);
+      out.columns = without_thin(geometry::subtract(out.columns, dense), line_ * 4 / 10);
     }
     return out;
   }
@@ -259,13 +259,15 @@ void add_branches(const Room& room, std::size_t k, const Standing& standing, Sup
   layer.branches = beside(layer.branches, others, 0, half / 2);
 }
 
-/// Where columns took the place of branches, those above may have nothing left below them.
+/// Where columns or roofs took the place of branches, those above may have nothing left below them.
 void let_branches_rest(const Room& room, const Stack& stack, const Standing& standing,
                        std::vector<SupportLayer>& layers) {
   for (std::size_t k = 1; k < layers.size(); ++k) {
-    if (layers[k].branches.empty() || standing.columns[k - 1].empty()) continue;
+    const SupportLayer& below = layers[k - 1];
+    if (layers[k].branches.empty()) continue;
+    if (standing.columns[k - 1].empty() && below.roof.empty() && below.joists.area.empty()) continue;
     stop_if_asked();
-    rest_on(room, stack.levels[k], all_areas(layers[k - 1]), layers[k].branches);
+    rest_on(room, stack.levels[k], all_areas(below), layers[k].branches);
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "travel/obstacles.h"
 
+#include "core/convex_hull.h"
 #include "geometry/boolean.h"
 #include "geometry/simplify.h"
 #include "geometry/spatial_index.h"
@@ -14,14 +15,6 @@ namespace {
 
 /// Travels keep this far from the edges of the room, µm.
 constexpr Um clearance = 100;
-
-/// Whether a ring is convex, straight places allowed.
-bool turns_left(const Ring& ring) {
-  const std::size_t n = ring.size();
-  for (std::size_t i = 0; i < n; ++i)
-    if (orient(ring[i], ring[(i + 1) % n], ring[(i + 2) % n]) < 0) return false;
-  return true;
-}
 
 Regions obstacles_of(const TravelSettings& settings, const LayerInput& input) {
   constexpr Um coarse = 50;  // support is kept off by much more
@@ -37,7 +30,7 @@ Regions obstacles_of(const TravelSettings& settings, const LayerInput& input) {
 
 /// Whether a box lies within a convex ring.
 bool surrounds(const Ring& ring, const Box& box) {
-  if (!turns_left(ring)) return false;
+  if (!is_convex(ring)) return false;
   const std::size_t n = ring.size();
   for (std::size_t i = 0; i < n; ++i)
     for (const Point p : {box.min, Point{box.max.x, box.min.y}, box.max, Point{box.min.x, box.max.y}})
@@ -86,7 +79,7 @@ bool is_near(const Ring& ring, Point p, double within) {
 
 Regions free_area(const Room& room) {
   if (room.reach.size() < 3) return {};
-  if (turns_left(room.reach) && room.no_go.empty()) return {};
+  if (is_convex(room.reach) && room.no_go.empty()) return {};
   const Regions reach{{room.reach, {}}};
   if (room.no_go.empty()) return reach;
   return geometry::subtract(reach, geometry::offset(geometry::regions_from_rings(room.no_go), {.by = clearance}));
@@ -96,7 +89,7 @@ Obstacles::Obstacles(const TravelSettings& settings, const LayerInput& input)
     : settings_(settings), input_(input), what_(obstacles_of(settings, input)) {
   for (const Region& region : what_) {
     reach_.push_back(box_of(region.outer).grown(settings.travel_avoid_distance + 2));
-    convex_.push_back(region.holes.empty() && turns_left(region.outer));
+    convex_.push_back(region.holes.empty() && is_convex(region.outer));
   }
 }
 
@@ -107,7 +100,7 @@ bool Obstacles::leaves_freely(std::size_t i, Point p) const {
 }
 
 bool Obstacles::nothing_between(Point p, Point q) const {
-  if (!input_.room.no_go.empty() || (input_.room.reach.size() >= 3 && !turns_left(input_.room.reach))) return false;
+  if (!input_.room.no_go.empty() || (input_.room.reach.size() >= 3 && !is_convex(input_.room.reach))) return false;
   for (std::size_t i = 0; i < what_.size(); ++i)
     if (meets(p, q, reach_[i]) && !leaves_freely(i, p) && !leaves_freely(i, q)) return false;
   return true;

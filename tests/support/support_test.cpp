@@ -36,9 +36,9 @@ double too_near(const support::Plan& plan, const Body& body, Um distance) {
 }
 
 /// What of support has nothing below: neither bed, nor support, nor the part within a millimetre. Strands of a roof
-/// cross from branch to branch.
+/// cross from branch to branch, and on joists what is left in the middle of several: no wider than what is joined.
 double floating(const support::Plan& plan, const Body& body, Um aside) {
-  constexpr Um crosses = 2900;
+  constexpr Um crosses = 2900, joined = 2000;
   double mm2 = 0;
   for (std::size_t k = 1; k < plan.layers.size(); ++k) {
     const auto& level = plan.layers[k];
@@ -54,7 +54,8 @@ double floating(const support::Plan& plan, const Body& body, Um aside) {
     const Regions hangs = geometry::subtract(all_of(level), grown(base, aside));
     Regions strands = level.roof;
     strands.insert(strands.end(), level.joists.area.begin(), level.joists.area.end());
-    mm2 += area_mm2(geometry::subtract(hangs, geometry::intersect(strands, grown(base, crosses))));
+    const Regions held = geometry::closing(grown(base, crosses), joined / 2);
+    mm2 += area_mm2(geometry::subtract(hangs, geometry::intersect(strands, held)));
   }
   return mm2;
 }
