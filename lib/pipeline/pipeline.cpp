@@ -33,6 +33,7 @@
 #include "settings/tools.h"
 #include "tasks/parallel.h"
 #include "tasks/tasks.h"
+#include "tools/purge.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -385,6 +386,7 @@ std::optional<audit::Passed> print(const Job& job, Printing what, const Watch& w
       std::move(digests),
       tool_count(job.settings) > 1 ? settings_of_tools(job.settings) : std::vector<Settings>{},
       std::move(cold_at_start)};
+  text.purge_volumes = tools::purge_matrix(text.tools);
   const bool of_models = job.settings.gcode.thumbnail_content == ThumbnailContent::model;
   text.thumbnails = of_models ? std::move(planned.thumbnails) : pictures_of_toolpaths(text, plan, packed);
   write_gcode(text, plan, std::move(packed), heat, check, report);
@@ -401,11 +403,7 @@ constexpr std::size_t estimate_stride = 4;
 
 /// The layers of the tallest object, about.
 std::size_t layers_of(const Settings& settings, const Plate& plate) {
-  Um height = 0;
-  for (const auto& object : plate.objects)
-    for (const auto& volume : object.volumes)
-      if (volume.kind == VolumeKind::model) height = std::max(height, box_of(volume.mesh).max.z);
-  return static_cast<std::size_t>(height / std::max(settings.layers.layer_height, Um{1}));
+  return static_cast<std::size_t>(top_of(plate) / std::max(settings.layers.layer_height, Um{1}));
 }
 
 /// The same without an end, and unless asked for all of them, with beads on some layers only.
