@@ -19,6 +19,7 @@
 #include "pipeline/one_at_a_time.h"
 #include "pipeline/passes.h"
 #include "pipeline/place_heat.h"
+#include "pipeline/place_tower.h"
 #include "pipeline/plan_moves.h"
 #include "pipeline/plate.h"
 #include "pipeline/provenance.h"
@@ -212,10 +213,9 @@ void keep(const Sample& sample, std::size_t at_least, PrintedLayers& layers) {
     if (!sample.has(i)) layers[i] = {layers[i].z, layers[i].height, {}, {}, {}, {}, {}, {}};
 }
 
-/// Each object is printed with one tool, in a nozzle of its own: between objects nothing is purged.
-/// @throws Error{settings}
-void check_tools_one_at_a_time(const ToolScopes& tools, const Plate& plate, const std::vector<PrintedLayers>& layers) {
-  std::set<ToolId> all;
+/// The tool of each object: one, so that tools change on the bed only. @throws Error{settings}
+std::vector<ToolId> tools_one_at_a_time(const Plate& plate, const std::vector<PrintedLayers>& layers) {
+  std::vector<ToolId> out;
   for (std::size_t o = 0; o < layers.size(); ++o) {
     std::set<ToolId> own;
     for (const auto& layer : layers[o])
@@ -225,12 +225,9 @@ void check_tools_one_at_a_time(const ToolScopes& tools, const Plate& plate, cons
       throw Error{Error::Kind::settings,
                   fmt::format("one_at_a_time: '{}' is printed with several tools", plate.objects[o].name),
                   "print_sequence", "print_sequence = all_at_once"};
-    all.insert(own.begin(), own.end());
+    out.push_back(own.empty() ? any_tool : *own.begin());
   }
-  if (all.size() > 1 && shares_nozzle(tools.tools()))
-    throw Error{Error::Kind::settings,
-                "one_at_a_time: tools that share a nozzle are purged into a tower, and there is none", "print_sequence",
-                "print_sequence = all_at_once"};
+  return out;
 }
 
 /// Are layers of an object to follow its surface?
@@ -262,13 +259,17 @@ Sequence sequence_of(const Scopes& scopes, const ToolScopes& tools, const Plate&
   const Settings& settings = scopes[0];
   if (settings.plate.print_sequence == PrintSequence::all_at_once || copies_on(plate) < 2)
     return by_layer(copies_on(plate));
-  if (tools.several()) check_tools_one_at_a_time(tools, plate, layers);
+  const auto tool_of = tools.several() ? tools_one_at_a_time(plate, layers) : std::vector<ToolId>(layers.size());
   const auto labels = labels_of(plate);
   std::vector<Standing> copies;
   for (std::size_t o = 0; o < plate.objects.size(); ++o)
     for (const Point by : plate.objects[o].copies) {
-      copies.push_back(
-          {labels[copies.size()].name, by, {&layers[o], &supports[o].layers}, 0, beside_of(scopes[feet[o]])});
+      copies.push_back({labels[copies.size()].name,
+                        by,
+                        {&layers[o], &supports[o].layers},
+                        0,
+                        beside_of(scopes[feet[o]]),
+                        tool_of[o]});
       for (const auto* list : copies.back().layers)
         for (const auto& layer : *list) copies.back().height = std::max(copies.back().height, layer.z);
     }
