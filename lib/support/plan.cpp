@@ -17,6 +17,7 @@
 #include "tasks/parallel.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -153,11 +154,18 @@ void note_reached(const Object& object, const Stack& stack, const Demand& demand
         left.push_back(wanted);
         continue;
       }
-      out.contact_mm2 += area_mm2(geometry::intersect({wanted}, near));
       // It is a judgement of reach: beads' finer corners do not matter to it.
       constexpr Um coarse = 80;
-      const Regions wide = grown(geometry::simplified(near, coarse), reached, coarse);
-      append(left, geometry::opening(geometry::subtract({wanted}, wide), coarse));
+      const Regions beside = geometry::subtract({wanted}, near);
+      const double covered_mm2 = area_mm2(wanted) - area_mm2(beside);
+      out.contact_mm2 += covered_mm2;
+      // Each piece of what is partly covered touches what covers it.
+      const bool all_reached = covered_mm2 > 0 && std::all_of(beside.begin(), beside.end(), [](const Region& piece) {
+                                 const Point size = box_of(piece.outer).size();
+                                 return std::hypot(size.x, size.y) < reached;
+                               });
+      const Regions wide = grown(geometry::simplified(all_reached ? Regions{wanted} : near, coarse), reached, coarse);
+      if (!all_reached) append(left, geometry::opening(geometry::subtract({wanted}, wide), coarse));
       append(out.held, geometry::intersect(geometry::trimmed(object.layers[i]->regions, box.grown(reached)), wide));
     }
     if (out.held.size() > 1) out.held = geometry::unite(out.held);
