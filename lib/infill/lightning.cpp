@@ -47,8 +47,8 @@ class Forest {
     tidy();
   }
 
-  /// A branch to each place that is farther than the radius from wall and branch; those near the wall first.
-  void support(const geometry::SegmentIndex& edges, const std::vector<Point>& places, double radius) {
+  /// A branch to each place that is farther from walls and branches than those carry it; those near the wall first.
+  void support(const geometry::SegmentIndex& edges, const std::vector<Point>& places, double radius, double by_wall) {
     struct Wanted {
       double to_wall;
       Point at, foot;
@@ -56,7 +56,7 @@ class Forest {
     std::vector<Wanted> wanted;
     for (const Point p : places) {
       const auto near = edges.nearest(p);
-      if (near && near->distance_um > radius) wanted.push_back({near->distance_um, p, near->at});
+      if (near && near->distance_um > by_wall) wanted.push_back({near->distance_um, p, near->at});
     }
     std::sort(wanted.begin(), wanted.end(), [](const Wanted& a, const Wanted& b) {
       if (a.to_wall != b.to_wall) return a.to_wall < b.to_wall;
@@ -262,7 +262,7 @@ std::vector<std::vector<Polyline>> lightning(std::span<const LightningLayer> lay
     forest.descend(edges, i + 1 < layers.size() ? layers[i + 1].height : 0, lean);
     forest.support(edges,
                    hanging(here, i + 1 < layers.size() ? layers[i + 1].sparse : Regions{}, samples * radius, origin),
-                   radius);
+                   radius, lean.beside_wall ? *lean.beside_wall * layers[i].height : radius);
     out[i] = forest.lines();
   }
   return out;

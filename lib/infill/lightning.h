@@ -2,6 +2,7 @@
 #pragma once
 #include "core/polygon.h"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,14 +14,16 @@ struct LightningLayer {
   Regions sparse;  ///< to be filled
 };
 
-/// How far branches move from layer to layer, in the layer's height.
+/// In the layer's height.
 struct LightningLean {
-  double tips = 1, bends = 1;
+  double tips = 1, bends = 1;           ///< how far branches move from layer to layer
+  std::optional<double> beside_wall{};  ///< what carries itself there; absent: as much as beside a branch
 };
 
 /// Branches below what is solid above sparse infill, and nothing elsewhere: from the top downwards each place that
-/// hangs farther than `radius` from wall and branch grows one, to whichever is nearer; further down tips are shortened,
-/// paths straightened and roots kept at the wall, none moved by more than the layer's height allows.
+/// hangs farther than `radius` from branches, and than what `lean` says from walls, grows one, to whichever is nearer;
+/// further down tips are shortened, paths straightened and roots kept at the wall, none moved by more than the layer's
+/// height allows.
 /// @param origin  what moves with the object: places that are looked at stand on a lattice around it
 /// @returns the branches of each layer. They end at walls a little outside of the area, so that they are cut there.
 /// Source: Tricard, Claux, Lefebvre 2020, "Ribbed support vaults for 3D printing of hollowed objects".

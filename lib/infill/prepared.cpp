@@ -99,12 +99,12 @@ Prepared prepare(const InfillSettings& infill, const ShellObject& object, const 
   if (pattern == InfillPattern::lightning) {
     std::vector<LightningLayer> layers;
     for (std::size_t i = 0; i < areas.size(); ++i) layers.push_back({object.layers[i].height, sparse_of(areas[i])});
-    const auto lean = [&](const std::optional<double>& angle) {
-      return std::tan(angle.value_or(infill.lightning_infill_support_angle) * std::numbers::pi / 180);
-    };
-    out.branches = lightning(
-        layers, spacing, {lean(infill.lightning_infill_prune_angle), lean(infill.lightning_infill_straightening_angle)},
-        anchored);
+    const auto tangent = [](double degrees) { return std::tan(degrees * std::numbers::pi / 180); };
+    const double usual = infill.lightning_infill_support_angle;
+    LightningLean lean{tangent(infill.lightning_infill_prune_angle.value_or(usual)),
+                       tangent(infill.lightning_infill_straightening_angle.value_or(usual))};
+    if (infill.lightning_infill_overhang_angle) lean.beside_wall = tangent(*infill.lightning_infill_overhang_angle);
+    out.branches = lightning(layers, spacing, lean, anchored);
   }
   out.direction = read_direction(infill, object, on_bed);
   if (Density::varies(infill)) out.density.emplace(infill, object, areas, on_bed);

@@ -162,6 +162,7 @@ Split split_of(const ShellSettings& settings, const InfillSettings& infill, cons
   if (out.seen_above.any() || out.air_below.any())
     out.solid |= (out.seen_above | out.air_below).grown(cells(out.line, grid)) & inside;
   Mask sparse = inside - out.solid;
+  if (layer.open != nullptr) sparse &= Mask(grid, *layer.open);
   if (out.solid.any()) sparse -= closed_strips(sparse, out.line);
   out.solid = inside - sparse;
   if (sparse.any()) out.sparse = std::move(sparse);

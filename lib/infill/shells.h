@@ -19,6 +19,7 @@ struct ShellLayer {
   const Regions* outline = nullptr;  ///< the slice
   const Regions* inside = nullptr;   ///< what the walls left of it
   const Regions* held = nullptr;     ///< what of it rests on support, where something does
+  const Regions* open = nullptr;     ///< where it may be sparse; null: everywhere
 };
 
 /// An object from the bed upwards, and the box of all its outlines.

@@ -237,7 +237,8 @@ Rules rules_of(const Settings& s, const Settings* above) {
           s.tools.switch_extruder_extra_prime_amount,
           s.gcode.arc_fitting ? std::optional(s.gcode.arc_tolerance) : std::nullopt,
           in_silent_mode(s.machine),
-          s.gcode.arc_segment_length};
+          s.gcode.arc_segment_length,
+          usual.infill.infill_line_width};
 }
 
 namespace {

@@ -27,6 +27,7 @@ struct Rules {
   std::optional<Um> arc_tolerance{};        ///< curves are told as arcs (motion/arcs.h); absent: they are not
   std::optional<MachineSettings> silent{};  ///< the machine in its silent mode; absent: it has none
   std::optional<Um> arc_segment{};          ///< pieces that firmware cuts arcs into; absent: as its documents say
+  std::optional<LengthOrShare> infill_line_width{};  ///< of sparse infill; absent: automatic
 };
 
 /// @param above what holds above the first layer: a bead's nominal width is that of the others. Null: the same

@@ -31,13 +31,22 @@ double area_mm2(const Junction& j, double height_mm) {
   return to_mm(j.width) * static_cast<double>(j.flow) * height_mm;
 }
 
-/// The cross-section that a wall of nominal width has, mm².
+/// Widths of these follow the place that they fill, or the density that was asked for.
+bool varies_in_width(Role role) {
+  return is_wall(role) || role == Role::gap_fill || role == Role::infill;
+}
+
+/// The cross-section that such a bead has at nominal width, mm². Gaps are filled with what inner walls are made of.
 double nominal_area_mm2(const Rules& rules, Role role, Um height) {
   const Um nozzle = rules.machine.nozzle_diameter;
-  const Um width = role == Role::outer_wall
-                       ? length_or(rules.walls.wall_line_width_0, nozzle, flow::automatic_outer_width(nozzle))
-                       : length_or(rules.walls.wall_line_width_x, nozzle, flow::automatic_width(nozzle, height));
-  return flow::area_mm2(to_mm(width), to_mm(height));
+  const auto width = [&] {
+    if (role == Role::outer_wall)
+      return length_or(rules.walls.wall_line_width_0, nozzle, flow::automatic_outer_width(nozzle));
+    if (role == Role::infill)
+      return length_or(rules.infill_line_width, nozzle, flow::automatic_width(nozzle, height, false));
+    return length_or(rules.walls.wall_line_width_x, nozzle, flow::automatic_width(nozzle, height));
+  };
+  return flow::area_mm2(to_mm(width()), to_mm(height));
 }
 
 /// The length of the closed bead that this is, or was cut from; 0: it is an open one.
@@ -127,10 +136,10 @@ void set_bead_speed(const Rules& rules, Extrude& bead) {
       with_overhang(rules, bead, with_small_perimeter(rules, bead, feature_speed_mm_s(rules, bead.role)));
   const double height_mm = to_mm(bead.height), share = rules.material.material_flow / 100.0;
   const double most_mm3_s = rules.material.material_max_volumetric_speed;
-  const bool follows_width =
-      (is_wall(bead.role) || bead.role == Role::gap_fill) && rules.speeds.speed_equalize_flow_width_factor > 0;
-  const double factor = follows_width ? rules.speeds.speed_equalize_flow_width_factor / 100.0 : 0;
-  const double nominal = follows_width ? nominal_area_mm2(rules, bead.role, bead.height) : 0;
+  const double factor = varies_in_width(bead.role) ? rules.speeds.speed_equalize_flow_width_factor / 100.0 : 0;
+  // sparse infill of several layers at once flows so many times, at any width
+  const double layers = bead.role == Role::infill ? static_cast<double>(bead.path.front().flow) : 1;
+  const double nominal = factor > 0 ? layers * nominal_area_mm2(rules, bead.role, bead.height) : 0;
   const auto wanted = [&](double area) {  // at one place, of that band's area (without material_flow)
     if (area <= 0) return speed;
     const double v = factor > 0

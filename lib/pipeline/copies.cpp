@@ -8,6 +8,27 @@
 
 namespace weft::pipeline {
 
+bool tell_copies_apart(const Scopes& scopes, std::vector<ObjectScopes>& of_object, Plate& plate) {
+  const auto on_plate = [&](const ObjectScopes& own) {
+    return scopes[own.back().of_mix.front()].infill.infill_phase_frame == InfillFrame::plate;
+  };
+  std::vector<Object> objects;
+  std::vector<ObjectScopes> own;
+  for (std::size_t o = 0; o < plate.objects.size(); ++o) {
+    Object& object = plate.objects[o];
+    const auto copies = object.copies;
+    const std::size_t apart = on_plate(of_object[o]) ? copies.size() : 1;
+    for (std::size_t c = 0; c < apart; ++c) {
+      objects.push_back(c + 1 < apart ? object : std::move(object));
+      if (apart > 1) objects.back().copies = {copies[c]};
+      own.push_back(of_object[o]);
+    }
+  }
+  const bool any = objects.size() > plate.objects.size();
+  plate.objects = std::move(objects), of_object = std::move(own);
+  return any;
+}
+
 std::vector<Copy> copies_of(const Plate& plate) {
   std::vector<Copy> out;
   for (std::size_t o = 0; o < plate.objects.size(); ++o) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "model/sequence.h"
+#include "pipeline/object_scopes.h"
 #include "pipeline/stages.h"
 #include "pipeline/support_object.h"
 #include "plate/plate.h"
@@ -23,6 +24,11 @@ struct Copy {
 };
 
 inline constexpr ObjectId any_object = ~ObjectId{0};  // none
+
+/// Copies whose infill stands still against the plate are not alike: each becomes an object, of the same name.
+/// @param of_object scopes, beside the plate's objects
+/// @returns whether there are any
+bool tell_copies_apart(const Scopes& scopes, std::vector<ObjectScopes>& of_object, Plate& plate);
 
 /// Object by object, as they stand on the plate.
 std::vector<Copy> copies_of(const Plate& plate);

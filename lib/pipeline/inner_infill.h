@@ -18,7 +18,13 @@ struct InnerInfill {
 
 using InnerLayers = std::vector<std::vector<InnerInfill>>;  ///< of all layers
 
-/// Takes it out of the layer's parts: one each inner area, in their order. What is to be solid becomes solid.
+/// What of a layer may be sparse where areas that are solid throughout have inner ones that are not, or the other way
+/// round. @returns nothing where neither is so in any layer
+std::vector<Regions> open_to_infill(const Scopes& scopes, const std::vector<Areas>& areas,
+                                    const std::vector<const Regions*>& outlines);
+
+/// Takes it out of the layer's parts: one each inner area, in their order. What is to be solid becomes solid: shells
+/// are found by cells, and at the borders a strip is left.
 std::vector<InnerInfill> take_inner(const Areas& areas, const Scopes& scopes, infill::LayerAreas& parts);
 
 /// All parts of an object's layers together; nothing where no inner area has any.

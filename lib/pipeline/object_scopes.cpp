@@ -108,8 +108,7 @@ bool of_infill(const Volume& volume) {
 /// How the volumes of an object make its layers.
 class Union {
  public:
-  Union(const Object& object, const ObjectScopes& scopes, const Scopes& all_scopes)
-      : object_(object), scopes_(scopes), all_scopes_(all_scopes), mixes_(mixes_of(object)) {
+  Union(const Object& object, const ObjectScopes& scopes) : object_(object), scopes_(scopes), mixes_(mixes_of(object)) {
     modified_ = std::any_of(object.volumes.begin(), object.volumes.end(),
                             [](const Volume& volume) { return modifies(volume.kind); });
   }
@@ -131,7 +130,8 @@ class Union {
       if (modifies(object_.volumes[v].kind) && cuts[v] && !of_infill(object_.volumes[v]))
         modify(v, cuts[v]->layer.regions, scopes, out);
     for (std::size_t v = 0; v < cuts.size(); ++v)
-      if (cuts[v] && of_infill(object_.volumes[v])) modify_infill(v, cuts[v]->layer.regions, scopes, out);
+      if (cuts[v] && of_infill(object_.volumes[v]))
+        for (auto& piece : out) nest(v, cuts[v]->layer.regions, scopes, piece);
     if (modified_) join(out);
     const auto nothing = [](const Piece& piece) { return piece.regions.empty(); };
     if (std::all_of(out.begin(), out.end(), nothing)) out.resize(std::min<std::size_t>(out.size(), 1));
@@ -188,16 +188,7 @@ class Union {
     pieces[i].regions = std::move(outside);
     pieces.push_back({*index, scopes[*index], std::move(inside)});
   }
-  /// Walls and skins of a piece run through; but what is solid throughout has nothing sparse that could be other.
-  void modify_infill(std::size_t modifier, const Regions& by, const std::vector<ScopeId>& scopes,
-                     std::vector<Piece>& pieces) const {
-    if (by.empty()) return;
-    for (std::size_t i = 0, before = pieces.size(); i < before; ++i)
-      if (all_scopes_[pieces[i].scope].infill.infill_sparse_density >= 100)
-        divide(i, modifier, by, scopes, pieces);
-      else
-        nest(modifier, by, scopes, pieces[i]);
-  }
+  /// Walls and skins of a piece run through.
   void nest(std::size_t modifier, const Regions& by, const std::vector<ScopeId>& scopes, Piece& piece) const {
     std::vector<InnerPiece> found;
     Regions own = piece.regions;  // what of it has no other infill yet
@@ -230,19 +221,18 @@ class Union {
 
   const Object& object_;
   const ObjectScopes& scopes_;
-  const Scopes& all_scopes_;
   std::vector<Mix> mixes_;
   bool modified_ = false;
 };
 
 }  // namespace
 
-std::vector<slice::Cut> united(const Object& object, const ObjectScopes& scopes, const Scopes& all_scopes,
+std::vector<slice::Cut> united(const Object& object, const ObjectScopes& scopes,
                                const std::vector<const std::vector<slice::Cut>*>& cuts, std::vector<Areas>& areas) {
   std::size_t count = 0;
   for (std::size_t v = 0; v < cuts.size(); ++v)
     if (object.volumes[v].kind == VolumeKind::model) count = std::max(count, cuts[v]->size());
-  const Union whole(object, scopes, all_scopes);
+  const Union whole(object, scopes);
   struct Layer {
     slice::Cut cut;
     Areas areas;

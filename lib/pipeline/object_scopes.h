@@ -32,7 +32,7 @@ const ScopesFrom& at(const ObjectScopes& scopes, Um bottom);
 /// united; negative volumes cut parts before them; modifiers divide what they meet. Beside them goes what areas each
 /// has. Modifiers that speak of sparse infill alone divide nothing: they make inner areas of what they meet.
 /// @param cuts beside the object's volumes, all at the same heights
-std::vector<slice::Cut> united(const Object& object, const ObjectScopes& scopes, const Scopes& all_scopes,
+std::vector<slice::Cut> united(const Object& object, const ObjectScopes& scopes,
                                const std::vector<const std::vector<slice::Cut>*>& cuts, std::vector<Areas>& areas);
 
 /// The areas of layers of one volume: one each.

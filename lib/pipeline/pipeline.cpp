@@ -11,8 +11,10 @@
 #include "gcode/writer.h"
 #include "pipeline/cached.h"
 #include "pipeline/collect_figures.h"
+#include "pipeline/copies.h"
 #include "pipeline/estimate.h"
 #include "pipeline/give_back.h"
+#include "pipeline/labels.h"
 #include "pipeline/model_parts.h"
 #include "pipeline/one_at_a_time.h"
 #include "pipeline/passes.h"
@@ -260,12 +262,12 @@ Sequence sequence_of(const Scopes& scopes, const ToolScopes& tools, const Plate&
   if (settings.plate.print_sequence == PrintSequence::all_at_once || copies_on(plate) < 2)
     return by_layer(copies_on(plate));
   if (tools.several()) check_tools_one_at_a_time(tools, plate, layers);
+  const auto labels = labels_of(plate);
   std::vector<Standing> copies;
   for (std::size_t o = 0; o < plate.objects.size(); ++o)
-    for (std::size_t c = 0; c < plate.objects[o].copies.size(); ++c) {
-      const auto& object = plate.objects[o];
-      const auto name = object.copies.size() == 1 ? object.name : fmt::format("{}_{}", object.name, c + 1);
-      copies.push_back({name, object.copies[c], {&layers[o], &supports[o].layers}, 0, beside_of(scopes[feet[o]])});
+    for (const Point by : plate.objects[o].copies) {
+      copies.push_back(
+          {labels[copies.size()].name, by, {&layers[o], &supports[o].layers}, 0, beside_of(scopes[feet[o]])});
       for (const auto* list : copies.back().layers)
         for (const auto& layer : *list) copies.back().height = std::max(copies.back().height, layer.z);
     }
@@ -286,7 +288,7 @@ void note_objects(const Plate& plate, const std::vector<ObjectLabel>& labels, Re
 }
 
 /// From the plate to its plan.
-Planned plan(const Job& job, Printing& what, const Running& running, PlanFor use) {
+Planned plan(const Job& job, Printing& what, Running running, PlanFor use) {
   auto& plate = what.plate;
   const bool vase = job.settings.layers.magic_spiralize;
   if (vase) check_vase(job.settings, plate);
@@ -294,6 +296,10 @@ Planned plan(const Job& job, Printing& what, const Running& running, PlanFor use
   ToolScopes tools(job.settings);
   std::vector<ObjectScopes> of_object;
   for (const auto& object : plate.objects) of_object.push_back(scopes_of(object, tools, scopes));
+  // what copies that are told apart have in common is made once
+  std::optional<StageCache> common;
+  if (tell_copies_apart(scopes, of_object, plate) && running.cache == nullptr)
+    running.cache = &common.emplace(CacheOptions{});
   refuse_tower_outside(job.settings, tools);
   Planned out;
   // Pictures are drawn while the model is sliced.
@@ -352,6 +358,7 @@ void note_parts(const Job& job, Report& report) {
 /// From the plate on.
 std::optional<audit::Passed> print(const Job& job, Printing what, const Watch& watch, Report& report,
                                    StageCache* cache) {
+  const auto overlays = overlay_lines(what.plate);
   auto planned = plan(job, what, {watch, report, cache}, PlanFor::writing);
   auto& [plan, packed, digests, statistics, layers, heat, cold_at_start, purged] = planned.plate;
   note_statistics(job.settings, statistics, report);
@@ -359,16 +366,16 @@ std::optional<audit::Passed> print(const Job& job, Printing what, const Watch& w
   begin<Stage::gcode>(watch);
   audit::Check check(job.settings.machine, job.settings.material, job.settings.audit, job.audit, job.settings.plate);
   name_custom_code(job.settings.gcode, check);
-  gcode::Job text{job.settings,
-                  plan,
-                  statistics,
-                  std::filesystem::path(what.name).stem().string(),
-                  {},
-                  provenance_lines(report.models, report.marks, job.placement, job.by_name, report.infill_files) +
-                      overlay_lines(what.plate),
-                  std::move(digests),
-                  tool_count(job.settings) > 1 ? settings_of_tools(job.settings) : std::vector<Settings>{},
-                  std::move(cold_at_start)};
+  gcode::Job text{
+      job.settings,
+      plan,
+      statistics,
+      std::filesystem::path(what.name).stem().string(),
+      {},
+      provenance_lines(report.models, report.marks, job.placement, job.by_name, report.infill_files) + overlays,
+      std::move(digests),
+      tool_count(job.settings) > 1 ? settings_of_tools(job.settings) : std::vector<Settings>{},
+      std::move(cold_at_start)};
   const bool of_models = job.settings.gcode.thumbnail_content == ThumbnailContent::model;
   text.thumbnails = of_models ? std::move(planned.thumbnails) : pictures_of_toolpaths(text, plan, packed);
   write_gcode(text, plan, std::move(packed), heat, check, report);

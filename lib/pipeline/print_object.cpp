@@ -13,6 +13,7 @@
 #include "pipeline/object_scopes.h"
 #include "pipeline/prepared_infill.h"
 #include "pipeline/printed_outlines.h"
+#include "pipeline/shelled.h"
 #include "pipeline/slice_object.h"
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
@@ -24,7 +25,6 @@
 #include <algorithm>
 #include <iterator>
 #include <numbers>
-#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -48,7 +48,6 @@ void append(Notices& to, std::vector<PlacedNotice> from, Point offset) {
 using Walls = ResultOf<Stage::walls>;
 using Fills = ResultOf<Stage::infill>;
 using WallHands = HandedTo<Stage::walls>;
-using FillHands = HandedTo<Stage::infill>;
 
 /// What rests on support is printed otherwise than what hangs.
 StageKey with_held(StageKey key, const std::vector<Regions>& held) {
@@ -136,123 +135,6 @@ Walls build_walls(const WallHands& handed, const Scopes& scopes, const Cuts& cut
   });
 }
 
-/// An object as shells look at it, and which scope each of its parts is asked for there: what is skin hangs on layers
-/// above and below, so lines that are wider on the first layer alone count for nothing.
-struct Shelled {
-  const FillHands& handed;
-  const Scopes& scopes;
-  const std::vector<Areas>& areas;
-  std::vector<infill::ShellLayer> layers;
-  Box box;
-  double turned_rad = 0;  ///< against its file
-
-  ScopeId scope_of(ScopeId id) const { return handed.alike(scopes.above_first_layer(id)); }
-};
-
-/// The different scopes of layers [first, first + count), as shells ask for them.
-std::vector<ScopeId> scopes_asked(const Shelled& object, std::size_t first, std::size_t count) {
-  std::vector<ScopeId> out;
-  for (std::size_t i = first; i < first + count; ++i)
-    for (const auto& area : object.areas[i])
-      if (const ScopeId id = object.scope_of(area.scope); std::find(out.begin(), out.end(), id) == out.end())
-        out.push_back(id);
-  return out;
-}
-
-/// Takes out of a layer's parts those of one scope.
-infill::LayerAreas taken(const Shelled& object, ScopeId id, std::size_t layer, infill::LayerAreas& parts) {
-  std::vector<char> own;  // by part
-  for (const auto& area : object.areas[layer]) own.resize(own.size() + area.regions, object.scope_of(area.scope) == id);
-  const auto rest = std::stable_partition(parts.begin(), parts.end(), [&](const infill::PartAreas& part) {
-    return part.part >= own.size() || own[part.part] == 0;
-  });
-  infill::LayerAreas out(std::make_move_iterator(rest), std::make_move_iterator(parts.end()));
-  parts.erase(rest, parts.end());
-  return out;
-}
-
-void put_back(infill::LayerAreas parts, infill::LayerAreas& to) {
-  std::move(parts.begin(), parts.end(), std::back_inserter(to));
-  std::sort(to.begin(), to.end(), [](const auto& a, const auto& b) { return a.part < b.part; });
-}
-
-/// What fills the inside of layers [first, first + count).
-std::vector<infill::LayerAreas> find_areas(const Shelled& object, std::size_t first, std::size_t count) {
-  const auto asked = scopes_asked(object, first, count);
-  std::vector<infill::LayerAreas> out(count);
-  for (const ScopeId id : asked) {
-    const auto& [shells, infill, nozzle, width, overlap] = object.handed[id];
-    auto found = infill::find_areas(shells, infill, {object.layers, object.box, nozzle, overlap, object.turned_rad},
-                                    first, count);
-    if (asked.size() == 1) return found;
-    for (std::size_t i = 0; i < count; ++i) put_back(taken(object, id, first + i, found[i]), out[i]);
-  }
-  return out;
-}
-
-/// What is decided of sparse parts of a scope by looking at all layers.
-void look_at_all_of(const Shelled& object, ScopeId id, std::vector<infill::LayerAreas>& parts) {
-  const auto& [shells, infill, nozzle, width, overlap] = object.handed[id];
-  const infill::ShellObject shelled{object.layers, object.box, nozzle};
-  infill::keep_below_tops(infill, shelled, parts);
-  infill::combine_sparse(infill, shelled, parts);
-}
-
-/// Each scope sees its own parts.
-void look_at_all(const Shelled& object, std::vector<infill::LayerAreas>& areas) {
-  const auto asked = scopes_asked(object, 0, areas.size());
-  if (asked.size() == 1) return look_at_all_of(object, asked.front(), areas);
-  for (const ScopeId id : asked) {
-    std::vector<infill::LayerAreas> own;
-    for (std::size_t i = 0; i < areas.size(); ++i) own.push_back(taken(object, id, i, areas[i]));
-    look_at_all_of(object, id, own);
-    for (std::size_t i = 0; i < areas.size(); ++i) put_back(std::move(own[i]), areas[i]);
-  }
-}
-
-InnerLayers take_all_inner(const Shelled& object, std::vector<infill::LayerAreas>& areas) {
-  InnerLayers out(areas.size());
-  std::set<ScopeId> scopes;
-  for (std::size_t i = 0; i < areas.size(); ++i) {
-    out[i] = take_inner(object.areas[i], object.scopes, areas[i]);
-    for (const auto& inner : out[i]) scopes.insert(object.scope_of(inner.scope));
-  }
-  for (const ScopeId id : scopes) {
-    std::vector<infill::LayerAreas> own(areas.size());
-    for (std::size_t i = 0; i < areas.size(); ++i)
-      for (auto& inner : out[i])
-        if (object.scope_of(inner.scope) == id) own[i] = std::move(inner.parts);
-    look_at_all_of(object, id, own);
-    for (std::size_t i = 0; i < areas.size(); ++i)
-      for (auto& inner : out[i])
-        if (object.scope_of(inner.scope) == id) inner.parts = std::move(own[i]);
-  }
-  return out;
-}
-
-/// The scopes that fill something of the object.
-std::vector<ScopeId> scopes_filling(const Shelled& object, const InnerLayers& inner) {
-  auto out = scopes_asked(object, 0, object.areas.size());
-  for (const auto& layer : inner)
-    for (const auto& each : layer)
-      if (const ScopeId id = object.scope_of(each.scope); std::find(out.begin(), out.end(), id) == out.end())
-        out.push_back(id);
-  return out;
-}
-
-/// Layers are taken in runs, so that the skin's neighbours are looked at once a run.
-std::vector<infill::LayerAreas> find_all_areas(const Shelled& object) {
-  constexpr std::size_t run = 8;
-  const std::size_t count = object.layers.size();
-  auto runs = tasks::parallel_map((count + run - 1) / run, [&](std::size_t r) {
-    return find_areas(object, r * run, std::min(run, count - r * run));
-  });
-  std::vector<infill::LayerAreas> areas;
-  areas.reserve(count);
-  for (auto& part : runs) std::move(part.begin(), part.end(), std::back_inserter(areas));
-  return areas;
-}
-
 /// The parts of a layer that lie in these regions.
 infill::LayerAreas parts_in(const infill::LayerAreas& parts, const std::vector<std::uint32_t>& regions) {
   infill::LayerAreas out;
@@ -335,6 +217,24 @@ FilledLayer told_of(infill::LayerAreas parts, FillLayer filled, std::vector<std:
   return out;
 }
 
+/// What the walls left, as shells look at it.
+Shelled shelled(const FillHands& handed, const Scopes& scopes, const Cuts& cuts, const std::vector<Areas>& areas,
+                const Walls& walls, const std::vector<Regions>& held, const Lying& lying) {
+  Shelled object{handed, scopes, areas, std::vector<infill::ShellLayer>(cuts.size()), {}, 0, {}};
+  std::vector<const Regions*> outlines;
+  for (const auto& cut : cuts) outlines.push_back(&cut.layer.regions);
+  object.open = open_to_infill(scopes, areas, outlines);
+  for (std::size_t i = 0; i < cuts.size(); ++i)
+    object.layers[i] = {cuts[i].layer.z,
+                        cuts[i].layer.height,
+                        outlines[i],
+                        &walls[i].inside,
+                        i < held.size() ? &held[i] : nullptr,
+                        object.open.empty() ? nullptr : &object.open[i]};
+  object.box = infill::box_of(object.layers), object.turned_rad = lying.turned_rad;
+  return object;
+}
+
 /// Shells and infill.
 /// @param looked_at is told what fills the layers, before it is laid
 template <class LookedAt>
@@ -342,11 +242,7 @@ Fills fill_object(const FillHands& handed, const WallHands& walled, const Scopes
                   const Cuts& cuts, const std::vector<Areas>& areas, const Walls& walls,
                   const std::vector<Regions>& held, const Sample& sample, const Lying& lying,
                   const LookedAt& looked_at) {
-  Shelled object{handed, scopes, areas, std::vector<infill::ShellLayer>(cuts.size()), {}};
-  for (std::size_t i = 0; i < cuts.size(); ++i)
-    object.layers[i] = {cuts[i].layer.z, cuts[i].layer.height, &cuts[i].layer.regions, &walls[i].inside,
-                        i < held.size() ? &held[i] : nullptr};
-  object.box = infill::box_of(object.layers), object.turned_rad = lying.turned_rad;
+  const Shelled object = shelled(handed, scopes, cuts, areas, walls, held, lying);
   auto parts = find_all_areas(object);
   auto inner = take_all_inner(object, parts);
   look_at_all(object, parts);

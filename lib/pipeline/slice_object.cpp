@@ -77,7 +77,7 @@ Result<Cuts> slice_object(const Running& job, const Object& object, const Object
     for (std::size_t v = 0; v < cuts.size(); ++v)
       if (object.volumes[v].kind == VolumeKind::tint) cuts[v] = &painted[v];
   }
-  auto out = united(object, scopes, all_scopes, cuts, areas);
+  auto out = united(object, scopes, cuts, areas);
   if (const auto how = weave_of(scopes, all_scopes)) weave(*how, out, areas);
   return Result<Cuts>(std::move(out));
 }

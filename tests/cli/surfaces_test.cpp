@@ -289,7 +289,7 @@ TEST_CASE("surfaces: smaller waves lie over those of rough walls, with the same 
   CHECK(print.report()["filament"]["mm3"].get<double>() == Approx(mm3).epsilon(0.01));
 }
 
-TEST_CASE("surfaces: branches of lightning are the shorter the more they draw back and straighten downwards") {
+TEST_CASE("surfaces: branches of lightning are the shorter the more they draw back and straighten, or walls carry") {
   const Models print;
   const auto mm_of = [&](const std::string& key, const char* degrees) {
     print.slice({(tests::source / "examples/bracket.stl").string(), "-s", "infill_pattern=lightning", "-s",
@@ -300,4 +300,6 @@ TEST_CASE("surfaces: branches of lightning are the shorter the more they draw ba
     INFO(key);
     CHECK(mm_of(key, "10") > mm_of(key, "80"));
   }
+  const auto* walls = "lightning_infill_overhang_angle";  // at 89° a layer of 0.2 mm carries 11 mm beside a wall
+  CHECK(mm_of(walls, "10") > 2 * mm_of(walls, "89"));
 }

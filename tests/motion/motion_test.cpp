@@ -292,6 +292,22 @@ TEST_CASE("motion: with full equalisation walls of any width are printed at one 
   }
 }
 
+TEST_CASE(
+    "motion: with full equalisation sparse infill takes as long as its plastic does, however long its lines are") {
+  auto rules = plain_rules();
+  rules.speeds.speed_equalize_flow_width_factor = 100;
+  rules.speeds.speed_travel = 1000;
+  rules.infill_line_width = LengthOrShare{450};
+  const double nominal = flow::area_mm2(0.45, 0.2) * rules.speeds.speed_infill;
+  for (const float layers : {1.F, 2.F})
+    for (const Um band : {320, 407, 520}) {
+      auto bead = line({{0, band}, {30'000, band}}, Role::infill);
+      for (Junction& j : bead.path) j.flow = layers;
+      set_bead_speed(rules, bead);
+      CHECK(bead.speed_mm_s * to_mm(band) * 0.2 == Approx(nominal));
+    }
+}
+
 TEST_CASE("motion: the first layer is slow, a share is of the feature's own speed, and travels have theirs") {
   Settings settings;
   settings.speeds.speed_layer_0 = {20, false};

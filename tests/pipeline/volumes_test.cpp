@@ -126,7 +126,7 @@ TEST_CASE("volumes: the last part has it, negative volumes cut those before, mod
     std::vector<const std::vector<slice::Cut>*> of_volume;
     for (const auto& each : cuts) of_volume.push_back(&each);
     std::vector<Areas> areas;
-    const auto layers = united(object, of_object, scopes, of_volume, areas);
+    const auto layers = united(object, of_object, of_volume, areas);
     REQUIRE(layers.size() == planes.size());
     for (std::size_t i = 0; i < layers.size(); ++i) {
       for (std::size_t a = 0; a < areas[i].size(); ++a)

@@ -148,6 +148,7 @@ struct InfillSettings {
   bool infill_support_enabled = false;
   double infill_support_angle = 40;
   double lightning_infill_support_angle = 45;
+  std::optional<double> lightning_infill_overhang_angle;
   std::optional<double> lightning_infill_prune_angle;
   std::optional<double> lightning_infill_straightening_angle;
   std::string infill_pattern_by_density;
@@ -222,6 +223,10 @@ inline constexpr Rows infill_schema{
             "With infill_support_enabled: a shell that leans less than this from the vertical carries itself."),
     setting("lightning_infill_support_angle", Scope::object, &InfillSettings::lightning_infill_support_angle,
             Unit::degrees, 5, 80, "How far branches of the pattern lightning lean, against the vertical."),
+    setting("lightning_infill_overhang_angle", Scope::object, &InfillSettings::lightning_infill_overhang_angle,
+            Unit::degrees, 0, 89,
+            "What hangs beside a wall needs no branch as far as a layer may lean over the one below, against the "
+            "vertical; auto: as far as branches are apart."),
     setting("lightning_infill_prune_angle", Scope::object, &InfillSettings::lightning_infill_prune_angle, Unit::degrees,
             5, 80, "How far their tips draw back downwards; auto is lightning_infill_support_angle."),
     setting("lightning_infill_straightening_angle", Scope::object,

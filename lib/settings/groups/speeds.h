@@ -96,9 +96,8 @@ inline constexpr Rows speed_schema{
             "Speed of travels in the first layer; auto is speed_travel."),
     setting("speed_equalize_flow_width_factor", Scope::region, &SpeedSettings::speed_equalize_flow_width_factor,
             Unit::percent, 0, 100,
-            "How far the speed of walls and gap fill follows their width: at 100 % mm³/s stay what they are at nominal "
-            "width, at 0 % the "
-            "speed stays."),
+            "How far the speed of walls, gap fill and sparse infill follows their width: at 100 % mm³/s stay what they "
+            "are at nominal width, and layers whose infill is longer take no longer; at 0 % the speed stays."),
     setting("max_extrusion_rate_slope", Scope::tool, &SpeedSettings::max_extrusion_rate_slope, Unit::mm3_s2, 0.1,
             100000, "How fast mm³/s may grow along beads, so that the pressure in the nozzle follows; auto: no limit."),
     setting("max_extrusion_rate_slope_down", Scope::tool, &SpeedSettings::max_extrusion_rate_slope_down, Unit::mm3_s2,
