@@ -290,7 +290,7 @@ class Falling {
   Towers towers_;
   Regions falling_, close_;
   std::vector<std::pair<std::size_t, Regions>> held_;  ///< the last contacts, by level
-  bool ragged_ = false;  ///< it has corners of what was cut from it
+  bool ragged_ = false;                                ///< it has corners of what was cut from it
   std::vector<Regions> levels_;
   std::vector<char> less_;  ///< of each level, whether it is not all of what lies above it
 };
