@@ -174,8 +174,10 @@ void rest_on(const Room& room, const Stack::Level& level, const Regions& below, 
   for (const Region& piece : hangs) {
     const Box near = box_of(piece.outer).grown(2 * reach);
     Regions base = geometry::trimmed(below, near);
-    if (s.support_type == SupportType::everywhere)
-      append(base, room.part(level.bottom() - bottom_gap(s) - sinks, level.bottom(), near));
+    if (s.support_type == SupportType::everywhere) {  // what lies below it, and not walls beside
+      const Regions part = room.part(level.bottom() - bottom_gap(s) - sinks, level.bottom(), near);
+      if (!part.empty()) append(base, geometry::intersect({piece}, part));
+    }
     if (base.empty())
       free.push_back(piece);
     else
