@@ -126,9 +126,10 @@ void fill_as_dense(const Region& region, SparseStyle style, Beads& beads) {
   if (density->goes_on() && style.pattern == InfillPattern::concentric) {
     const std::size_t own = beads.size();
     fill_concentric(region, style, *density, beads);
-    return density->even(region, style.z, own, beads);
+    return density->even(region, style.z, false, own, beads);
   }
   constexpr double least = 0.005, most = 0.95;  // what is less is nothing
+  bool dithered = false;
   const std::size_t first = beads.size();
   const std::vector<Density::Part> parts = density->parts(region, style.z, style.index);
   for (const Density::Part& part : parts) {
@@ -136,11 +137,10 @@ void fill_as_dense(const Region& region, SparseStyle style, Beads& beads) {
     const std::size_t from = beads.size();
     style.density = std::min(part.level, most), style.pattern = part.pattern, style.even = !part.dithered;
     fill_sparse(part.region, style, beads);
-    if (part.dithered) continue;
-    density->follow(style.density, style.z, from, beads);
-    density->even(part.region, style.z, from, beads);
+    if (!part.dithered) density->follow(style.density, style.z, from, beads);
+    dithered = dithered || part.dithered;
   }
-  density->even(region, style.z, first, beads);
+  density->even(region, style.z, dithered, first, beads);
 }
 
 /// Solid layers that are laid as a pattern of sparse infill, dense.

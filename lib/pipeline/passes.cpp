@@ -166,10 +166,17 @@ void add_strips(const std::vector<Settings>& tools, const ToolPass& pass, std::s
   if (pass.purge_mm3 > 0) section.strips.push_back({p, pass.purge_mm3, false});
 }
 
+/// The least of those that may print a tower.
+Um least_nozzle(const std::vector<Settings>& tools) {
+  return std::min_element(
+             tools.begin(), tools.end(),
+             [](const auto& a, const auto& b) { return a.machine.nozzle_diameter < b.machine.nozzle_diameter; })
+      ->machine.nozzle_diameter;
+}
+
 /// Sections up to the last change: one a layer that purges, and between them where a bead would be too high.
 void plan_tower(const std::vector<Settings>& tools, std::span<const travel::LayerInput> layers, Passes& passes) {
-  Um nozzle = max_coord;
-  for (const auto& tool : tools) nozzle = std::min(nozzle, tool.machine.nozzle_diameter);
+  const Um nozzle = least_nozzle(tools);
   const Um highest = rounded(highest_by_nozzle * nozzle);
   std::size_t last = 0;
   for (const auto& pass : passes.passes)
@@ -277,6 +284,23 @@ void tell_unpurged(const std::vector<Settings>& tools, const Passes& passes, Not
                                  changes == 1 ? "" : "s")});
 }
 
+/// A change to each tool but the one that is loaded, at its dearest, in the thinnest of layers.
+tools::TowerLayer busiest_section(const std::vector<Settings>& tools, const std::vector<ToolId>& used, Um top) {
+  const auto volumes = tools::purge_volumes(tools);
+  std::vector<tools::TowerLayer::Strip> to_each;
+  Um height = max_coord;
+  for (const ToolId to : used) {
+    auto& dearest = to_each.emplace_back();
+    for (const ToolId from : used)
+      if (from != to)
+        dearest.mm3 = std::max(dearest.mm3, volumes[from][to] + rammed_mm3(tools, {0, to, true, from, 0}));
+    height = std::min(height, tools[to].layers.layer_height);
+  }
+  to_each.erase(
+      std::min_element(to_each.begin(), to_each.end(), [](const auto& a, const auto& b) { return a.mm3 < b.mm3; }));
+  return {top, height, std::move(to_each)};
+}
+
 /// The tools that print something, and how high.
 std::vector<tools::ToolInUse> in_use(const tools::ToolSets& sets, std::span<travel::LayerInput> layers) {
   std::vector<tools::ToolInUse> out;
@@ -319,10 +343,17 @@ std::vector<Box> standing_on(const Settings& plate, std::span<const travel::Laye
   return out;
 }
 
-void refuse_tower_outside(const Settings& plate, const ToolScopes& tools) {
+void refuse_tower_outside(const Settings& plate, const ToolScopes& tools, Um top) {
   const auto told = told_corner(plate.tools);
-  if (!told || !wants_tower(plate, tools) || tools.used() < 2) return;
-  refuse_outside(plate, tools::tower_size(plate.tools, {}, plate.machine.nozzle_diameter), *told);
+  const auto used = tools.used();
+  if (!told || !wants_tower(plate, tools) || used.size() < 2) return;
+  const Um nozzle = least_nozzle(tools.tools());
+  const Ring surface = print_surface(plate.machine);
+  const auto least = tools::tower_size(plate.tools, {}, nozzle);
+  if (tools::outside_of(tools::tower_outline(plate.tools, least, *told), surface).by <= plate.audit.audit_tolerance)
+    return;
+  refuse_outside(plate, tools::tower_size(plate.tools, std::array{busiest_section(tools.tools(), used, top)}, nozzle),
+                 *told);
 }
 
 Passes passes_of(const Settings& plate, ToolScopes& tools, Scopes& scopes, std::span<travel::LayerInput> layers,

@@ -50,9 +50,11 @@ struct Passes {
   }
 };
 
-/// What is known before anything is sliced: a tower that is told to stand where not even the smallest has room.
+/// What is known before anything is sliced: a tower that is told to stand where not even the smallest has room. What is
+/// told is the size of one that has to hold a change to each tool but one in the thinnest layer.
+/// @param top of what is printed
 /// @throws Error{audit}
-void refuse_tower_outside(const Settings& plate, const ToolScopes& tools);
+void refuse_tower_outside(const Settings& plate, const ToolScopes& tools, Um top);
 
 /// Which tools print when. Beads of any tool go with the first of their layer; those above a height of
 /// tool_change_at_heights with its tool.

@@ -287,6 +287,15 @@ void note_objects(const Plate& plate, const std::vector<ObjectLabel>& labels, Re
     }
 }
 
+/// The highest point of what is printed.
+Um top_of(const Plate& plate) {
+  Um out = 0;
+  for (const auto& object : plate.objects)
+    for (const auto& volume : object.volumes)
+      if (volume.kind == VolumeKind::model) out = std::max(out, box_of(volume.mesh).max.z);
+  return out;
+}
+
 /// From the plate to its plan.
 Planned plan(const Job& job, Printing& what, Running running, PlanFor use) {
   auto& plate = what.plate;
@@ -300,7 +309,7 @@ Planned plan(const Job& job, Printing& what, Running running, PlanFor use) {
   std::optional<StageCache> common;
   if (tell_copies_apart(scopes, of_object, plate) && running.cache == nullptr)
     running.cache = &common.emplace(CacheOptions{});
-  refuse_tower_outside(job.settings, tools);
+  refuse_tower_outside(job.settings, tools, top_of(plate));
   Planned out;
   // Pictures are drawn while the model is sliced.
   const bool of_models = use == PlanFor::writing && job.settings.gcode.thumbnail_content == ThumbnailContent::model;

@@ -168,6 +168,23 @@ TEST_CASE("change: while filament is drawn out and pushed in the nozzle goes on 
   CHECK_THAT(after, Contains("M900 K0.05\n") && Contains("M220 R\n"));
 }
 
+TEST_CASE("change: between two cooling moves the tip is stamped, as far and as fast as is said") {
+  const Boxes boxes;
+  const auto lines =
+      lines_of(boxes.slice({"-s", "tool_nozzles=0,0", "-s", "parking_pos_retraction=80", "-s", "cooling_tube_length=10",
+                            "-s", "cooling_tube_retraction=60", "-s", "filament_cooling_moves=3", "-s",
+                            "filament_stamping_distance=40", "-s", "filament_stamping_loading_speed=29"}));
+  int pushed = 0, drawn = 0, changes = 0;
+  for (const auto& line : lines) {
+    if (line == "T0" || line == "T1") ++changes;
+    if (line.starts_with("G1 E45 F1740")) ++pushed;  // 40 mm and half the tube, 29 mm/s
+    if (line.starts_with("G1 E-45 F5400")) ++drawn;  // at the unloading speed, 90 mm/s
+  }
+  CHECK(changes == 11);
+  CHECK(pushed == 2 * (changes - 1));  // not before the first cooling move, nor behind the last
+  CHECK(drawn == pushed);
+}
+
 TEST_CASE("change: a nozzle that is put away lays what it is to be emptied of on the tower, quickly") {
   const Boxes boxes;
   boxes.slice({"-s", "nozzle_diameter=0.4,0.4", "-s", "prime_tower_enable=true"});
@@ -243,6 +260,8 @@ TEST_CASE("tower: ribs and a cone stand beside its walls, widest at the bed, and
                            "infill_extruder_nr=1",
                            "-s",
                            "prime_tower_shape=" + shape,
+                           "-s",
+                           "prime_tower_flare_angle=0",
                            "-s",
                            "prime_tower_cone_angle=90",
                            "-s",

@@ -150,11 +150,9 @@ TEST_CASE("density: a wedge of densities is laid as it is asked for, by every wa
                                .reach = 30'000,
                                .even = !part.dithered},
                               beads);
-          if (part.dithered) continue;
-          prepared.density->follow(part.level, z, from, beads);
-          prepared.density->even(part.region, z, from, beads);
+          if (!part.dithered) prepared.density->follow(part.level, z, from, beads);
         }
-        prepared.density->even(block.outline.front(), z, 0, beads);
+        prepared.density->even(block.outline.front(), z, dither != DensityDither::none, 0, beads);
         const auto [l, r] = halves(beads, 30'000);
         left += l / 1'200 / layers, right += r / 1'200 / layers;
       }
@@ -187,8 +185,37 @@ TEST_CASE("density: rings are as far apart at each place as it asks for, and the
   // ∫ρ dx / band = k + ½ with ρ = 0.1 + 0.3 x / 60 mm
   const auto before = [](double x) { return (0.1 * x + 0.0025e-3 * x * x) / 420; };
   for (std::size_t k = 0; k < 3; ++k) CHECK(before(met[k]) == Approx(static_cast<double>(k) + 0.5).margin(0.06));
-  density.even(block.outline.front(), 5'000, 0, beads);
+  density.even(block.outline.front(), 5'000, false, 0, beads);
   CHECK(covered_mm2(beads) == Approx(0.25 * 60 * 40).epsilon(0.005));
+}
+
+TEST_CASE("density: what joins lines at a border of levels is taken from the lines around it", "[infill]") {
+  const Block block;
+  const File csv("b.csv", "0,0,0,0.2\n15,0,0,0.2\n30,0,0,0.4\n45,0,0,0.4\n60,0,0,0.4\n");
+  InfillSettings s;
+  s.infill_density_field = csv.path.string(), s.infill_pattern = InfillPattern::grid;
+  const Density density = density_of(s, block);
+  const Region& region = block.outline.front();
+  // between two places across, as a share of what is asked for
+  const auto laid = [&](bool alike) {
+    double sum = 0;
+    for (std::size_t i = 0; i < 4; ++i) {  // the lines of each layer lie elsewhere
+      Beads beads;
+      for (const Density::Part& part : density.parts(region, 5'000, i)) {
+        const std::size_t from = beads.size();
+        const Point origin{static_cast<Um>(30'000 + 700 * i), 20'000};
+        infill::fill_sparse(part.region,
+                            {.density = part.level, .band = 420, .angle_rad = degrees(45), .origin = origin}, beads);
+        density.follow(part.level, 5'000, from, beads);
+      }
+      density.even(region, 5'000, alike, 0, beads);
+      sum += (halves(beads, 26'000).first - halves(beads, 18'000).first) / 4;
+    }
+    return sum / (40 * (8 * 0.2 + 0.2 / 15 * (11 * 11 - 3 * 3) / 2));
+  };
+  const double off_alike = std::abs(laid(true) - 1), off = std::abs(laid(false) - 1);
+  CHECK(off_alike > 0.015);
+  CHECK(off < off_alike / 2);
 }
 
 TEST_CASE("density: patterns go by it", "[infill]") {
