@@ -148,9 +148,9 @@ class Filler {
     }
   }
 
-  /// The rim, and lines from branch to branch.
+  /// Rims, and lines from branch to branch.
   void joists() {
-    loops(layer_.joists.area, 1, Role::support, true);
+    loops(layer_.joists.rimmed, 1, Role::support, true);
     for (const Polyline& line : layer_.joists.lines) {
       Bead bead;
       bead.role = Role::support;

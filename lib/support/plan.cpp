@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/stop.h"
 #include "geometry/boolean.h"
+#include "geometry/clip_lines.h"
 #include "geometry/simplify.h"
 #include "geometry/trimmed.h"
 #include "support/caps.h"
 #include "support/cheaper.h"
 #include "support/columns.h"
-#include "support/joists.h"
 #include "support/kinds.h"
 #include "support/landing.h"
 #include "support/lengths.h"
@@ -259,7 +259,11 @@ void add_branches(const Room& room, std::size_t k, const Standing& standing, Sup
   layer.joists = standing.branches.joists[k];
   if (!layer.joists.area.empty() && !columns.empty()) {
     layer.joists.area = beside(layer.joists.area, columns, 20, half / 2);
-    clip_joists(layer.joists, 2 * half);
+    layer.joists.rimmed = beside(layer.joists.rimmed, columns, 20, half / 2);
+    std::vector<Polyline> left;
+    for (auto& piece : geometry::clip_lines(layer.joists.lines, columns, geometry::Keep::outside))
+      if (length_of(piece.line) >= 2 * half) left.push_back(std::move(piece.line));
+    layer.joists.lines = std::move(left);
   }
   layer.branches = beside(areas, columns, half, half / 2);
   Regions others = roofs;
