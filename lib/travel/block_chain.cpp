@@ -147,7 +147,8 @@ void BlockChain::add(BlockPlaces layer) {
     const auto best = static_cast<std::size_t>(std::min_element(costs_.begin(), costs_.end()) - costs_.begin());
     const auto from = layer.before ? layer.before : exits_.empty() ? std::nullopt : std::optional(exits_[best]);
     Passage only;
-    only.order = one_way(layer.places, {from, std::nullopt});
+    only.order =
+        layer.small ? one_way(layer.places, {from, std::nullopt}) : tour_of(kind_, layer.places, {from, std::nullopt});
     here.push_back(std::move(only));
   } else {
     here = passages_of(kind_, layer.places, exits_);
