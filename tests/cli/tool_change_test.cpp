@@ -327,6 +327,70 @@ TEST_CASE("tower: one that is not kept up lies lower, the nozzle goes down to it
   CHECK(highest > 2);
 }
 
+TEST_CASE("tower: objects that are printed one after the other purge side by side on the bed, a tool after the other") {
+  const Boxes boxes;
+  boxes.scratch.write("high.stl", box_stl(10, 10, 12));
+  Lines words{"slice",
+              "high.stl",
+              "b.stl@T1",
+              "--copies",
+              "high=2",
+              "--arrange",
+              "-o",
+              "out.gcode",
+              "-q",
+              "-s",
+              "tool_nozzles=0,0",
+              "-s",
+              "firmware=marlin2",
+              "-s",
+              "relative_extrusion=true",
+              "-s",
+              "print_sequence=one_at_a_time",
+              "-s",
+              "machine_head_profile=0: -1x-1, 1x-1, 1x1, -1x1; 8: -15x-15, 15x-15, 15x15, -15x15"};
+  const auto run = [&](const Lines& more) {
+    auto all = words;
+    all.insert(all.end(), more.begin(), more.end());
+    return weft(all, boxes.scratch.path());
+  };
+  const auto passed = run({});
+  INFO(passed.err);
+  REQUIRE(passed.status == 0);  // the audit has followed the head
+  const auto lines = lines_of(boxes.scratch.read("out.gcode"));
+  const Tower tower(lines);
+  const auto places = places_of(lines);
+  std::string type;
+  Lines changes;
+  double purged = 0, highest = 0;
+  std::size_t changed = 0, skirt = 0, first_purged = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (lines[i].starts_with(";TYPE:")) type = lines[i].substr(6);
+    if (lines[i] == "T0" || lines[i] == "T1") {
+      changes.push_back(lines[i]);
+      if (changes.size() != 2) continue;
+      CHECK(tower.holds(places[i]));
+      changed = i;
+    }
+    if (changed != 0 && skirt == 0 && type == "Skirt/Brim" && i > changed && word(lines[i], 'E')) skirt = i;
+    const auto e = word(lines[i], 'E');
+    if (type != "Wipe tower" || !e || *e <= 0 || !(word(lines[i], 'X') || word(lines[i], 'Y'))) continue;
+    if (first_purged == 0) first_purged = i;
+    purged += *e;
+    highest = std::max(highest, *places[i].z);
+  }
+  CHECK(changes == Lines{"T1", "T0"});  // the lowest first, then both of the other
+  CHECK(highest == Approx(0.2));
+  CHECK(purged * 2.405 >= 140);  // mm³ of 1.75 mm filament
+  CHECK(first_purged < skirt);   // which is of the filament that is loaded then
+  CHECK(run({"-s", "adhesion_type=raft"}).status == 3);
+  const auto nowhere = run({"-s", "prime_tower_position_x=100", "-s", "prime_tower_position_y=100"});
+  CHECK(nowhere.status == 5);
+  const auto off = run({"-s", "prime_tower_enable=false"});
+  CHECK(off.status == 0);
+  CHECK_THAT(boxes.scratch.read("out.gcode"), !Contains(";TYPE:Wipe tower"));
+}
+
 TEST_CASE("gradient: stripes across the bed are as wide as their shares") {
   const Boxes boxes;
   boxes.scratch.write("wide.stl", box_stl(40, 20, 2));
