@@ -62,7 +62,7 @@ class Density {
   /// Makes beads wider or narrower, so that around each place they cover what the density asks for there, and in the
   /// region what it asks for altogether: what joins lines at borders of parts is taken from the lines beside it.
   /// @param alike  by the same share everywhere: of dithered parts, each has too much or too little
-  void even(const Region& region, double z_um, bool alike, std::size_t from, Beads& beads) const;
+  void even(const Region& region, double z_um, Um band, bool alike, std::size_t from, Beads& beads) const;
 
  private:
   /// A number for each cell of a box.

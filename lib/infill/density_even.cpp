@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace weft::infill {
 namespace {
@@ -17,6 +18,7 @@ constexpr double longest_even = 1000;  // µm of a line along which its width st
 constexpr double least_change = 0.02;  // of a width: less is not worth a point
 constexpr double finest = 1000;        // µm, of cells that plastic is counted in
 constexpr double few = 12;             // cells over what is small
+constexpr Um any_width = std::numeric_limits<Um>::max();
 
 Point between(Point a, Point b, double t) {
   return {rounded(std::lerp(a.x, b.x, t)), rounded(std::lerp(a.y, b.y, t))};
@@ -36,16 +38,16 @@ void keep_needed(const std::vector<double>& shares, std::size_t first, std::size
   keep_needed(shares, first, at, kept), keep_needed(shares, at, last, kept);
 }
 
-/// Widths are multiplied by what that says of each place.
+/// Widths are multiplied by what that says of each place; none becomes wider than `most`, or than it was.
 template <class Share>
-void widen(const Share& share, std::size_t from, Beads& beads) {
+void widen(const Share& share, Um most, std::size_t from, Beads& beads) {
   for (std::size_t b = from; b < beads.size(); ++b) {
     stop_if_asked();
     Bead& bead = beads[b];
     std::vector<Junction> path;
     const std::size_t count = bead.path.size();
     const auto add = [&](Junction j, double by) {
-      j.width = std::max(1, rounded(j.width * by));
+      j.width = std::max(1, std::min(rounded(j.width * by), std::max(most, j.width)));
       path.push_back(j);
     };
     for (std::size_t i = 0; i < count; ++i) {
@@ -160,12 +162,13 @@ double sum_of(const Cells& cells) {
 struct Wanted {
   Cells plastic, share;
   std::vector<std::size_t> reach{};
+  double least = 1, most = 0;  ///< density
+  bool varies() const { return most > least * (1 + least_change); }
 };
 
-/// @param line  width
 /// Both are summed in the same cells, so that a cell that the edge cuts asks for what it has room for.
 template <class DensityAt>
-Wanted wanted_in(const Region& region, double line, const DensityAt& density) {
+Wanted wanted_in(const Region& region, Um band, const DensityAt& density) {
   constexpr double lines = 1.5;           // on each side of a place, twice (see smooth)
   constexpr std::size_t least_reach = 3;  // cells: widths are not to change from line to line
   const Box box = weft::box_of(region.outer);
@@ -179,14 +182,16 @@ Wanted wanted_in(const Region& region, double line, const DensityAt& density) {
                  y = apart * (i.line + 0.5);
     for (double k = 0.5; k < pieces; ++k) {
       const Point p = frame.back({i.from + k * wide, y});
-      plastic.of(p) += density(p) * wide * apart, area.of(p) += wide * apart;
+      const double here = density(p);
+      out.least = std::min(out.least, here), out.most = std::max(out.most, here);
+      plastic.of(p) += here * wide * apart, area.of(p) += wide * apart;
     }
   }
   out.reach.assign(plastic.values.size(), 0);
   for (std::size_t n = 0; n < out.reach.size(); ++n)
     if (plastic.values[n] > 0)
       out.reach[n] = std::max(
-          least_reach, static_cast<std::size_t>(lines * line * area.values[n] / plastic.values[n] / plastic.size));
+          least_reach, static_cast<std::size_t>(lines * band * area.values[n] / plastic.values[n] / plastic.size));
   std::fill(out.share.values.begin(), out.share.values.end(), 1);
   return out;
 }
@@ -195,15 +200,16 @@ Wanted wanted_in(const Region& region, double line, const DensityAt& density) {
 
 namespace {
 
+constexpr double narrowest = 0.7, widest = 1.42;  // of a line between two levels
+
 double share_of_width(double density, double level) {
-  constexpr double narrowest = 0.7, widest = 1.42;
   return std::clamp(density / level, narrowest, widest);
 }
 
 }  // namespace
 
 void Density::follow(double level, double z_um, std::size_t from, Beads& beads) const {
-  widen([&](Point p) { return share_of_width(at(p, z_um), level); }, from, beads);
+  widen([&](Point p) { return share_of_width(at(p, z_um), level); }, any_width, from, beads);
 }
 
 void Density::follow(const std::vector<DenseLevel>& levels, double z_um, std::size_t from, Beads& beads) const {
@@ -214,15 +220,15 @@ void Density::follow(const std::vector<DenseLevel>& levels, double z_um, std::si
     while (k > 0 && !denser[k - 1].region_at(p)) --k;
     return levels[k].density;
   };
-  widen([&](Point p) { return share_of_width(at(p, z_um), level_at(p)); }, from, beads);
+  widen([&](Point p) { return share_of_width(at(p, z_um), level_at(p)); }, any_width, from, beads);
 }
 
-void Density::even(const Region& region, double z_um, bool alike, std::size_t from, Beads& beads) const {
+void Density::even(const Region& region, double z_um, Um band, bool alike, std::size_t from, Beads& beads) const {
   if (from >= beads.size()) return;
-  const double line = length_or(infill_.infill_line_width, nozzle_, nozzle_);
-  Wanted wanted = wanted_in(region, line, [&](Point p) { return at(p, z_um); });
+  Wanted wanted = wanted_in(region, band, [&](Point p) { return at(p, z_um); });
   const auto share = [&](Point p) { return wanted.share.at(p); };
-  const int rounds = alike ? 0 : 3;  // what is made up for in one place is missing or too much beside it
+  // what is made up for in one place is missing or too much beside it; where the density is alike, so are widths
+  const int rounds = alike || !wanted.varies() ? 0 : 3;
   constexpr double most = 1 / least_narrowing;
   const std::vector<double> asked = smooth(wanted.plastic, wanted.reach);
   for (int k = 0; k < rounds; ++k) {
@@ -233,7 +239,7 @@ void Density::even(const Region& region, double z_um, bool alike, std::size_t fr
   }
   const double all = sum_of(laid_by(beads, from, wanted.plastic, share));
   const double rest = all > 0 ? std::clamp(sum_of(wanted.plastic) / all, least_narrowing, most) : 1;
-  widen([&](Point p) { return rest * share(p); }, from, beads);
+  widen([&](Point p) { return rest * share(p); }, rounded(widest * band), from, beads);
 }
 
 }  // namespace weft::infill

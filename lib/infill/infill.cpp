@@ -142,7 +142,7 @@ void fill_as_dense(const Region& region, SparseStyle style, Beads& beads) {
   if (density->goes_on() && style.pattern == InfillPattern::concentric) {
     const std::size_t own = beads.size();
     fill_concentric(region, style, *density, beads);
-    return density->even(region, style.z, false, own, beads);
+    return density->even(region, style.z, style.band, false, own, beads);
   }
   constexpr double least = 0.005, most = 0.95;  // what is less is nothing
   bool dithered = false;
@@ -153,7 +153,7 @@ void fill_as_dense(const Region& region, SparseStyle style, Beads& beads) {
                                                       levels.back().density < most &&
                                                       fill_levels(region, style, levels, beads)) {
       density->follow(levels, style.z, first, beads);
-      return density->even(region, style.z, false, first, beads);
+      return density->even(region, style.z, style.band, false, first, beads);
     }
   for (const Density::Part& part : parts) {
     if (part.level < least) continue;
@@ -163,7 +163,7 @@ void fill_as_dense(const Region& region, SparseStyle style, Beads& beads) {
     if (!part.dithered) density->follow(style.density, style.z, from, beads);
     dithered = dithered || part.dithered;
   }
-  density->even(region, style.z, dithered, first, beads);
+  density->even(region, style.z, style.band, dithered, first, beads);
 }
 
 /// Solid layers that are laid as a pattern of sparse infill, dense.

@@ -100,6 +100,16 @@ void Web::add_lines(const Region& region, const Lines& of) {
   ++families_;
 }
 
+/// Of a line from a to b, where it meets an edge.
+Web::End Web::end_on(const geometry::SegmentIndex& edges, const geometry::SegmentIndex::Crossing& met, Point a,
+                     Point b) {
+  const geometry::Segment& s = edges.segments()[met.segment];
+  const double ex = s.b.x - s.a.x, ey = s.b.y - s.a.y, dx = b.x - a.x, dy = b.y - a.y;
+  const double px = a.x + met.along * dx - s.a.x, py = a.y + met.along * dy - s.a.y, l2 = ex * ex + ey * ey;
+  return {static_cast<std::uint32_t>(met.segment), std::clamp((px * ex + py * ey) / l2, 0.0, 1.0),
+          std::abs(ex * dy - ey * dx) / std::sqrt(l2 * (dx * dx + dy * dy))};
+}
+
 void Web::end_at_lines(double farthest) {
   std::vector<geometry::Segment> segments;
   std::vector<int> family;
@@ -124,7 +134,8 @@ void Web::end_at_lines(double farthest) {
     const Point from = on_plane(end - back * way), to = on_plane(end + farthest * way);
     met.clear();
     edges.crossings(on_plane(end), to, met);
-    const double room = met.empty() ? farthest : met.front().along * farthest;
+    const auto wall = met.empty() ? std::nullopt : std::optional(met.front());
+    const double room = wall ? wall->along * farthest : farthest;
     met.clear();
     all.crossings(from, to, met);
     double nearest = farthest;
@@ -132,9 +143,13 @@ void Web::end_at_lines(double farthest) {
       if (const double by = each.along * (back + farthest) - back;
           family[each.segment] != family_[e / 2] && std::abs(by) < std::abs(nearest) && by < room)
         nearest = by;
-    if (nearest >= farthest) continue;
-    const double by = style_.band / 2.0 - nearest;  // the line's round end reaches over the other's middle
-    if (by >= lines_[e / 2].length - style_.band) continue;
+    // the line's round end reaches over the other's middle
+    double by = style_.band / 2.0 - nearest;
+    if (nearest >= farthest || by >= lines_[e / 2].length - style_.band) {
+      if (!wall) continue;
+      by = -room;
+      ends_[e] = end_on(edges, *wall, on_plane(end), to);
+    }
     shorten(places, by);
     if (e % 2 == 0) std::reverse(places.begin(), places.end());
     lines_[e / 2].length -= by, lines_[e / 2].places = std::move(places);
@@ -154,11 +169,7 @@ void Web::give_way(const std::vector<Sides>& sides, const Interval& i, double y,
 void Web::add_curves(const Region& region, const std::vector<Curve>& curves) {
   const geometry::SegmentIndex edges(Regions{region});
   const auto end_of = [&](const geometry::SegmentIndex::Crossing& met, Point a, Point b) {
-    const geometry::Segment& s = edges.segments()[met.segment];
-    const double ex = s.b.x - s.a.x, ey = s.b.y - s.a.y, dx = b.x - a.x, dy = b.y - a.y;
-    const double px = a.x + met.along * dx - s.a.x, py = a.y + met.along * dy - s.a.y, l2 = ex * ex + ey * ey;
-    return End{static_cast<std::uint32_t>(met.segment), std::clamp((px * ex + py * ey) / l2, 0.0, 1.0),
-               std::abs(ex * dy - ey * dx) / std::sqrt(l2 * (dx * dx + dy * dy))};
+    return end_on(edges, met, a, b);
   };
   std::vector<geometry::SegmentIndex::Crossing> met;
   for (const Curve& curve : curves) {

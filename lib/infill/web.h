@@ -48,7 +48,7 @@ class Web {
   void add_lines(const Region& region, const Lines& of);
 
   /// Lines that end off the edge go on, or draw back, to the nearest line of another family that they meet, and end
-  /// beside it. @param farthest  that they may be moved by
+  /// beside it; where there is none, they go on to the edge. @param farthest  that they may be moved by
   void end_at_lines(double farthest);
 
   /// Lines of different families turn into each other instead of crossing. Pre: no curves were added
@@ -93,6 +93,7 @@ class Web {
   void give_way(const std::vector<Sides>& sides, const Interval& i, double y, double angle_rad,
                 std::vector<Place>& places) const;
   void add_piece(std::vector<Place> piece, End from, End to);
+  static End end_on(const geometry::SegmentIndex& edges, const geometry::SegmentIndex::Crossing& met, Point a, Point b);
   Place place(std::uint32_t i) const { return {outline_.points()[i].x, outline_.points()[i].y}; }
   Place relative(Point p) const {
     return {static_cast<double>(p.x) - style_.origin.x, static_cast<double>(p.y) - style_.origin.y};

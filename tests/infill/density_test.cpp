@@ -153,7 +153,7 @@ TEST_CASE("density: a wedge of densities is laid as it is asked for, by every wa
                               beads);
           if (!part.dithered) prepared.density->follow(part.level, z, from, beads);
         }
-        prepared.density->even(block.outline.front(), z, dither != DensityDither::none, 0, beads);
+        prepared.density->even(block.outline.front(), z, 420, dither != DensityDither::none, 0, beads);
         const auto [l, r] = halves(beads, 30'000);
         left += l / 1'200 / layers, right += r / 1'200 / layers;
       }
@@ -186,7 +186,7 @@ TEST_CASE("density: rings are as far apart at each place as it asks for, and the
   // ∫ρ dx / band = k + ½ with ρ = 0.1 + 0.3 x / 60 mm
   const auto before = [](double x) { return (0.1 * x + 0.0025e-3 * x * x) / 420; };
   for (std::size_t k = 0; k < 3; ++k) CHECK(before(met[k]) == Approx(static_cast<double>(k) + 0.5).margin(0.06));
-  density.even(block.outline.front(), 5'000, false, 0, beads);
+  density.even(block.outline.front(), 5'000, 420, false, 0, beads);
   CHECK(covered_mm2(beads) == Approx(0.25 * 60 * 40).epsilon(0.005));
 }
 
@@ -209,7 +209,7 @@ TEST_CASE("density: what joins lines at a border of levels is taken from the lin
                             {.density = part.level, .band = 420, .angle_rad = degrees(45), .origin = origin}, beads);
         density.follow(part.level, 5'000, from, beads);
       }
-      density.even(region, 5'000, alike, 0, beads);
+      density.even(region, 5'000, 420, alike, 0, beads);
       sum += (halves(beads, 26'000).first - halves(beads, 18'000).first) / 4;
     }
     return sum / (40 * (8 * 0.2 + 0.2 / 15 * (11 * 11 - 3 * 3) / 2));
