@@ -148,6 +148,11 @@ void Context::brim(std::string_view rest) {
   if (rest.empty()) set_feature("brim");
 }
 
+/// weft, below "Bridge infill".
+void Context::overhang(std::string_view rest) {
+  if (rest.empty()) set_feature("overhang_skin");
+}
+
 void Context::mesh(std::string_view name) {
   labels_meshes_ = true;
   set_object(name == "NONMESH" ? std::string_view{} : name);
@@ -179,6 +184,7 @@ void Context::read(std::string_view c) {
       {"printing object ", &C::printing_object},
       {"stop printing object", &C::no_object},
       {"brim", &C::brim},
+      {"overhang", &C::overhang},
       {"CHANGE_LAYER", &C::one_layer_on},  // Bambu
       {"FEATURE:", &C::set_feature},
       {"LINE_WIDTH:", &C::set_width},

@@ -58,6 +58,7 @@ class Context {
   void set_width(std::string_view length);
   void set_height(std::string_view length);
   void brim(std::string_view rest);
+  void overhang(std::string_view rest);
   void mesh(std::string_view name);
   void printing_object(std::string_view rest);
   void no_object(std::string_view);

@@ -15,14 +15,17 @@ namespace {
 
 using namespace weft::literals;
 
-/// How the strands of one direction hang.
-struct Hanging {
+/// How the strands of one direction hang: those with a support at both ends, or at one at least.
+struct Strands {
+  double share = 0;         ///< of the length of all
+  double long_span_um = 0;  ///< mean, weighted by length cubed: short strands across corners must not count
+};
+struct Hung {
   double angle_rad = 0;
-  double resting_share = 0;  ///< of their length, that of strands with a support at both ends
-  double long_span_um = 0;   ///< mean of those, weighted by length cubed: short strands across corners must not count
+  Strands resting, held;
 };
 
-Hanging hanging(const Region& gap, const Mask& below, double angle_rad) {
+Hung hung(const Region& gap, const Mask& below, double angle_rad) {
   constexpr double spacing = 400;                 // about a strand
   const double beyond = 2.5 * below.grid().cell;  // how far past its end a strand must find support: the grid's doubt
   const Frame frame(angle_rad, gap.outer.front());
@@ -30,14 +33,20 @@ Hanging hanging(const Region& gap, const Mask& below, double angle_rad) {
   const double height = outline.greatest_y() - outline.least_y();
   const int count = std::clamp(static_cast<int>(height / spacing), 4, 200);
   const LineSet lines{outline.least_y() + height / count / 2, height / count, count};
-  double all = 0, resting = 0, cubes = 0, fourths = 0;
+  struct Sums {
+    double length = 0, cubes = 0, fourths = 0;
+    void add(double l) { length += l, cubes += std::pow(l, 3), fourths += std::pow(l, 4); }
+    Strands of(double all) const { return {all > 0 ? length / all : 0, length > 0 ? fourths / cubes : 0}; }
+  } resting, held;
+  double all = 0;
   for (const Interval& i : outline.cut(lines)) {
     const double y = lines.y(i.line), length = i.to - i.from;
+    const bool here = below.at(frame.back({i.from - beyond, y})), there = below.at(frame.back({i.to + beyond, y}));
     all += length;
-    if (!below.at(frame.back({i.from - beyond, y})) || !below.at(frame.back({i.to + beyond, y}))) continue;
-    resting += length, cubes += std::pow(length, 3), fourths += std::pow(length, 4);
+    if (here && there) resting.add(length);
+    if (here || there) held.add(length);
   }
-  return {angle_rad, all > 0 ? resting / all : 0, resting > 0 ? fourths / cubes : 0};
+  return {angle_rad, resting.of(all), held.of(all)};
 }
 
 /// Places along a line of a frame where beads cross it.
@@ -110,23 +119,27 @@ std::optional<double> internal_bridge_angle_rad(const Region& area, const Sparse
   return best;
 }
 
-std::optional<double> bridge_angle_rad(const Region& gap, const Mask& below) {
+std::optional<Held> held_over(const Region& gap, const Mask& below) {
   constexpr int directions = 36;
   constexpr double least_share = 0.5;   // below it most strands would end in air
   constexpr double nearly_best = 0.05;  // directions that rest as well as the best are told apart by their spans
-  std::vector<Hanging> found;
-  double best_share = 0;
+  std::vector<Hung> found;
   for (int d = 0; d < directions; ++d) {
     stop_if_asked();
-    found.push_back(hanging(gap, below, d * std::numbers::pi / directions));
-    best_share = std::max(best_share, found.back().resting_share);
+    found.push_back(hung(gap, below, d * std::numbers::pi / directions));
   }
-  if (best_share < least_share) return std::nullopt;
-  const Hanging* best = nullptr;
-  for (const Hanging& h : found)
-    if (h.resting_share >= best_share - nearly_best && (best == nullptr || h.long_span_um < best->long_span_um))
-      best = &h;
-  return best->angle_rad;
+  for (const auto strands : {&Hung::resting, &Hung::held}) {
+    double best_share = 0;
+    for (const Hung& h : found) best_share = std::max(best_share, (h.*strands).share);
+    if (best_share < least_share) continue;
+    const Hung* best = nullptr;
+    for (const Hung& h : found)
+      if ((h.*strands).share >= best_share - nearly_best &&
+          (best == nullptr || (h.*strands).long_span_um < (best->*strands).long_span_um))
+        best = &h;
+    return Held{best->angle_rad, strands == &Hung::held};
+  }
+  return std::nullopt;
 }
 
 }  // namespace weft::infill

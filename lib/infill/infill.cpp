@@ -328,7 +328,8 @@ FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const 
   };
   for (const PartAreas& areas : input.areas) {
     for (const BridgeArea& area : areas.bridges)
-      fill_all(area.regions, styles.bridge, std::nullopt, areas.part, [&](const auto&...) { return area.angle_rad; });
+      fill_all(area.regions, area.ledge ? styles.solid : styles.bridge, std::nullopt, areas.part,
+               [&](const auto&...) { return area.angle_rad; });
     if (infill.infill_sparse_density > 0) fill_sparse_areas(infill, input, styles.sparse, areas, layer.beads);
     const std::size_t from = layer.beads.size();
     for (const BeltLine& line : areas.belts) lay(line, styles.solid, areas.part, layer.beads);

@@ -4,16 +4,12 @@
 #include "core/stop.h"
 #include "geometry/boolean.h"
 #include "geometry/simplify.h"
-#include "geometry/spatial_index.h"
-#include "infill/belts.h"
 #include "infill/bridges.h"
-#include "infill/few_points.h"
-#include "infill/mask.h"
+#include "infill/exact_areas.h"
 #include "model/flow.h"
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -26,8 +22,6 @@ using namespace weft::literals;
 constexpr Um finest_cell = 0.1_mm;
 constexpr double most_cells = 2.3e6;  // of the grid over an object: 150 × 150 mm of the finest cells
 constexpr int margin_cells = 4;
-constexpr double as_straight = 0.55;  // cells on each side of a line that the middles of its cells' sides lie in
-constexpr int beyond_cells = 2;  // how far an area is drawn over the wall beside it before it is cut to the wall's edge
 
 /// Layers [from, to).
 struct LayerRange {
@@ -80,16 +74,6 @@ Reach reach_of(const ShellSettings& settings, std::span<const ShellLayer> layers
     ++reach.below;
   return reach;
 }
-
-/// What each cell of a layer is filled with. Disjoint, and within `inside`.
-struct Kinds {
-  const Mask& inside;
-  Mask top, solid;
-  std::vector<Mask> bridges;
-  std::vector<double> bridge_angles;
-  std::optional<Mask> sparse;  ///< present when any
-  std::optional<Belts> belts;
-};
 
 int cells(double um, const Grid& grid) {
   return std::max(1, static_cast<int>(std::lround(um / grid.cell)));
@@ -176,27 +160,31 @@ Regions regions_of(const Mask& cells) {
 }
 
 /// A bridge takes what it covers from the other kinds.
-void add_bridge(Kinds& kinds, Mask bridge, double angle_rad) {
-  for (const Mask& other : kinds.bridges) bridge -= other;
-  if (!bridge.any()) return;
-  kinds.solid -= bridge, kinds.top -= bridge;
-  if (kinds.sparse) *kinds.sparse -= bridge;
-  kinds.bridges.push_back(std::move(bridge));
-  kinds.bridge_angles.push_back(angle_rad);
+void add_bridge(Kinds& kinds, Hanging bridge) {
+  for (const Hanging& other : kinds.hanging) bridge.area -= other.area;
+  if (!bridge.area.any()) return;
+  kinds.solid -= bridge.area, kinds.top -= bridge.area;
+  if (kinds.sparse) *kinds.sparse -= bridge.area;
+  kinds.hanging.push_back(std::move(bridge));
 }
 
-/// Bottoms over air that hang between supports become bridges. Their ends rest on what is below, also where there
-/// would be sparse infill beside the bottom.
-void find_bridges(const ShellSettings& settings, Kinds& kinds, const Mask& air, const Mask& below, Um nozzle) {
+/// Bottoms over air that hang between supports become bridges, wide ones that are held at one side ledges. Their ends
+/// rest on what is below, also where there would be sparse infill beside the bottom.
+void find_bridges(const ShellSettings& settings, Kinds& kinds, const Mask& air, const Mask& below, double line,
+                  Um nozzle) {
+  constexpr double narrowest_ledge = 3;  // lines: what is narrower hangs on the wall beside it, whichever way it runs
   const Grid& grid = kinds.inside.grid();
   const Mask gaps = air.opened(cells(nozzle / 2.0, grid));
   if (!gaps.any()) return;
   for (const Region& gap : regions_of(gaps)) {
     stop_if_asked();
-    std::optional<double> angle = bridge_angle_rad(gap, below);
-    if (!angle) continue;
-    if (settings.bridge_angle) angle = *settings.bridge_angle * std::numbers::pi / 180;
-    add_bridge(kinds, Mask(grid, {&gap, 1}).grown(cells(settings.bridge_anchor, grid)) & kinds.inside, *angle);
+    std::optional<Held> held = held_over(gap, below);
+    if (!held) continue;
+    const Mask area =
+        Mask(grid, {&gap, 1}).grown(1) & gaps;  // edges that pass through the middles of cells: all of them
+    if (held->ledge && (settings.skin_angle || !area.opened(cells(narrowest_ledge / 2 * line, grid)).any())) continue;
+    if (settings.bridge_angle && !held->ledge) held->angle_rad = *settings.bridge_angle * std::numbers::pi / 180;
+    add_bridge(kinds, {area.grown(cells(settings.bridge_anchor, grid)) & kinds.inside, held->angle_rad, held->ledge});
   }
 }
 
@@ -213,46 +201,9 @@ void find_internal_bridges(const ShellSettings& settings, const SparseStyle& bel
     std::optional<double> angle = internal_bridge_angle_rad(area, below, nozzle);
     if (!angle) continue;
     if (settings.bridge_angle) angle = *settings.bridge_angle * std::numbers::pi / 180;
-    add_bridge(kinds, Mask(grid, {&area, 1}).grown(cells(settings.bridge_anchor, grid)) & kinds.solid, *angle);
+    add_bridge(kinds, {Mask(grid, {&area, 1}).grown(cells(settings.bridge_anchor, grid)) & kinds.solid, *angle});
   }
 }
-
-/// Which patches of a layer's sparse infill are too small to be worth it: solid, too; not those that lie on infill that
-/// is none: their lines would hang from line to line of that, an island in sparse infill.
-class SmallPatches {
- public:
-  /// @param below the sparse infill of the layer below
-  SmallPatches(double least_mm2, const std::optional<Mask>& below) : least_mm2_(least_mm2), below_(below) {}
-
-  bool closes(const Region& patch) { return area_mm2(patch) < least_mm2_ && !goes_on_below(patch); }
-
-  /// Closes those among cells.
-  void close(Mask& sparse, Mask& solid) {
-    Regions small;
-    for (Ring& ring : sparse.outlines())
-      if (double_area(ring) > 0)
-        if (Region patch{std::move(ring), {}}; closes(patch)) small.push_back(std::move(patch));
-    if (small.empty()) return;
-    const Mask closed = Mask(sparse.grid(), small) & sparse;
-    sparse -= closed, solid |= closed;
-  }
-
- private:
-  bool goes_on_below(const Region& patch) {
-    if (!below_) return false;
-    const Grid& grid = below_->grid();
-    if (!large_) {
-      Regions patches = geometry::regions_from_rings(below_->outlines());
-      std::erase_if(patches, [&](const Region& each) { return area_mm2(each) < least_mm2_; });
-      large_.emplace(grid, patches);
-    }
-    return Mask(grid.window(weft::box_of(patch.outer), grid.cell), {&patch, 1}).shrunk(beyond_cells).meets(*large_);
-  }
-
-  double least_mm2_;
-  const std::optional<Mask>& below_;
-  std::optional<Mask> large_;
-};
 
 /// Narrow solid beside sparse infill is as wide as its lines; what is too short for one is sparse.
 void lay_belts(const Regions& inside, double line, Um band, Kinds& kinds) {
@@ -276,7 +227,7 @@ Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, cons
                const Window& window, std::size_t index, Split split, const std::optional<Mask>& sparse_below) {
   const Grid& grid = window.grid();
   const double line = split.line;
-  Kinds kinds{window.inside(index), Mask(grid), std::move(split.solid), {}, {}, std::move(split.sparse), {}};
+  Kinds kinds{window.inside(index), Mask(grid), std::move(split.solid), {}, std::move(split.sparse), {}};
   if (split.seen_above.any())
     kinds.top = split.seen_above.opened(cells(0.4 * line, grid)).grown(cells(0.5 * line, grid)) & kinds.solid;
   kinds.solid -= kinds.top;
@@ -287,9 +238,9 @@ Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, cons
       const Regions* on_support = object.layers[index].held;
       if (on_support != nullptr && !on_support->empty()) {
         const Mask held(grid, *on_support);
-        find_bridges(settings, kinds, split.air_below - held, window.outline(index - 1) | held, object.nozzle);
+        find_bridges(settings, kinds, split.air_below - held, window.outline(index - 1) | held, line, object.nozzle);
       } else {
-        find_bridges(settings, kinds, split.air_below, window.outline(index - 1), object.nozzle);
+        find_bridges(settings, kinds, split.air_below, window.outline(index - 1), line, object.nozzle);
       }
     }
     kinds.top = seen & kinds.solid;
@@ -321,131 +272,6 @@ Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, cons
         kinds);
   if (kinds.sparse && !kinds.sparse->any()) kinds.sparse.reset();
   return kinds;
-}
-
-/// One kind of fill while exact areas are cut out.
-struct Kind {
-  const Mask* cells;
-  Regions* areas;                  ///< of the part in work
-  const Regions* exact = nullptr;  ///< its outlines, where they are known
-};
-
-/// Through the middles of the cells' sides: what slants is straight there, not a staircase.
-Ring through_middles(const Ring& outline, Um cell) {
-  Ring out;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Point a = outline[i], b = outline[(i + 1) % outline.size()];
-    const int sides = std::max(std::abs(b.x - a.x), std::abs(b.y - a.y)) / cell;
-    const Point step{b.x == a.x ? 0 : (b.x > a.x ? cell : -cell), b.y == a.y ? 0 : (b.y > a.y ? cell : -cell)};
-    for (int k = 0; k < sides; ++k) out.push_back({a.x + k * step.x + step.x / 2, a.y + k * step.y + step.y / 2});
-  }
-  return out;
-}
-
-/// Outlines of an area that may run over the wall beside it, to be cut with what is inside of the walls.
-Regions rough_outline(const Mask& cells, const Mask& inside) {
-  const Mask drawn = cells | (cells.grown(beyond_cells) - inside);
-  Regions rings;  // holes among them: the Booleans take rings as they are wound
-  for (const Ring& ring : drawn.outlines())
-    rings.push_back({few_points(through_middles(ring, cells.grid().cell), true, as_straight * cells.grid().cell), {}});
-  return rings;
-}
-
-/// Cuts regions of one part that hold several kinds. The last kind present gets the rest, so nothing is lost.
-void cut_apart(const Regions& mixed, std::span<const Kind> kinds, const Mask& inside) {
-  const Box box = weft::box_of(mixed);
-  std::vector<const Kind*> present;
-  for (const Kind& kind : kinds)
-    if (kind.exact != nullptr || kind.cells->meets(inside, box)) present.push_back(&kind);
-  Regions rest = mixed;
-  for (std::size_t k = 0; k < present.size(); ++k) {
-    Regions& areas = *present[k]->areas;
-    if (k + 1 == present.size()) {
-      areas.insert(areas.end(), rest.begin(), rest.end());
-      break;
-    }
-    auto cut = geometry::cut(
-        rest, present[k]->exact != nullptr ? *present[k]->exact : rough_outline(*present[k]->cells, inside));
-    rest = std::move(cut.outside);
-    std::move(cut.inside.begin(), cut.inside.end(), std::back_inserter(areas));
-  }
-}
-
-/// Patches of sparse infill that bridges and belts leave too small to be worth it become solid.
-void drop_small_sparse(PartAreas& areas, SmallPatches& which) {
-  const auto small = std::stable_partition(areas.sparse.begin(), areas.sparse.end(),
-                                           [&](const Region& patch) { return !which.closes(patch); });
-  if (small == areas.sparse.end()) return;
-  Regions patches(small, areas.sparse.end());
-  areas.sparse.erase(small, areas.sparse.end());
-  areas.solid = areas.solid.empty() ? std::move(patches) : geometry::unite(areas.solid, patches);
-}
-
-/// The part (region of the outline) that each region of the inside lies in.
-std::vector<std::uint32_t> parts_of(const Regions& inside, const Regions& outline) {
-  std::vector<std::uint32_t> parts(inside.size(), 0);
-  if (outline.size() < 2 || inside.empty()) return parts;
-  const geometry::SegmentIndex index(outline);
-  for (std::size_t i = 0; i < inside.size(); ++i) {
-    stop_if_asked();
-    parts[i] = static_cast<std::uint32_t>(index.region_at(inside[i].outer.front()).value_or(0));
-  }
-  return parts;
-}
-
-LayerAreas exact_areas(const ShellSettings& settings, const InfillSettings& infill, const ShellLayer& layer,
-                       const Kinds& kinds, const std::optional<Mask>& sparse_below) {
-  const std::vector<std::uint32_t> parts = parts_of(*layer.inside, *layer.outline);
-  std::vector<std::size_t> order(parts.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return parts[a] < parts[b]; });
-
-  Regions belted;
-  Mask fuzzy = kinds.inside;  // where outlines are those of cells
-  if (kinds.belts) {
-    for (const Belts::Of& of : kinds.belts->found) belted.insert(belted.end(), of.area.begin(), of.area.end());
-    fuzzy -= kinds.belts->area;
-  }
-  LayerAreas result;
-  SmallPatches small(settings.infill_solid_below_area, sparse_below);
-  for (std::size_t i = 0; i < order.size();) {
-    PartAreas& areas = result.emplace_back();
-    areas.part = parts[order[i]];
-    for (const double angle : kinds.bridge_angles) areas.bridges.push_back({{}, angle});
-    std::vector<Kind> all;
-    if (kinds.belts) all.push_back({&kinds.belts->area, &areas.belted, &belted});
-    for (std::size_t b = 0; b < kinds.bridges.size(); ++b)
-      all.push_back({&kinds.bridges[b], &areas.bridges[b].regions});
-    all.push_back({&kinds.top, &areas.top});
-    if (kinds.sparse) all.push_back({&*kinds.sparse, &areas.sparse});
-    all.push_back({&kinds.solid, &areas.solid});
-    Regions mixed;
-    for (; i < order.size() && parts[order[i]] == areas.part; ++i) {
-      stop_if_asked();
-      const Region& region = (*layer.inside)[order[i]];
-      if (kinds.belts)
-        for (const Belts::Of& of : kinds.belts->found)
-          if (of.region == order[i]) areas.belts.insert(areas.belts.end(), of.lines.begin(), of.lines.end());
-      std::vector<const Kind*> present;
-      if (order.size() == 1) {
-        for (const Kind& kind : all)
-          if (kind.cells->any()) present.push_back(&kind);
-      } else {
-        const Grid& grid = kinds.inside.grid();
-        const Mask cells(grid.window(weft::box_of(region.outer), grid.cell), {&region, 1});
-        for (const Kind& kind : all)
-          if (kind.cells->meets(cells)) present.push_back(&kind);
-      }
-      if (present.size() > 1)
-        mixed.push_back(region);
-      else
-        (present.empty() ? areas.solid : *present.front()->areas).push_back(region);
-    }
-    if (!mixed.empty()) cut_apart(mixed, all, fuzzy);
-    std::erase_if(areas.bridges, [](const BridgeArea& b) { return b.regions.empty(); });
-    if (infill.infill_sparse_density > 0) drop_small_sparse(areas, small);
-  }
-  return result;
 }
 
 }  // namespace
@@ -485,7 +311,8 @@ std::vector<LayerAreas> find_areas(const ShellSettings& settings, const InfillSe
     std::optional<Mask> sparse = split.sparse;
     if (i >= run.from) {
       const Kinds kinds = kinds_of(settings, infill, object, window, i, std::move(split), sparse_below);
-      result.push_back(exact_areas(settings, infill, object.layers[i], kinds, sparse_below));
+      SmallPatches small(settings.infill_solid_below_area, sparse_below);
+      result.push_back(exact_areas(object.layers[i], kinds, infill.infill_sparse_density > 0 ? &small : nullptr));
     }
     sparse_below = std::move(sparse), unclosed_below = std::move(unclosed);
   }

@@ -32,10 +32,11 @@ struct ShellObject {
 };
 Box box_of(std::span<const ShellLayer> layers);
 
-/// Free strands from support to support.
+/// Over air: free strands from support to support.
 struct BridgeArea {
   Regions regions;
   double angle_rad = 0;  ///< direction of the strands, against X
+  bool ledge = false;    ///< it is held at one side: lines like others of solid layers, that begin where they are held
 };
 
 /// What fills one part (region of the outline) of a layer. The areas do not overlap; together they are the part's

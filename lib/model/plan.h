@@ -36,7 +36,7 @@ struct Extrude {
   /// bead is not resampled.
   std::vector<Um> below{};
   bool follows_surface = false;  ///< it is as much lower, or higher, than its layer as it lies below or above its z
-  /// Of walls: how much of the width lies over air, in quarters rounded up; 0 where it is less than a tenth.
+  /// Of walls and skin: how much of the width lies over air, in quarters rounded up; 0 where it is less than a tenth.
   std::uint8_t air_quarters = 0;
   /// Of a piece that was cut out of a closed bead: the length of all of it; 0: the path is the whole bead.
   Um loop_length = 0;

@@ -22,6 +22,7 @@ enum class Role : std::uint8_t {
   solid_infill,  ///< inside, or a bottom
   top_skin,
   bridge,
+  overhang_skin,  ///< solid infill over air that is no bridge: held at one end of its lines, or at none
   gap_fill,
   skirt,
   brim,
@@ -59,9 +60,10 @@ struct RoleRow {
   std::array<RoleComment, 3> comments;  ///< by CommentDialect
   RoleSpeed speed;
   RoleAcceleration acceleration;
-  Rgb colour;             ///< in pictures
-  bool outside = false;   ///< walls: nothing lies further out
-  bool over_air = false;  ///< nothing lies below: printed with the bridges' fan
+  Rgb colour;                      ///< in pictures
+  bool outside = false;            ///< walls: nothing lies further out
+  bool over_air = false;           ///< nothing lies below: printed with the bridges' fan
+  std::optional<Role> hangs_as{};  ///< what it is where nothing lies below any of its width
 };
 
 /// Comments as PrusaSlicer 2.9, CuraEngine 5 and OrcaSlicer 2.3 write them.
@@ -76,14 +78,16 @@ inline constexpr auto roles = [] {
               .speed = {&S::speed_wall_0},
               .acceleration = {&S::acceleration_wall_0},
               .colour = {238, 121, 52},
-              .outside = true},
+              .outside = true,
+              .hangs_as = Role::overhang_wall},
       RoleRow{.role = Role::inner_wall,
               .key = "inner_wall",
               .kind = wall,
               .comments = {{{"Perimeter"}, {"WALL-INNER"}, {"Inner wall"}}},
               .speed = {&S::speed_wall_x},
               .acceleration = {&S::acceleration_wall_x},
-              .colour = {246, 199, 68}},
+              .colour = {246, 199, 68},
+              .hangs_as = Role::overhang_wall},
       RoleRow{.role = Role::overhang_wall,
               .key = "overhang_wall",
               .kind = wall,
@@ -92,7 +96,8 @@ inline constexpr auto roles = [] {
               .acceleration = {&S::acceleration_wall_0},
               .colour = {48, 88, 214},
               .outside = true,
-              .over_air = true},
+              .over_air = true,
+              .hangs_as = Role::overhang_wall},
       RoleRow{.role = Role::infill,
               .key = "infill",
               .kind = fill,
@@ -106,7 +111,8 @@ inline constexpr auto roles = [] {
               .comments = {{{"Solid infill"}, {"SKIN"}, {"Internal solid infill"}}},
               .speed = {&S::speed_topbottom},
               .acceleration = {&S::acceleration_topbottom},
-              .colour = {146, 98, 214}},
+              .colour = {146, 98, 214},
+              .hangs_as = Role::overhang_skin},
       RoleRow{.role = Role::top_skin,
               .key = "top_skin",
               .kind = skin,
@@ -122,6 +128,15 @@ inline constexpr auto roles = [] {
               .acceleration = {&S::acceleration_bridge},
               .colour = {88, 156, 236},
               .over_air = true},
+      RoleRow{.role = Role::overhang_skin,
+              .key = "overhang_skin",
+              .kind = skin,
+              .comments = {{{"Bridge infill", "overhang"}, {"SKIN", "overhang"}, {"Bridge", "overhang"}}},
+              .speed = {&S::speed_topbottom, &S::speed_overhang},
+              .acceleration = {&S::acceleration_topbottom},
+              .colour = {120, 60, 150},
+              .over_air = true,
+              .hangs_as = Role::overhang_skin},
       RoleRow{.role = Role::gap_fill,
               .key = "gap_fill",
               .kind = fill,

@@ -72,7 +72,7 @@ double fan_share(const CoolingSettings& cooling, std::size_t number, double seco
 
 namespace {
 
-/// By the quarters of its width that a wall lies over air with.
+/// By the quarters of its width that a bead lies over air with.
 constexpr std::array over_air_fans{&CoolingSettings::overhang_fan_speed_25, &CoolingSettings::overhang_fan_speed_50,
                                    &CoolingSettings::overhang_fan_speed_75, &CoolingSettings::overhang_fan_speed_100};
 

@@ -47,7 +47,7 @@ double count_bead(const Extrude& bead, bool goes_on, Statistics& s) {
     s.arcs.pieces += arc.last - arc.first;
     s.arcs.worst_um = std::max(s.arcs.worst_um, deviation_um(bead, arc));
   }
-  if (bead.air_quarters > 0) s.walls.over_air_mm.at(bead.air_quarters - 1U) += mm;
+  if (wall && bead.air_quarters > 0) s.walls.over_air_mm.at(bead.air_quarters - 1U) += mm;
   if (bead.role == Role::overhang_wall) s.walls.whole_over_air_mm += mm;
   feature.mm += mm;
   feature.mm3 += mm3;

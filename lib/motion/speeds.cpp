@@ -66,13 +66,13 @@ double with_small_perimeter(const Rules& rules, const Extrude& bead, double spee
   return std::min(speed_mm_s, rules.speeds.speed_small_perimeter->of(speed_mm_s));
 }
 
-/// By the quarters of its width that a wall lies over air with.
+/// By the quarters of its width that a bead lies over air with.
 constexpr std::array over_air_speeds{&SpeedSettings::speed_overhang_25, &SpeedSettings::speed_overhang_50,
                                      &SpeedSettings::speed_overhang_75, &SpeedSettings::speed_overhang_100};
 
-/// What walls that hang are slowed to. What hangs with all of its width has a role of its own, and its speed.
+/// What hangs is slowed to this. What hangs with all of its width has a role of its own, and its speed.
 double with_overhang(const Rules& rules, const Extrude& bead, double speed_mm_s) {
-  if (bead.air_quarters == 0 || bead.role == Role::overhang_wall) return speed_mm_s;
+  if (bead.air_quarters == 0 || row_of(bead.role).over_air) return speed_mm_s;
   return std::min(speed_mm_s, (rules.speeds.*over_air_speeds.at(bead.air_quarters - 1U)).of(speed_mm_s));
 }
 

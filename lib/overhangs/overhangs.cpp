@@ -38,15 +38,16 @@ struct Place {
 struct Run {
   Place from, to;
   double length_um = 0;
+  double in_air_um = 0;  ///< ∫ share of the width that lies over air
   Level level = 0;
   bool strand = false;
 };
 
-void add(Place from, Place to, double length_um, Level level, std::vector<Run>& runs) {
-  if (!runs.empty() && runs.back().level == level)
-    runs.back().to = to, runs.back().length_um += length_um;
+void add(const Run& run, std::vector<Run>& runs) {
+  if (!runs.empty() && runs.back().level == run.level)
+    runs.back().to = run.to, runs.back().length_um += run.length_um, runs.back().in_air_um += run.in_air_um;
   else
-    runs.push_back({from, to, length_um, level, false});
+    runs.push_back(run);
 }
 
 /// How the bead lies all along.
@@ -59,15 +60,21 @@ std::vector<Run> runs_of(const std::vector<Junction>& path, Air& air) {
     const double length = distance(a.at, b.at);
     if (length == 0) continue;
     if (!air.edge_near(a.at, b.at, std::max(a.width, b.width) / 2)) {
-      add({i, 0}, {i, 1}, length, air.at(lerp(a.at, b.at, 0.5)) ? whole : Level{0}, runs);
+      const double share = air.at(lerp(a.at, b.at, 0.5)) ? 1 : 0;
+      add({{i, 0}, {i, 1}, length, share * length, level_of(share)}, runs);
       continue;
     }
     const int looks = static_cast<int>(std::ceil(length / step_um));
     const double nx = -(b.at.y - a.at.y) / length, ny = (b.at.x - a.at.x) / length;
     for (int k = 0; k < looks; ++k) {
       const double along = (k + 0.5) / looks, half = (a.width + along * (b.width - a.width)) / 2;
-      const Level level = level_of(air.share(lerp(a.at, b.at, along), {rounded(half * nx), rounded(half * ny)}));
-      add({i, static_cast<double>(k) / looks}, {i, (k + 1.0) / looks}, length / looks, level, runs);
+      const double share = air.share(lerp(a.at, b.at, along), {rounded(half * nx), rounded(half * ny)});
+      add({{i, static_cast<double>(k) / looks},
+           {i, (k + 1.0) / looks},
+           length / looks,
+           share * length / looks,
+           level_of(share)},
+          runs);
     }
   }
   return runs;
@@ -77,11 +84,37 @@ int unlike(const Run& a, const Run& b) {
   return std::abs(static_cast<int>(a.level) - static_cast<int>(b.level));
 }
 
+/// Short runs that follow each other, and hang further together than what lies before and behind them, are one that
+/// lies as they do on the mean: each alone would go to its neighbours.
+std::vector<Run> with_short_ones_joined(const std::vector<Run>& runs) {
+  std::vector<Run> out;
+  const auto is_short = [](const Run& run) { return run.length_um < shortest_um; };
+  for (auto at = runs.begin(); at != runs.end();) {
+    const auto end = std::find_if_not(at, runs.end(), is_short);
+    const Level beside =
+        std::max(at == runs.begin() ? Level{0} : at[-1].level, end == runs.end() ? Level{0} : end->level);
+    while (at != end) {
+      Run joined = *at;
+      auto next = at + 1;
+      for (; next != end && is_short(joined); ++next)
+        joined.to = next->to, joined.length_um += next->length_um, joined.in_air_um += next->in_air_um;
+      joined.level = level_of(joined.in_air_um / joined.length_um);
+      if (!is_short(joined) && joined.level > beside)
+        add(joined, out);
+      else
+        std::for_each(at, next, [&](const Run& run) { add(run, out); });
+      at = next;
+    }
+    if (at != runs.end()) add(*at++, out);
+  }
+  return out;
+}
+
 /// Short runs go to the neighbour that is most like them, where both are to the one that hangs further.
 std::vector<Run> without_short(const std::vector<Run>& runs) {
   std::vector<Run> out;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    add(runs[i].from, runs[i].to, runs[i].length_um, runs[i].level, out);
+    add(runs[i], out);
     Run& last = out.back();
     const bool first = out.size() == 1, end = i + 1 == runs.size();
     if (last.length_um >= shortest_um || (first && end)) continue;
@@ -160,11 +193,16 @@ void cut(const Extrude& bead, const std::vector<Run>& runs, const Strand& strand
     Extrude piece = bead;
     piece.path = piece_of(bead.path, run);
     piece.air_quarters = std::min<Level>(run.level, 4);
-    if (run.level == whole) piece.role = Role::overhang_wall;
+    if (run.level == whole) piece.role = row_of(bead.role).hangs_as.value_or(bead.role);
     if (run.strand)
       for (Junction& j : piece.path) j.width = strand.nozzle, j.flow = flow;
     steps.emplace_back(std::move(piece));
   }
+}
+
+/// Walls, and lines of solid infill: bridges are laid for it, and what lies upon skin does not hang.
+bool may_hang(Role role) {
+  return row_of(role).hangs_as.has_value() || role == Role::gap_fill || role == Role::top_skin;
 }
 
 }  // namespace
@@ -187,14 +225,14 @@ void mark(std::span<const Strand> strands, Regions over_air, LayerPlan& layer) {
     stop_if_asked();
     const auto* bead = std::get_if<Extrude>(&step);
     const Strand& strand = strands[bead != nullptr && bead->scope < strands.size() ? bead->scope : 0];
-    if (bead != nullptr && strand.marked && is_wall(bead->role) && bead->below.empty() && bead->path.size() > 1) {
+    if (bead != nullptr && strand.marked && may_hang(bead->role) && bead->below.empty() && bead->path.size() > 1) {
       Box box;
       Um widest = 0;
       for (const Junction& j : bead->path) box.add(j.at), widest = std::max(widest, j.width);
       if (air.near(box, widest / 2)) {
-        auto runs = without_short(runs_of(bead->path, air));
+        auto runs = without_short(with_short_ones_joined(runs_of(bead->path, air)));
         if (runs.size() > 1 || (runs.size() == 1 && runs[0].level > 0)) {
-          find_strands(*bead, strand, runs);
+          if (is_wall(bead->role)) find_strands(*bead, strand, runs);
           cut(*bead, runs, strand, steps);
           continue;
         }

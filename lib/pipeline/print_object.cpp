@@ -167,7 +167,7 @@ LayerMeasure measure_of(const SlicedLayer& layer, const Regions& inside, const i
     add(Growth::top, part.top);
     add(Growth::sparse, part.sparse);
     add(Growth::sparse, part.combined, part.combined_layers);
-    for (const auto& bridge : part.bridges) add(Growth::bridge, bridge.regions);
+    for (const auto& bridge : part.bridges) add(bridge.ledge ? Growth::solid : Growth::bridge, bridge.regions);
   }
   return out;
 }

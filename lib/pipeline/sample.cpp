@@ -14,13 +14,21 @@ struct Grows {
   std::optional<Growth> with;
 };
 constexpr std::array grows{
-    Grows{Role::outer_wall, Growth::walls},    Grows{Role::inner_wall, Growth::walls},
-    Grows{Role::overhang_wall, Growth::walls}, Grows{Role::infill, Growth::sparse},
-    Grows{Role::solid_infill, Growth::solid},  Grows{Role::top_skin, Growth::top},
-    Grows{Role::bridge, Growth::bridge},       Grows{Role::gap_fill, Growth::walls},
-    Grows{Role::skirt, std::nullopt},          Grows{Role::brim, std::nullopt},
-    Grows{Role::support, std::nullopt},        Grows{Role::support_interface, std::nullopt},
-    Grows{Role::wipe_tower, std::nullopt},     Grows{Role::ironing, Growth::top},
+    Grows{Role::outer_wall, Growth::walls},
+    Grows{Role::inner_wall, Growth::walls},
+    Grows{Role::overhang_wall, Growth::walls},
+    Grows{Role::infill, Growth::sparse},
+    Grows{Role::solid_infill, Growth::solid},
+    Grows{Role::top_skin, Growth::top},
+    Grows{Role::bridge, Growth::bridge},
+    Grows{Role::overhang_skin, Growth::solid},
+    Grows{Role::gap_fill, Growth::walls},
+    Grows{Role::skirt, std::nullopt},
+    Grows{Role::brim, std::nullopt},
+    Grows{Role::support, std::nullopt},
+    Grows{Role::support_interface, std::nullopt},
+    Grows{Role::wipe_tower, std::nullopt},
+    Grows{Role::ironing, Growth::top},
 };
 static_assert(grows.size() == roles.size() && in_order(grows, &Grows::role), "row i of grows is role i");
 

@@ -52,6 +52,7 @@ TEST_CASE("audit: features are told in the words of each comment dialect, what a
   };
   CHECK(feature_of(";LAYER:0\n;TYPE:WALL-OUTER\n") == "outer_wall");
   CHECK(feature_of(";LAYER:0\n;TYPE:SKIRT\n; brim\n") == "brim");
+  CHECK(feature_of(";LAYER:0\n;TYPE:SKIN\n; overhang\n") == "overhang_skin");
   CHECK(feature_of(";LAYER:0\n;TYPE:CUSTOM\n") == "custom");
   CHECK(feature_of(";LAYER_CHANGE\n;TYPE:Outer wall\n") == "outer_wall");
   CHECK(feature_of(";LAYER_CHANGE\n;TYPE:Brim\n") == "brim");

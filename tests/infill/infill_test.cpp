@@ -158,6 +158,26 @@ TEST_CASE("infill: bridges are strands of the nozzle's diameter", "[infill]") {
   }
 }
 
+TEST_CASE("infill: lines of a ledge are those of other solid layers, in its direction", "[infill]") {
+  LayerAreas areas(1);
+  areas[0].bridges.push_back({{rectangle(0, 0, 20000, 10000)}, degrees(20), true});
+  const Beads beads = infill::fill({}, {}, input(areas)).beads;
+  REQUIRE(!beads.empty());
+  double volume = 0, along = 0, all = 0;
+  for (const Bead& bead : beads) {
+    CHECK(bead.role == Role::solid_infill);
+    volume += volume_mm3(bead, 200);
+    for (std::size_t i = 1; i < bead.path.size(); ++i) {
+      const Point a = bead.path[i - 1].at, b = bead.path[i].at;
+      const double length = distance(a, b);
+      all += length;
+      if (std::abs(std::sin(std::atan2(b.y - a.y, b.x - a.x) - degrees(20))) < 0.02) along += length;
+    }
+  }
+  CHECK(volume == Approx(20 * 10 * 0.2).epsilon(0.02));
+  CHECK(along > 0.8 * all);  // the rest are turns
+}
+
 TEST_CASE("infill: solid lines cross the strands of the bridge below, unless a direction is asked for", "[infill]") {
   const LayerAreas areas = solid_area(rectangle(0, 0, 20000, 20000));
   const std::vector<infill::BridgeArea> below{{{rectangle(0, 0, 20000, 15000)}, degrees(30)}};

@@ -48,12 +48,18 @@ double sum(const LayerAreas& layer, Regions PartAreas::*kind) {
 double bridged(const LayerAreas& layer) {
   double mm2 = 0;
   for (const PartAreas& part : layer)
-    for (const infill::BridgeArea& b : part.bridges) mm2 += area_mm2(b.regions);
+    for (const infill::BridgeArea& b : part.bridges) mm2 += b.ledge ? 0 : area_mm2(b.regions);
+  return mm2;
+}
+double ledges(const LayerAreas& layer) {
+  double mm2 = 0;
+  for (const PartAreas& part : layer)
+    for (const infill::BridgeArea& b : part.bridges) mm2 += b.ledge ? area_mm2(b.regions) : 0;
   return mm2;
 }
 double all(const LayerAreas& layer) {
   return sum(layer, &PartAreas::top) + sum(layer, &PartAreas::solid) + sum(layer, &PartAreas::sparse) +
-         sum(layer, &PartAreas::belted) + bridged(layer);
+         sum(layer, &PartAreas::belted) + bridged(layer) + ledges(layer);
 }
 bool solid_at(const LayerAreas& layer, Point p) {
   return std::any_of(layer.begin(), layer.end(), [&](const PartAreas& a) {
@@ -189,6 +195,26 @@ TEST_CASE("shells: a ceiling over a pit is bridged, a ledge is not", "[infill]")
   const auto hanging = Object(std::move(ledge)).areas({});
   CHECK(bridged(hanging[6]) == 0);
   CHECK(solid_at(hanging[6], {15000, 10000}));
+}
+
+TEST_CASE("shells: lines of a ledge begin where it is held, also in a corner that hangs", "[infill]") {
+  const auto beside = [](const Regions& below, const Regions& above) {
+    std::vector<Regions> outlines(6, below);
+    outlines.insert(outlines.end(), 6, above);
+    return Object(std::move(outlines)).areas({});
+  };
+  const Regions wide{rectangle(0, 0, 20000, 30000)};
+  const auto shelf = beside({rectangle(0, 0, 10000, 30000)}, wide);
+  REQUIRE(shelf[6][0].bridges.size() == 1);
+  CHECK(shelf[6][0].bridges[0].ledge);
+  CHECK(std::abs(std::sin(shelf[6][0].bridges[0].angle_rad)) < std::sin(degrees(6)));
+  CHECK(ledges(shelf[6]) > 9 * 28);  // what hangs, and where its lines begin
+  CHECK(ledges(shelf[6]) < 11.2 * 28.2);
+  CHECK(all(shelf[6]) == Approx(18 * 28));
+  CHECK(shelf[7][0].bridges.empty());
+
+  CHECK(beside({rectangle(0, 0, 19000, 30000)}, wide)[6][0].bridges.empty());      // too narrow for lines of its own
+  CHECK(beside({rectangle(40000, 0, 50000, 30000)}, wide)[6][0].bridges.empty());  // held nowhere
 }
 
 TEST_CASE("shells: solid over sparse infill is a bridge across the lines of the infill, from edge to edge",

@@ -137,6 +137,43 @@ TEST_CASE("overhangs: a shelf is held at one end, and what turns over air at non
   }
 }
 
+TEST_CASE("overhangs: skin over air is told apart and keeps its width, held at one end or at both", "[overhangs]") {
+  const Regions ledge{rectangle(10000, -5000, 20000, 15000)};
+  const Extrude lines = wall({{0, 0}, {20000, 0}, {20000, 400}, {0, 400}}, false, Role::solid_infill);
+  const auto pieces = marked({lines}, ledge);
+  check_whole(lines, pieces);
+  REQUIRE(pieces.size() == 3);
+  CHECK(pieces[1].role == Role::overhang_skin);
+  CHECK(length_of(pieces[1]) == Approx(20.4).margin(0.8));  // there and back, looked at every 0.4 mm
+  for (const std::size_t held : {0U, 2U}) CHECK(pieces[held].role == Role::solid_infill);
+
+  const auto over_slit = marked({lines}, {rectangle(5000, -5000, 8000, 15000)});
+  REQUIRE(over_slit.size() == 5);
+  for (const auto* all : {&pieces, &over_slit})
+    for (const Extrude& piece : *all)
+      for (const Junction& j : piece.path) CHECK((j.width == band && j.flow == 1.F));
+
+  const auto top = marked({wall({{0, 0}, {20000, 0}}, false, Role::top_skin)}, ledge);
+  REQUIRE(top.size() == 2);
+  CHECK(top[1].role == Role::top_skin);
+  CHECK(top[1].air_quarters == 4);
+}
+
+TEST_CASE("overhangs: short stretches that follow each other are one, a single one is none", "[overhangs]") {
+  const auto comb = [](int teeth) {
+    Regions air;
+    for (Um x = 10000; x < 10000 + teeth * 1200; x += 1200) air.push_back(rectangle(x, -1000, x + 800, 1000));
+    return air;
+  };
+  const Extrude bead = wall({{0, 0}, {30000, 0}});
+  CHECK(marked({bead}, comb(1)).size() == 1);
+  const auto pieces = marked({bead}, comb(8));
+  check_whole(bead, pieces);
+  REQUIRE(pieces.size() == 3);
+  CHECK(pieces[1].air_quarters == 3);  // two thirds
+  CHECK(length_of(pieces[1]) == Approx(9.2).margin(1));
+}
+
 TEST_CASE("overhangs: what does not hang is not touched", "[overhangs][law]") {
   const Regions window{rectangle(10000, -1000, 19000, 2000)};
   const auto same = [&](const Extrude& bead, const Regions& over_air) {
@@ -150,7 +187,8 @@ TEST_CASE("overhangs: what does not hang is not touched", "[overhangs][law]") {
   same(wall({{0, 5000}, {30000, 5000}}), window);                            // beside it
   same(wall({{0, 0}, {30000, 0}}), {rectangle(0, -230, 30000, -170)});       // 30 µm of it: a rough wall
   same(wall({{0, 0}, {30000, 0}}), {rectangle(10000, -1000, 10300, 1000)});  // a slit of 0.3 mm
-  same(wall({{0, 0}, {30000, 0}}, false, Role::solid_infill), window);       // no wall
+  same(wall({{0, 0}, {30000, 0}}, false, Role::infill), window);             // neither wall nor skin
+  same(wall({{0, 0}, {30000, 0}}, false, Role::bridge), window);             // laid for it
   Extrude ramp = wall({{0, 0}, {30000, 0}});
   ramp.below = {200, 0};
   same(ramp, window);

@@ -105,8 +105,8 @@ inline constexpr Rows shell_schema{
     setting("gap_fill_enabled", Scope::region, &ShellSettings::gap_fill_enabled,
             "Strips of a solid layer that are too narrow for its lines get one bead along them; off: they stay open."),
     setting("overhang_walls", Scope::region, &ShellSettings::overhang_walls,
-            "Walls over air have a speed, a fan and, where both ends are held, a strand of their own; off: they are "
-            "printed like other walls."),
+            "Walls and skin over air have a speed and a fan of their own, and walls that both ends hold are strands; "
+            "off: they are printed like others."),
     setting("bridges", Scope::region, &ShellSettings::bridges,
             "Bottoms over air that rest on two sides are printed as bridges: free strands along the shorter span."),
     setting("bridge_angle", Scope::region, &ShellSettings::bridge_angle, Unit::degrees, -360, 360,

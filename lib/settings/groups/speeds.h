@@ -57,11 +57,14 @@ inline constexpr Rows speed_schema{
             "than others."),
     setting("small_perimeter_length", Scope::region, &SpeedSettings::small_perimeter_length, Unit::mm, 0_mm, 1000_mm,
             "Closed walls up to this length take speed_small_perimeter."),
-    setting("speed_overhang", Scope::region, &SpeedSettings::speed_overhang, Unit::mm_s, 0.1, 5000,
-            "Speed of walls that lie over air with their whole width; a share is of speed_wall_0."),
-    setting("speed_overhang_25", Scope::region, &SpeedSettings::speed_overhang_25, Unit::mm_s, 0.1, 5000,
-            "Speed of walls that lie over air with a tenth to a quarter of their width; a share is of the wall's own "
-            "speed. No wall gets faster over air."),
+    setting(
+        "speed_overhang", Scope::region, &SpeedSettings::speed_overhang, Unit::mm_s, 0.1, 5000,
+        "Speed of walls that lie over air with their whole width; a share is of speed_wall_0. So it is with skin that "
+        "is no bridge; a share is of speed_topbottom there."),
+    setting(
+        "speed_overhang_25", Scope::region, &SpeedSettings::speed_overhang_25, Unit::mm_s, 0.1, 5000,
+        "Speed of walls, and skin, that lie over air with a tenth to a quarter of their width; a share is of their own "
+        "speed. Nothing gets faster over air."),
     setting("speed_overhang_50", Scope::region, &SpeedSettings::speed_overhang_50, Unit::mm_s, 0.1, 5000,
             "The same with a quarter to a half of their width."),
     setting("speed_overhang_75", Scope::region, &SpeedSettings::speed_overhang_75, Unit::mm_s, 0.1, 5000,
