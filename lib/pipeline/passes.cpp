@@ -247,6 +247,9 @@ Passes passes_of(const Settings& plate, ToolScopes& tools, Scopes& scopes, std::
   told(in_use(sets, layers));
   out = in_order(tools::ordered(sets, costs_of(tools.tools()), plate.tools.tool_order));
   out.shield = ooze_shield(plate, layers, out);
+  if (!out.shield.empty() && one_at_a_time(layers))
+    throw Error{Error::Kind::settings, "it is a wall around all objects, and one is finished before the next begins",
+                "ooze_shield_enabled", "ooze_shield_enabled = false, or print_sequence = all_at_once"};
   const bool changes =
       std::any_of(out.passes.begin(), out.passes.end(), [](const ToolPass& p) { return p.changes && p.from; });
   if (!changes) return out;

@@ -9,8 +9,10 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -39,14 +41,25 @@ struct Overrun {
   std::string_view key, side, bound;
   Um by, within;
 };
-Overrun overrun_of(const Box& tower, const Box& bed, Point corner) {
+/// The sides that it reaches over, the farthest first.
+std::vector<Overrun> overruns_of(const Box& tower, const Box& bed, Point corner) {
   const Um right = tower.max.x - bed.max.x, left = bed.min.x - tower.min.x;
   const Um behind = tower.max.y - bed.max.y, before = bed.min.y - tower.min.y;
-  const std::array sides{Overrun{"prime_tower_position_x", "+x", "most", right, corner.x - right},
-                         Overrun{"prime_tower_position_x", "-x", "least", left, corner.x + left},
-                         Overrun{"prime_tower_position_y", "+y", "most", behind, corner.y - behind},
-                         Overrun{"prime_tower_position_y", "-y", "least", before, corner.y + before}};
-  return *std::max_element(sides.begin(), sides.end(), [](const auto& a, const auto& b) { return a.by < b.by; });
+  std::vector sides{Overrun{"prime_tower_position_x", "+x", "most", right, corner.x - right},
+                    Overrun{"prime_tower_position_x", "-x", "least", left, corner.x + left},
+                    Overrun{"prime_tower_position_y", "+y", "most", behind, corner.y - behind},
+                    Overrun{"prime_tower_position_y", "-y", "least", before, corner.y + before}};
+  std::erase_if(sides, [](const Overrun& side) { return side.by <= 0; });
+  std::stable_sort(sides.begin(), sides.end(), [](const auto& a, const auto& b) { return a.by > b.by; });
+  return sides;
+}
+
+/// "auto, or at most 188; prime_tower_position_y at most 165"
+std::string where_instead(const std::vector<Overrun>& over) {
+  auto out = fmt::format("auto, or at {} {:g}", over[0].bound, to_mm(over[0].within));
+  for (std::size_t i = 1; i < over.size(); ++i)
+    out += fmt::format("; {} at {} {:g}", over[i].key, over[i].bound, to_mm(over[i].within));
+  return out;
 }
 
 /// @throws Error{audit} where a tower of that size, standing where it is told to, leaves the print surface
@@ -56,17 +69,16 @@ void refuse_outside(const Settings& plate, const tools::TowerSize& size, Point c
   const auto outside = tools::outside_of(outline, surface);
   if (outside.by <= plate.audit.audit_tolerance) return;
   const Box tower = box_of(outline), bed = box_of(surface);
-  const auto over = overrun_of(tower, bed, corner);
+  const auto over = overruns_of(tower, bed, corner);
   const bool fits = tower.size().x <= bed.size().x && tower.size().y <= bed.size().y;
   throw Error{
       Error::Kind::audit,
       fmt::format("{}: the tower with its brim, {:.1f} × {:.1f} mm at ({:g}, {:g}), leaves the print surface by "
                   "{:.1f} mm at {}",
-                  over.key, to_mm(tower.size().x), to_mm(tower.size().y), to_mm(corner.x), to_mm(corner.y),
-                  to_mm(outside.by), over.by > 0 ? over.side : "the edge"),
+                  over.empty() ? "prime_tower_position_x" : over[0].key, to_mm(tower.size().x), to_mm(tower.size().y),
+                  to_mm(corner.x), to_mm(corner.y), to_mm(outside.by), over.empty() ? "the edge" : over[0].side),
       {},
-      over.by > 0 && fits ? fmt::format("auto, or at {} {:g}", over.bound, to_mm(over.within))
-                          : std::string("auto puts it where there is room")};
+      !over.empty() && fits ? where_instead(over) : std::string("auto puts it where there is room")};
 }
 
 std::optional<Point> told_corner(const ToolSettings& t) {

@@ -384,6 +384,7 @@ TEST_CASE("tower: objects that are printed one after the other purge side by sid
   CHECK(purged * 2.405 >= 140);  // mm³ of 1.75 mm filament
   CHECK(first_purged < skirt);   // which is of the filament that is loaded then
   CHECK(run({"-s", "adhesion_type=raft"}).status == 3);
+  CHECK_THAT(run({"-s", "ooze_shield_enabled=true"}).err, Contains("ooze_shield_enabled: it is a wall around all"));
   const auto nowhere = run({"-s", "prime_tower_position_x=100", "-s", "prime_tower_position_y=100"});
   CHECK(nowhere.status == 5);
   const auto off = run({"-s", "prime_tower_enable=false"});
