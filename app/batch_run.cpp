@@ -215,8 +215,9 @@ jobs::BatchOptions batch_options_of(const Command& command) {
 
 std::vector<jobs::Prepared> prepare_all(Console& console, jobs::JobList list, const Command& command) {
   const bool keep_going = command.options.count("keep-going") && command.options["keep-going"].as<bool>();
-  auto jobs = jobs::prepare(std::move(list.jobs), {command.profiles, command.settings, command.import, keep_going},
-                            list.errors);
+  auto jobs =
+      jobs::prepare(std::move(list.jobs),
+                    {command.profiles, command.settings, command.import, keep_going, command.made_at}, list.errors);
   if (list.errors.empty()) check_files(jobs, command, list.errors);
   if (list.errors.empty()) return jobs;
   constexpr std::size_t most = 20;  // a list with a wrong column has an error on every line

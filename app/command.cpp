@@ -3,6 +3,7 @@
 
 #include "core/write_file.h"
 #include "pipeline/field_files.h"
+#include "pipeline/made_at.h"
 #include "pipeline/model_parts.h"
 #include "pipeline/profile_file.h"
 #include "pipeline/project.h"
@@ -17,6 +18,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <set>
 #include <sstream>
@@ -428,6 +430,7 @@ Command parse_command(const std::vector<std::string>& words, const po::options_d
       throw Error{Error::Kind::usage, "must be 1 … 1024", "--threads"};
   }
   command.import.folders = profile_folders();
+  if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH")) command.made_at = pipeline::parse_epoch(epoch);
   command.import.strict = o["strict"].as<bool>();
   if (o.count("profile-root")) command.import.root = checked_folder(o["profile-root"].as<std::string>());
   if (o.count("preset"))
@@ -454,6 +457,7 @@ Profile resolve(const Command& command) {
   for (const auto& field : pipeline::field_files(profile.settings, command.by_name, command.marks))
     refuse_outside(field, command.import);
   check_consistency(profile);
+  if (command.made_at) pipeline::tell_time(profile, *command.made_at);
   (void)files_of(command, profile);
   return profile;
 }

@@ -21,7 +21,8 @@ struct Command {
   std::vector<std::pair<std::string, std::string>> settings;  ///< -s KEY=VALUE and --key value, in the order typed
   ImportOptions import;                                       ///< --preset, --strict
   std::optional<std::string> output, report;
-  unsigned threads = 0;  ///< 0: all cores
+  unsigned threads = 0;                 ///< 0: all cores
+  std::optional<std::int64_t> made_at;  ///< SOURCE_DATE_EPOCH: what custom G-code may tell of the time
   ConsoleOptions console;
   bool help = false;
   std::vector<ModelMark> marks;                   ///< --support-enforcer and its like, of the model before them

@@ -132,7 +132,15 @@ def write_topology(path):
         for i in range(columns):
             lines.append(f'{X0 + WIDE * (i + .5) / columns:g},{Y0 + DEEP * (1 - (j + .5) / rows):g},0,{density[j * columns + i]:.4f}')
     path.write_text('\n'.join(lines) + '\n')
-    return lambda x, y: density[min(rows - 1, int((1 - y / DEEP) * rows)) * columns + min(columns - 1, int(x / WIDE * columns))]
+
+    def between(x, y):
+        """Linear between the middles of cells, constant beyond."""
+        u, v = min(max(x / WIDE * columns - .5, 0), columns - 1), min(max((1 - y / DEEP) * rows - .5, 0), rows - 1)
+        i, j = min(int(u), columns - 2), min(int(v), rows - 2)
+        a, b = u - i, v - j
+        row = lambda n: density[n * columns + i] * (1 - a) + density[n * columns + i + 1] * a
+        return row(j) * (1 - b) + row(j + 1) * b
+    return between
 
 
 def laid(gcode, first, last):
@@ -168,8 +176,8 @@ def compare(gcode, report, wanted):
     first, last = 10, 29
     cells = laid(gcode, first, last)
     squares, count = 0.0, 0
-    inset, step = 1.2, 0.5  # mm, of three walls
-    places = [(x * step, y * step) for x in range(int(WIDE / step)) for y in range(int(DEEP / step)) if inset < x * step < WIDE - inset and inset < y * step < DEEP - inset]
+    inset, count_x, count_y = 1.55, 160, 80  # mm, of three walls; places between
+    places = [(inset + (x + .5) / count_x * (WIDE - 2 * inset), inset + (y + .5) / count_y * (DEEP - 2 * inset)) for x in range(count_x) for y in range(count_y)]
     mean = sum(wanted(x, y) for x, y in places) / len(places)
     for j in range(1, int(DEEP / CELL) - 1):
         for i in range(1, int(WIDE / CELL) - 1):

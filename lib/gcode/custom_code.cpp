@@ -2,6 +2,7 @@
 #include "gcode/custom_code.h"
 
 #include "core/escape.h"
+#include "core/version.h"
 #include "gcode/header.h"
 #include "gcode/placeholders.h"
 #include "prusaslicer/keys.h"
@@ -69,6 +70,11 @@ void add_boxes(const Job& job, Variables& out) {
   out["first_layer_print_min"] = pair_of(covered.min.x, covered.min.y);
   out["first_layer_print_max"] = pair_of(covered.max.x, covered.max.y);
   out["first_layer_print_size"] = pair_of(covered.size().x, covered.size().y);
+  Variable hull;  // corners, each as PrusaSlicer writes a point
+  for (const Point p : first_layer_hull(job))
+    hull.values.emplace_back(fmt::format("{:g},{:g}", to_mm(p.x), to_mm(p.y)));
+  if (hull.values.empty()) hull.values.emplace_back(std::string("0,0"));
+  out["first_layer_print_convex_hull"] = std::move(hull);
   const auto bed = box_of(print_surface(job.settings.machine));
   out["print_bed_min"] = pair_of(bed.min.x, bed.min.y);
   out["print_bed_max"] = pair_of(bed.max.x, bed.max.y);
@@ -82,16 +88,51 @@ void add_figures(const Job& job, Variables& out) {
   out["used_filament"] = out["total_used_filament"] = rounded_to(t.filament_mm / 1000, 2);  // metres, as in PrusaSlicer
   out["extruded_volume"] = out["extruded_volume_total"] = rounded_to(t.filament_mm3, 2);
   out["total_weight"] = out["extruded_weight_total"] = out["extruded_weight"] = rounded_to(t.filament_g, 2);
-  double cost_per_kg = 0;
-  if (const auto cost = out.find("filament_cost"); cost != out.end() && !cost->second.values.empty()) {
-    const auto& first = cost->second.values[0];
-    if (const auto* whole = std::get_if<std::int64_t>(&first)) cost_per_kg = static_cast<double>(*whole);
-    if (const auto* real = std::get_if<double>(&first)) cost_per_kg = *real;
-  }
-  out["total_cost"] = rounded_to(t.filament_g / 1000 * cost_per_kg, 2);
   out["total_toolchanges"] = count(tool_changes(job));
   out["has_wipe_tower"] = macro::variable(t.features[static_cast<std::size_t>(Role::wipe_tower)].mm3 > 0);
   out["has_single_extruder_multi_material_priming"] = macro::variable(false);
+}
+
+/// What of the print is whose: lists of as many values as there are tools, and sums of them.
+void add_shares(const Job& job, Variables& out) {
+  const auto& t = job.statistics;
+  const std::size_t count_of_tools = std::max<std::size_t>(1, job.tools.size());
+  const auto settings_of = [&](std::size_t i) -> const Settings& {
+    return i < job.tools.size() ? job.tools[i] : job.settings;
+  };
+  const auto share_of = [&](std::size_t i) {
+    if (i < t.tools.size()) return t.tools[i];
+    return i == 0 && t.tools.empty() ? Statistics::Tool{.filament_mm3 = t.filament_mm3, .filament_g = t.filament_g}
+                                     : Statistics::Tool{};
+  };
+  Variable used;
+  std::string types;
+  std::vector<std::string> named;
+  double cost = 0, tower_cost = 0, tower_g = 0;
+  for (std::size_t i = 0; i < count_of_tools; ++i) {
+    const auto share = share_of(i);
+    const auto& material = settings_of(i).material;
+    const bool prints = share.filament_mm3 > 0 || count_of_tools == 1;
+    used.values.emplace_back(prints);
+    if (!prints) continue;
+    const double per_g = material.filament_cost / 1000;
+    const double of_tower = share.filament_mm3 > 0 ? share.filament_g * share.tower_mm3 / share.filament_mm3 : 0;
+    cost += share.filament_g * per_g, tower_cost += of_tower * per_g, tower_g += of_tower;
+    if (std::find(named.begin(), named.end(), material.material_type) != named.end()) continue;
+    types += (types.empty() ? "" : ",") + named.emplace_back(material.material_type);
+  }
+  out["num_extruders"] = count(std::max(count_of_tools, t.tools.size()));
+  out["num_printing_extruders"] =
+      count(static_cast<std::size_t>(std::count(used.values.begin(), used.values.end(), macro::Scalar(true))));
+  out["is_extruder_used"] = std::move(used);
+  out["printing_filament_types"] = macro::variable(escape::one_line(types));
+  out["total_cost"] = rounded_to(cost, 2);
+  out["total_wipe_tower_cost"] = rounded_to(tower_cost, 2);
+  out["total_wipe_tower_filament"] = rounded_to(tower_g, 2);
+  Variable volumes;  // row = from
+  for (std::size_t i = 0; i < count_of_tools * count_of_tools; ++i)
+    volumes.values.emplace_back(i < job.purge_volumes.size() ? job.purge_volumes[i] : 0.0);
+  out["wiping_volumes_matrix"] = std::move(volumes);
 }
 
 /// Names that Cura's start G-code uses and that are called otherwise here.
@@ -120,10 +161,17 @@ void add_names(const Job& job, Variables& out) {
   out["input_filename"] = macro::variable(base + ".gcode");
   for (const auto* preset : {"print_preset", "filament_preset", "printer_preset", "physical_printer_preset"})
     out.emplace(preset, macro::variable(std::string()));
-  // What would differ from run to run has no value; gcode_variables may give it one.
-  Variable never;
-  never.missing = "would differ from run to run";
-  for (const auto* time : {"timestamp", "year", "month", "day", "hour", "minute", "second"}) out.emplace(time, never);
+  // What would differ from run to run, or is not known here, has no value; gcode_variables may give it one.
+  const auto never = [&](const char* name, const char* why) {
+    Variable none;
+    none.missing = why;
+    out.emplace(name, std::move(none));
+  };
+  for (const auto* time : {"timestamp", "year", "month", "day", "hour", "minute", "second"})
+    never(time, "would differ from run to run unless SOURCE_DATE_EPOCH or gcode_variables says it");
+  never("threads", "would differ from machine to machine");
+  never("scale", "is each model's own");
+  out.emplace("version", macro::variable(std::string(version)));
 }
 
 }  // namespace
@@ -142,9 +190,11 @@ CustomCode::CustomCode(const GcodeSettings& g)
 
 void CustomCode::check(const Variables& variables) const {
   Variables globals;
-  for (const auto* code :
-       {&start, &before_layer, &layer, &tool_change, &load, &unload, &pause, &color_change, &between_objects, &end})
-    code->check(variables, globals);
+  for (const auto* code : all()) code->check(variables, globals);
+}
+
+std::vector<const macro::Template*> CustomCode::all() const {
+  return {&start, &before_layer, &layer, &tool_change, &load, &unload, &pause, &color_change, &between_objects, &end};
 }
 
 namespace {
@@ -199,25 +249,26 @@ Variables print_variables(const Job& job) {
   add_tools(job, out);
   add_boxes(job, out);
   add_figures(job, out);
+  add_shares(job, out);
   add_names(job, out);
   out["total_layer_count"] = count(job.plan.layers.size());
   out["max_layer_z"] = macro::variable(to_mm(top_of(job.plan)));
   out["num_objects"] = out["num_instances"] = count(job.plan.objects.size());
-  const auto& tools = job.statistics.tools;
-  out["num_extruders"] = count(std::max<std::size_t>({1, tools.size(), job.tools.size()}));
-  out["num_printing_extruders"] = count(
-      tools.empty() ? 1 : static_cast<std::size_t>(std::count_if(tools.begin(), tools.end(), [](const auto& tool) {
-        return tool.filament_mm3 > 0;
-      })));
-  out["is_extruder_used"] = macro::variable(true);
-  for (const auto* tool : {"initial_tool", "initial_extruder", "current_extruder", "previous_extruder", "next_extruder",
-                           "filament_extruder_id", "current_object_idx"})
+  for (const auto* tool :
+       {"current_extruder", "previous_extruder", "next_extruder", "filament_extruder_id", "current_object_idx"})
     out[tool] = count(0);
+  set_initial_tool(out, 0);
   out["toolchange_z"] = macro::variable(0.0);
   add_place(std::max<std::size_t>(1, job.tools.size()), out);
   add_aliases_of_cura(job, out);
   set_layer(out, 0, 0);
   return out;
+}
+
+void set_initial_tool(Variables& variables, ToolId tool) {
+  variables["initial_tool"] = variables["initial_extruder"] = count(tool);
+  const auto& types = variables["filament_type"].values;
+  if (!types.empty()) variables["initial_filament_type"] = macro::variable(types[tool < types.size() ? tool : 0]);
 }
 
 void set_layer(Variables& variables, std::size_t index, Um z) {

@@ -4,6 +4,7 @@
 #include "macro/macro.h"
 
 #include <string_view>
+#include <vector>
 
 /// The G-code that a profile brings with it, and what it may name of the print.
 namespace weft::gcode {
@@ -15,14 +16,21 @@ struct CustomCode {
   /// @throws Error{settings} for syntax
   explicit CustomCode(const GcodeSettings& settings);
 
+  /// In the order they are expanded in.
+  std::vector<const macro::Template*> all() const;
+
   /// @throws Error{settings} for names and functions that do not exist, in branches not taken too
   void check(const macro::Variables& variables) const;
 };
 
-/// Settings, and what is known of the whole print. There is no date and no time of day: the same input gives the same
-/// bytes. layer_num, layer_z and the numbers of the tools are those of the start; set_layer changes them.
+/// Settings, and what is known of the whole print. There is no date and no time of day but where the settings say one
+/// (pipeline/made_at.h): the same input gives the same bytes. layer_num, layer_z and the numbers of the tools are those
+/// of the start; set_layer changes them.
 macro::Variables print_variables(const Job& job);
 void set_layer(macro::Variables& variables, std::size_t index, Um z);
+
+/// The tool that prints first.
+void set_initial_tool(macro::Variables& variables, ToolId tool);
 
 /// The G-code of `gcode_at_heights` for a height, read.
 macro::Template template_of(const HeightMark& mark);

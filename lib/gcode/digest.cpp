@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gcode/digest.h"
 
+#include "core/convex_hull.h"
 #include "gcode/dialect.h"
 #include "model/flow.h"
 
@@ -46,6 +47,34 @@ void Extents::unite(const Extents& other) {
   if (!other.empty()) add(other.least), add(other.most);
 }
 
+namespace {
+
+/// f(corner) of the squares around junctions, as wide as their line.
+template <class F>
+void for_each_corner(const LayerPlan& layer, const F& f) {
+  for (const auto& step : layer.steps)
+    if (const auto* bead = std::get_if<Extrude>(&step))
+      for (const auto& j : bead->path) {
+        const Box around = Box{j.at, j.at}.grown(flow::line_width(j.width, bead->height) / 2);
+        for (const Point corner : {around.min, {around.max.x, around.min.y}, around.max, {around.min.x, around.max.y}})
+          f(corner);
+      }
+}
+
+/// Sorts no more than what may be a corner of it.
+Ring hull_of(const LayerPlan& layer) {
+  Outermost outermost;
+  for_each_corner(layer, [&](Point p) { outermost.add(p); });
+  const Ring octagon = outermost.octagon();
+  Ring corners = octagon;
+  for_each_corner(layer, [&](Point p) {
+    if (!strictly_inside(p, octagon)) corners.push_back(p);
+  });
+  return convex_hull(std::move(corners));
+}
+
+}  // namespace
+
 LayerDigest digest_of(const Settings& settings, const LayerPlan& layer) {
   const Dialect dialect = dialect_of(settings);
   LayerDigest out;
@@ -85,6 +114,7 @@ LayerDigest digest_of(const Settings& settings, const LayerPlan& layer) {
                         },
                         LeavesAlone<ObjectStart, ObjectEnd, SetTemperature>{}};
   for (const auto& step : layer.steps) std::visit(take, step);
+  if (layer.time.first()) out.hull = hull_of(layer);
   return out;
 }
 

@@ -42,6 +42,7 @@ struct Extents {
 struct LayerDigest {
   Extents extents;        ///< over all moves
   Box covered;            ///< by its beads, their width included
+  Ring hull;              ///< … of a first layer: convex
   std::size_t bytes = 0;  ///< of its text, at most about
 
   // What it changes of the machine's state; where it says nothing: nothing.

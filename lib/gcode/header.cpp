@@ -2,6 +2,7 @@
 #include "gcode/header.h"
 
 #include "core/base64.h"
+#include "core/convex_hull.h"
 #include "core/escape.h"
 #include "core/version.h"
 #include "settings/catalogue.h"
@@ -49,6 +50,16 @@ Box first_layer_box(const Job& job) {
   for (std::size_t i = 0; i < job.plan.layers.size(); ++i)
     if (job.plan.layers[i].time.first()) covered.add(digest_of(job, i).covered);
   return covered;
+}
+
+Ring first_layer_hull(const Job& job) {
+  Ring corners;
+  for (std::size_t i = 0; i < job.plan.layers.size(); ++i)
+    if (job.plan.layers[i].time.first()) {
+      const auto hull = digest_of(job, i).hull;
+      corners.insert(corners.end(), hull.begin(), hull.end());
+    }
+  return convex_hull(std::move(corners));
 }
 
 std::size_t tool_changes(const Job& job) {

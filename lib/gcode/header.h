@@ -28,5 +28,7 @@ Um top_of(const PrintPlan& plan);
 
 /// What the beads of first layers cover, their width included.
 Box first_layer_box(const Job& job);
+/// The convex hull of that: of the squares around their junctions; counter-clockwise.
+Ring first_layer_hull(const Job& job);
 
 }  // namespace weft::gcode

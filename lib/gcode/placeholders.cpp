@@ -103,8 +103,13 @@ Variables variables_of(const Settings& settings) {
     auto ours = variable(entry, text);
     for (const auto& row : prusaslicer::keys())
       if (row.ours == entry.key) out.emplace(std::string(row.name), in_their_words(row, ours, text));
-    // Of a name that both have PrusaSlicer's own value stands in for what is for weft to find out.
-    if (ours.missing.empty() || !out.contains(entry.key)) out.insert_or_assign(std::string(entry.key), std::move(ours));
+    // Of a name that both have PrusaSlicer's own value stands in for what is for weft to find out, and a value that is
+    // the same is written as PrusaSlicer does.
+    const auto theirs = out.find(entry.key);
+    if (theirs == out.end())
+      out.emplace(std::string(entry.key), std::move(ours));
+    else if (ours.missing.empty() && theirs->second.values != ours.values)
+      theirs->second = std::move(ours);
   }
   const auto set = [&](const char* key, const char* prusa, double v) { out[key] = out[prusa] = number(v); };
   const auto& m = settings.material;

@@ -76,7 +76,7 @@ void Writer::expand_custom_code() {
   const auto of_tool = [&](ToolId tool) -> const CustomCode& { return tool < of_tools.size() ? of_tools[tool] : code; };
   if (!used_.empty()) {
     set_tool_change(variables, used_.front(), used_.front(), 0);
-    variables["initial_tool"] = variables["initial_extruder"] = macro::variable(std::int64_t{used_.front()});
+    set_initial_tool(variables, used_.front());
   }
   start_ = expanded(code.start) + (used_.empty() ? expanded(code.load) : std::string());
   start_selects_ = !used_.empty() && has_command(start_, fmt::format("T{}", used_.front()));

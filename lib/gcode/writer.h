@@ -32,6 +32,7 @@ struct Job {
   std::vector<LayerDigest> digests{};
   std::vector<Settings> tools{};        ///< of each; empty: there is one
   std::vector<ToolId> cold_at_start{};  ///< their nozzles are heated later
+  std::vector<double> purge_volumes{};  ///< mm³ from each tool to each, a row for each that is unloaded; empty: none
 };
 
 /// The file in pieces, which put together in order are the whole: head, each layer, tail. Layers do not depend on each

@@ -3,6 +3,7 @@
 #include "field/grid.h"
 #include "infill/direction.h"
 #include "infill/shells.h"
+#include "infill/sparse.h"
 #include "model/bead.h"
 #include "settings/pattern_list.h"
 
@@ -55,10 +56,13 @@ class Density {
 
   /// Widths of beads that were laid at a level, from `from` on, follow the density along them.
   void follow(double level, double z_um, std::size_t from, Beads& beads) const;
+  /// The same of beads that run through levels. Pre: as fill_levels
+  void follow(const std::vector<DenseLevel>& levels, double z_um, std::size_t from, Beads& beads) const;
 
-  /// Makes beads wider or narrower, all alike, so that they cover of the region what the density asks for: what joins
-  /// lines lies at borders of parts, where the density is least or greatest.
-  void even(const Region& region, double z_um, std::size_t from, Beads& beads) const;
+  /// Makes beads wider or narrower, so that around each place they cover what the density asks for there, and in the
+  /// region what it asks for altogether: what joins lines at borders of parts is taken from the lines beside it.
+  /// @param alike  by the same share everywhere: of dithered parts, each has too much or too little
+  void even(const Region& region, double z_um, Um band, bool alike, std::size_t from, Beads& beads) const;
 
  private:
   /// A number for each cell of a box.
@@ -77,7 +81,6 @@ class Density {
   /// Of places a step apart over a box, log₂ of the density over the nominal one.
   struct Levels;
   Levels levels_of(const Box& box, double z_um) const;
-  double plastic_um2(const Region& region, double z_um) const;
   static Regions above(const Levels& levels, double end);
   double base() const { return std::max(infill_.infill_sparse_density, 1.0) / 100; }
   InfillPattern pattern_at(double density) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How a region is parted by a density that varies, and how lines follow it.
+// How a region is parted by a density that varies.
 #include "core/stop.h"
 #include "geometry/boolean.h"
 #include "geometry/offset.h"
@@ -7,8 +7,6 @@
 #include "infill/dither.h"
 #include "infill/level_set.h"
 #include "infill/mask.h"
-#include "infill/scan.h"
-#include "infill/web.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,8 +16,7 @@
 namespace weft::infill {
 namespace {
 
-constexpr Um step = 1000;              // between places that a layer's density is looked at
-constexpr double longest_even = 1000;  // µm of a line along which its width stays
+constexpr Um step = 1000;  // between places that a layer's density is looked at
 constexpr double half = 0.5;
 constexpr double nothing = -30;  // level of no density
 
@@ -157,65 +154,6 @@ std::vector<Density::Part> Density::by_cells(const Region& region, double z_um, 
     for (Region& r : geometry::intersect(geometry::regions_from_rings(mask.outlines()), {region}))
       out.push_back({std::move(r), level, pattern_at(level), true});
   return out;
-}
-
-void Density::follow(double level, double z_um, std::size_t from, Beads& beads) const {
-  constexpr double narrowest = 0.7, widest = 1.42;
-  for (std::size_t b = from; b < beads.size(); ++b) {
-    Bead& bead = beads[b];
-    std::vector<Junction> path;
-    const std::size_t count = bead.path.size();
-    const auto share = [&](Point p) { return std::clamp(at(p, z_um) / level, narrowest, widest); };
-    const auto add = [&](Junction j) {
-      j.width = std::max(1, rounded(j.width * share(j.at)));
-      path.push_back(j);
-    };
-    for (std::size_t i = 0; i < count; ++i) {
-      add(bead.path[i]);
-      if (i + 1 == count && !bead.closed) break;
-      const Junction &a = bead.path[i], &c = bead.path[(i + 1) % count];
-      const int pieces = static_cast<int>(std::ceil(distance(a.at, c.at) / longest_even));
-      for (int k = 1; k < pieces; ++k) {
-        const double t = static_cast<double>(k) / pieces;
-        const Point p{rounded(std::lerp(a.at.x, c.at.x, t)), rounded(std::lerp(a.at.y, c.at.y, t))};
-        add({p, rounded(std::lerp(a.width, c.width, t)), a.flow});
-      }
-    }
-    bead.path = std::move(path);
-  }
-}
-
-/// The density over the region, summed along lines across it.
-double Density::plastic_um2(const Region& region, double z_um) const {
-  constexpr double few = 12;  // lines over what is small
-  const Frame frame(0, region.outer.front());
-  const Outline outline(region, frame);
-  const double high = outline.greatest_y() - outline.least_y(), apart = std::min<double>(step, high / few);
-  if (apart <= 0) return 0;
-  const LineSet lines{outline.least_y() + apart / 2, apart, static_cast<int>(std::floor(high / apart))};
-  double sum = 0, area = 0;
-  for (const Interval& i : outline.cut(lines)) {
-    const double wide = i.to - i.from, pieces = std::ceil(wide / apart), y = lines.y(i.line);
-    area += wide;
-    for (double k = half; k < pieces; ++k) sum += at(frame.back({i.from + k * wide / pieces, y}), z_um) * wide / pieces;
-  }
-  return area > 0 ? sum / area * area_mm2(region) * 1e6 : 0;
-}
-
-void Density::even(const Region& region, double z_um, std::size_t from, Beads& beads) const {
-  constexpr double most = 1 / least_narrowing;
-  double laid = 0;
-  for (std::size_t b = from; b < beads.size(); ++b) {
-    const std::vector<Junction>& path = beads[b].path;
-    for (std::size_t i = 0; i + (beads[b].closed ? 0 : 1) < path.size(); ++i) {
-      const Junction &a = path[i], &c = path[(i + 1) % path.size()];
-      laid += distance(a.at, c.at) * (a.width + c.width) / 2;
-    }
-  }
-  if (laid <= 0) return;
-  const double share = std::clamp(plastic_um2(region, z_um) / laid, least_narrowing, most);
-  for (std::size_t b = from; b < beads.size(); ++b)
-    for (Junction& j : beads[b].path) j.width = std::max(1, rounded(j.width * share));
 }
 
 }  // namespace weft::infill

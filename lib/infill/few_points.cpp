@@ -99,8 +99,8 @@ Polyline few_points(std::span<const Point> line, bool closed, double bound) {
     const Chord& next = chords[(i + 1) % n];
     const Point from = i == 0 ? opened.front() : opened[chords[i - 1].end], to = opened[next.end];
     const double ax = at.x - from.x, ay = at.y - from.y, bx = to.x - at.x, by = to.y - at.y;
-    const double a = std::max(std::hypot(ax, ay), 1e-9), b = std::max(std::hypot(bx, by), 1e-9);
-    const double nx = -ay / a - by / b, ny = ax / a + bx / b, length = std::hypot(nx, ny);
+    const double a = std::max(std::sqrt(ax * ax + ay * ay), 1e-9), b = std::max(std::sqrt(bx * bx + by * by), 1e-9);
+    const double nx = -ay / a - by / b, ny = ax / a + bx / b, length = std::sqrt(nx * nx + ny * ny);
     const double by_how_much = (chords[i].aside + next.aside) / 2;
     if ((ax * bx + ay * by) / (a * b) < corner || length < 1e-9) {
       out.push_back(at);

@@ -41,10 +41,10 @@ struct ValuesAround {
 
 /// Each place of the curves is mended by one secant step with the function itself.
 /// @param around  around(x, y, d): at x, y, and d beside it; fractional microns
-template <class Around>
-void mend_zero_curves(const Around& around, double step, std::vector<Curve>& curves) {
+template <class Around, class Traced>
+void mend_zero_curves(const Around& around, double step, std::vector<Traced>& curves) {
   const double d = step * 1e-3;
-  for (Curve& curve : curves) {
+  for (Traced& curve : curves) {
     stop_if_asked();
     for (Turned& p : curve.points) {
       const ValuesAround f = around(p.x, p.y, d);

@@ -5,6 +5,7 @@
 #include "jobs/record.h"
 #include "pipeline/arranged.h"
 #include "pipeline/field_files.h"
+#include "pipeline/made_at.h"
 #include "pipeline/model_parts.h"
 #include "pipeline/profile_file.h"
 #include "pipeline/project.h"
@@ -64,6 +65,7 @@ Settings settings_of(Profile& profile, const JobLine& line, bool alone, const Co
     refuse_outside(field, common.import);
   try {
     check_consistency(profile);
+    if (common.made_at) pipeline::tell_time(profile, *common.made_at);
     gcode::check_custom_code(profile.settings);
   } catch (const Error& error) {
     if (!said) throw;

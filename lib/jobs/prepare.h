@@ -3,6 +3,9 @@
 #include "jobs/job_list.h"
 #include "profile/profile.h"
 
+#include <cstdint>
+#include <optional>
+
 namespace weft::jobs {
 
 /// What every job of a list has beside its own: profiles below the job's, settings above the job's profiles and below
@@ -12,6 +15,7 @@ struct Common {
   std::vector<std::pair<std::string, std::string>> settings;
   ImportOptions import;     ///< how profiles of PrusaSlicer's family are read
   bool keep_going = false;  ///< a model that cannot be opened is a job that will fail, not an error of the list
+  std::optional<std::int64_t> made_at{};  ///< the time of day that custom G-code may tell (pipeline/made_at.h)
 };
 
 /// A job with its settings resolved: ready to run.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -83,21 +84,69 @@ std::vector<Um> heights_before(const Timeline& timeline, Um z_offset) {
   return out;
 }
 
-void go_over(const MachineSettings& machine, Um standing, Point3 from, LayerPlan& layer) {
+namespace {
+
+/// How high the nozzle passes over what stands.
+Um height_over(const MachineSettings& machine, Um standing) {
   constexpr Um clearance = 2000;
-  const auto first = std::find_if(layer.steps.begin(), layer.steps.end(), [](const Step& step) {
-    const auto* bead = std::get_if<Extrude>(&step);
-    return bead != nullptr && !bead->path.empty();
-  });
-  if (first == layer.steps.end()) return;
-  const Point3 to = place_of(std::get<Extrude>(*first), 0, layer.z);
-  const Um over = std::max(from.z, std::min(standing + clearance, reach_z_max(machine)));
+  return std::min(standing + clearance, reach_z_max(machine));
+}
+
+/// Is what is laid next behind a step purged?
+bool next_is_purged(const LayerPlan& layer, std::size_t step) {
+  for (std::size_t i = step + 1; i < layer.steps.size(); ++i)
+    if (const auto* bead = std::get_if<Extrude>(&layer.steps[i])) return bead->role == Role::wipe_tower;
+  return false;
+}
+
+/// Where the nozzle first goes: to its first bead, or the tower where its tool is changed before.
+std::optional<Point> first_place(const LayerPlan& layer) {
+  for (const auto& step : layer.steps) {
+    if (const auto* travel = std::get_if<Travel>(&step); travel != nullptr && !travel->path.empty())
+      return flat(travel->path.back());
+    if (const auto* bead = std::get_if<Extrude>(&step); bead != nullptr && !bead->path.empty())
+      return flat(place_of(*bead, 0, layer.z));
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void go_over(const MachineSettings& machine, Um standing, Point3 from, LayerPlan& layer) {
+  const auto to = first_place(layer);
+  if (!to) return;
+  const Um over = std::max(from.z, height_over(machine, standing));
   Travel way;
-  way.path = {{from.x, from.y, over}, {to.x, to.y, over}};
+  way.path = {{from.x, from.y, over}, {to->x, to->y, over}};
   std::vector<Step> steps;
   steps.emplace_back(std::in_place_type<Retract>);
   steps.emplace_back(std::in_place_type<Travel>, std::move(way));
   put_before(layer, std::move(steps));
+}
+
+void leave_over(const MachineSettings& machine, Um standing, LayerPlan& layer) {
+  const Um over = height_over(machine, standing);
+  std::vector<Step> steps;
+  std::optional<Point3> left;  // where the last bead of what is purged ends
+  for (auto& step : layer.steps) {
+    if (const auto* bead = std::get_if<Extrude>(&step); bead != nullptr && !bead->path.empty())
+      left = bead->role == Role::wipe_tower ? std::optional(place_of(*bead, bead->path.size() - 1, layer.z))
+                                            : std::nullopt;
+    auto* travel = std::get_if<Travel>(&step);
+    const bool goes = travel != nullptr && !travel->path.empty() && left;
+    const std::size_t at = static_cast<std::size_t>(&step - layer.steps.data());
+    if (!goes || next_is_purged(layer, at)) {
+      steps.push_back(std::move(step));
+      continue;
+    }
+    const Point3 to = travel->path.back();
+    travel->path = {{left->x, left->y, over}, {to.x, to.y, over}, to};
+    steps.emplace_back(std::in_place_type<Retract>);
+    steps.push_back(std::move(step));
+    steps.emplace_back(std::in_place_type<Prime>);
+    left.reset();
+  }
+  layer.steps = std::move(steps);
 }
 
 }  // namespace weft::pipeline

@@ -31,4 +31,7 @@ std::vector<Um> heights_before(const Timeline& timeline, Um z_offset);
 /// @param from where the nozzle is  @param standing how high what is printed reaches
 void go_over(const MachineSettings& machine, Um standing, Point3 from, LayerPlan& layer);
 
+/// The same from what is purged beside the objects to what follows it: they may stand in between.
+void leave_over(const MachineSettings& machine, Um standing, LayerPlan& layer);
+
 }  // namespace weft::pipeline

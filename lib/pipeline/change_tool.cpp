@@ -17,13 +17,14 @@ bool shares(const std::vector<Settings>& tools, const ToolPass& pass) {
   return nozzle_of(tools, *pass.from) == nozzle_of(tools, pass.tool);
 }
 
-/// Along straight lines, lifted where the tool lifts travels, and down to the tower over its beginning.
+/// Along straight lines, lifted where the tool lifts travels or as high as it is, and down to the tower over its
+/// beginning.
 /// @param z of the layer @param low where it ends
 /// @param from nothing: it is not known, and the layer has just begun, above all that is printed
 Travel way_to(const Settings& tool, const std::optional<Point3>& from, Point to, Um z, Um low) {
   const auto& r = tool.retraction;
   const Um hop = z >= r.retraction_hop_above && z <= r.retraction_hop_below.value_or(max_coord) ? r.retraction_hop : 0;
-  const Um high = std::max(z, std::min(z + hop, tool.machine.machine_height));
+  const Um high = std::max({z, std::min(z + hop, tool.machine.machine_height), from ? from->z : 0});
   Travel out;
   out.crosses_wall = true;
   if (from && high > from->z) out.path.push_back({from->x, from->y, high});

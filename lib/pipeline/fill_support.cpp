@@ -12,9 +12,13 @@
 #include "infill/sparse.h"
 #include "model/flow.h"
 #include "support/lengths.h"
+#include "tasks/parallel.h"
 
 #include <algorithm>
+#include <map>
 #include <numbers>
+#include <optional>
+#include <tuple>
 #include <utility>
 
 namespace weft::pipeline {
@@ -50,8 +54,9 @@ class Filler {
         band_(flow::band(line_, layer.height)),
         usual_band_(std::max<Um>(flow::band(line_, settings.layers.layer_height), 1)) {}
 
-  Beads beads() && {
-    columns();
+  /// @param columns  what `column` made of the layer's
+  Beads beads(Beads columns) && {
+    beads_ = std::move(columns);
     branches();
     for (const Regions* areas : {&layer_.bottom, &layer_.roof}) interface(*areas);
     joists();
@@ -59,6 +64,30 @@ class Filler {
       const auto tool = bead.role == Role::support ? s_.support_infill_extruder_nr : s_.support_interface_extruder_nr;
       if (tool) bead.tool = static_cast<ToolId>(*tool);
     }
+    return std::move(beads_);
+  }
+
+  /// Columns with walls.
+  Beads walled() && {
+    sparse(loops(layer_.columns, s_.support_wall_count.value_or(0), Role::support), share(), s_.support_pattern,
+           s_.support_infill_angle, Role::support);
+    return std::move(beads_);
+  }
+  /// A column without walls: hollow where it is narrow.
+  Beads column(const Region& column) && {
+    const Um half = support::hollow_column(usual_band_, share());
+    // Where narrow columns meet, two or three short lines would stand alone.
+    const double alone_mm = 2.5 * to_mm(half), least_mm2 = alone_mm * alone_mm;
+    const Box box = box_of(column.outer);
+    Regions wide = std::min(box.size().x, box.size().y) > 2 * half ? wider({column}, half) : Regions{};
+    std::erase_if(wide, [&](const Region& piece) { return area_mm2(piece) < least_mm2; });
+    if (wide.empty()) {
+      loops({column}, 1, Role::support, true);
+      return std::move(beads_);
+    }
+    sparse(wide, share(), s_.support_pattern, s_.support_infill_angle, Role::support);
+    if (reaches_further(column, wide, half))
+      loops(geometry::opening(geometry::subtract({column}, coarsely(wide, half)), band_ / 4), 1, Role::support, true);
     return std::move(beads_);
   }
 
@@ -74,29 +103,7 @@ class Filler {
   }
   static double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
-  void columns() {
-    const double share = (layer_.first ? s_.support_initial_layer_density : s_.support_infill_rate) / 100;
-    if (s_.support_wall_count && *s_.support_wall_count > 0) {
-      sparse(loops(layer_.columns, *s_.support_wall_count, Role::support), share, s_.support_pattern,
-             s_.support_infill_angle, Role::support);
-      return;
-    }
-    const Um half = support::hollow_column(usual_band_, share);
-    // Where narrow columns meet, two or three short lines would stand alone.
-    const double alone_mm = 2.5 * to_mm(half), least_mm2 = alone_mm * alone_mm;
-    for (const Region& column : geometry::simplified(layer_.columns, support::outline_bound)) {
-      const Box box = box_of(column.outer);
-      Regions wide = std::min(box.size().x, box.size().y) > 2 * half ? wider({column}, half) : Regions{};
-      std::erase_if(wide, [&](const Region& piece) { return area_mm2(piece) < least_mm2; });
-      if (wide.empty()) {
-        loops({column}, 1, Role::support, true);
-        continue;
-      }
-      sparse(wide, share, s_.support_pattern, s_.support_infill_angle, Role::support);
-      if (reaches_further(column, wide, half))
-        loops(geometry::opening(geometry::subtract({column}, coarsely(wide, half)), band_ / 4), 1, Role::support, true);
-    }
-  }
+  double share() const { return (layer_.first ? s_.support_initial_layer_density : s_.support_infill_rate) / 100; }
   /// Whether any corner is further than that from what lies within.
   static bool reaches_further(const Region& region, const Regions& within, Um by) {
     const geometry::SegmentIndex edge(within);
@@ -141,9 +148,9 @@ class Filler {
     }
   }
 
-  /// The rim, and lines from branch to branch.
+  /// Rims, and lines from branch to branch.
   void joists() {
-    loops(layer_.joists.area, 1, Role::support, true);
+    loops(layer_.joists.rimmed, 1, Role::support, true);
     for (const Polyline& line : layer_.joists.lines) {
       Bead bead;
       bead.role = Role::support;
@@ -242,12 +249,69 @@ class Filler {
   Beads beads_;
 };
 
-}  // namespace
+/// Columns of all layers. Mostly they stand straight: of those that are the same on layers of one height, the first one
+/// is filled.
+class Columns {
+ public:
+  Columns(const Settings& settings, const std::vector<support::SupportLayer>& layers, Point origin)
+      : settings_(settings), layers_(layers), origin_(origin) {
+    areas_ = tasks::parallel_map(
+        layers.size(), [&](std::size_t k) { return geometry::simplified(layers[k].columns, support::outline_bound); });
+    find_like();
+    filled_ = tasks::parallel_map(firsts_.size(), [&](std::size_t i) {
+      const auto [layer, region] = firsts_[i];
+      return Filler(settings_, layers_[layer], origin_).column(areas_[layer][region]);
+    });
+  }
 
-PrintedLayer fill_support(const Settings& settings, const support::SupportLayer& layer, Point origin) {
+  Beads of(std::size_t layer) const {
+    Beads out;
+    for (const std::size_t i : like_[layer]) out.insert(out.end(), filled_[i].begin(), filled_[i].end());
+    return out;
+  }
+
+ private:
+  struct Place {
+    std::size_t layer, region;
+  };
+  /// What tells columns from each other, roughly.
+  using Hint = std::tuple<Um, Um, bool, std::size_t, Point, Point>;
+  Hint hint_of(Place place) const {
+    const auto& layer = layers_[place.layer];
+    const Region& region = areas_[place.layer][place.region];
+    const Um at = settings_.support.support_pattern == SupportPattern::gyroid ? layer.z : 0;
+    const std::size_t n = region.outer.size();
+    return {layer.height, at, layer.first, n, region.outer.front(), region.outer[n / 2]};
+  }
+  void find_like() {
+    std::map<Hint, std::vector<std::size_t>> known;  // firsts_
+    like_.resize(layers_.size());
+    for (std::size_t k = 0; k < layers_.size(); ++k)
+      for (std::size_t r = 0; r < areas_[k].size(); ++r) {
+        auto& alike = known[hint_of({k, r})];
+        const auto same = std::find_if(alike.begin(), alike.end(), [&](std::size_t i) {
+          return areas_[firsts_[i].layer][firsts_[i].region] == areas_[k][r];
+        });
+        like_[k].push_back(same != alike.end() ? *same : firsts_.size());
+        if (same != alike.end()) continue;
+        alike.push_back(firsts_.size());
+        firsts_.push_back({k, r});
+      }
+  }
+
+  const Settings& settings_;
+  const std::vector<support::SupportLayer>& layers_;
+  Point origin_;
+  std::vector<Regions> areas_;
+  std::vector<Place> firsts_;
+  std::vector<Beads> filled_;                   ///< beside firsts_
+  std::vector<std::vector<std::size_t>> like_;  ///< of each layer: which of firsts_ its columns are like
+};
+
+PrintedLayer printed(const Settings& settings, const support::SupportLayer& layer, Point origin, Beads columns) {
   PrintedLayer out;
   out.z = layer.z, out.height = layer.height;
-  out.beads = Filler(settings, layer, origin).beads();
+  out.beads = Filler(settings, layer, origin).beads(std::move(columns));
   Regions all = layer.columns;
   append(all, layer.branches), append(all, layer.roof), append(all, layer.bottom);
   append(all, layer.joists.area);
@@ -258,6 +322,18 @@ PrintedLayer fill_support(const Settings& settings, const support::SupportLayer&
       bead.part = static_cast<std::uint32_t>(index.region_at(bead.path.front().at).value_or(0));
   }
   return out;
+}
+
+}  // namespace
+
+std::vector<PrintedLayer> fill_support(const Settings& settings, const std::vector<support::SupportLayer>& layers,
+                                       Point origin) {
+  std::optional<Columns> columns;
+  if (settings.support.support_wall_count.value_or(0) == 0) columns.emplace(settings, layers, origin);
+  return tasks::parallel_map(layers.size(), [&](std::size_t k) {
+    return printed(settings, layers[k], origin,
+                   columns ? columns->of(k) : Filler(settings, layers[k], origin).walled());
+  });
 }
 
 }  // namespace weft::pipeline

@@ -5,8 +5,9 @@
 
 namespace weft::pipeline {
 
-/// The beads of a layer of support.
+/// The beads of layers of support. Columns that are the same on several layers are filled once.
 /// @param origin where patterns are anchored: one point for all layers
-PrintedLayer fill_support(const Settings& settings, const support::SupportLayer& layer, Point origin);
+std::vector<PrintedLayer> fill_support(const Settings& settings, const std::vector<support::SupportLayer>& layers,
+                                       Point origin);
 
 }  // namespace weft::pipeline

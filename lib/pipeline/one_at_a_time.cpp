@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -176,6 +177,7 @@ std::vector<std::size_t> order_of(const std::vector<Standing>& copies, const std
   std::vector<char> done(copies.size(), 0);
   std::vector<std::size_t> out;
   Point at{};
+  ToolId loaded = any_tool;
   while (out.size() < copies.size()) {
     std::optional<std::size_t> best;
     for (std::size_t j = 0; j < copies.size(); ++j) {
@@ -184,11 +186,13 @@ std::vector<std::size_t> order_of(const std::vector<Standing>& copies, const std
       for (std::size_t other = 0; other < copies.size(); ++other)
         next = next && (other == j || done[other] != 0 || may[j][other] != 0);
       if (!next) continue;
-      const auto rank = [&](std::size_t c) { return std::pair(copies[c].height, distance2(at, copies[c].by)); };
+      const auto rank = [&](std::size_t c) {
+        return std::tuple(copies[c].tool != loaded, copies[c].height, distance2(at, copies[c].by));
+      };
       if (!best || rank(j) < rank(*best)) best = j;
     }
     if (!best) return {};
-    done[*best] = 1, at = copies[*best].by;
+    done[*best] = 1, at = copies[*best].by, loaded = copies[*best].tool;
     out.push_back(*best);
   }
   return out;

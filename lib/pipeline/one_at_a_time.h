@@ -18,6 +18,7 @@ struct Standing {
   std::vector<const PrintedLayers*> layers;  ///< of the object, and of its support
   Um height = 0;                             ///< of what is printed
   Um beside = 0;                             ///< how far skirt and brim reach beyond it
+  ToolId tool = any_tool;                    ///< that it is printed with
 };
 
 /// may[i][j]: may j be printed when i stands? Not where the path of a layer of j, widened by a slab, meets what of i
@@ -25,8 +26,9 @@ struct Standing {
 /// where that differs from the truth it refuses.
 std::vector<std::vector<char>> may_follow(const std::vector<Standing>& copies, const std::vector<HeadSlab>& head);
 
-/// An order in which every copy may follow all before it: of those that may be next the lowest, then the nearest to
-/// the last. Empty: there is none. Source: Kahn, "Topological sorting of large networks".
+/// An order in which every copy may follow all before it: of those that may be next one of the tool that is loaded,
+/// then the lowest, then the nearest to the last. Empty: there is none. Source: Kahn, "Topological sorting of large
+/// networks".
 std::vector<std::size_t> order_of(const std::vector<Standing>& copies, const std::vector<std::vector<char>>& may);
 
 /// One pass and one rise a copy. @throws Error{settings} where nothing is known of the head; Error{audit} where there

@@ -9,7 +9,9 @@
 #include "pipeline/gradients.h"
 #include "pipeline/lagging_tower.h"
 #include "pipeline/ooze_shield.h"
+#include "pipeline/place_tower.h"
 #include "pipeline/purge_into.h"
+#include "pipeline/purge_pad.h"
 #include "pipeline/room_around.h"
 #include "settings/first_layer.h"
 #include "settings/tools.h"
@@ -161,15 +163,9 @@ void choose_wall(const WallTool& wall, const Passes& passes, tools::TowerLayer& 
     if (passes.passes[p].tool == wall.tool) section.wall_pass = p;
 }
 
-void add_strips(const std::vector<Settings>& tools, const ToolPass& pass, std::size_t p, tools::TowerLayer& section) {
-  if (const double mm3 = rammed_mm3(tools, pass); mm3 > 0) section.strips.push_back({p, mm3, true});
-  if (pass.purge_mm3 > 0) section.strips.push_back({p, pass.purge_mm3, false});
-}
-
 /// Sections up to the last change: one a layer that purges, and between them where a bead would be too high.
 void plan_tower(const std::vector<Settings>& tools, std::span<const travel::LayerInput> layers, Passes& passes) {
-  Um nozzle = max_coord;
-  for (const auto& tool : tools) nozzle = std::min(nozzle, tool.machine.nozzle_diameter);
+  const Um nozzle = least_nozzle(tools);
   const Um highest = rounded(highest_by_nozzle * nozzle);
   std::size_t last = 0;
   for (const auto& pass : passes.passes)
@@ -196,71 +192,6 @@ void plan_tower(const std::vector<Settings>& tools, std::span<const travel::Laye
   }
   passes.size = tools::tower_size(tools.front().tools, passes.tower, nozzle);
 }
-
-/// Over which side of the bed a tower reaches, by how much, and where it would stand along it.
-struct Overrun {
-  std::string_view key, side, bound;
-  Um by, within;
-};
-Overrun overrun_of(const Box& tower, const Box& bed, Point corner) {
-  const Um right = tower.max.x - bed.max.x, left = bed.min.x - tower.min.x;
-  const Um behind = tower.max.y - bed.max.y, before = bed.min.y - tower.min.y;
-  const std::array sides{Overrun{"prime_tower_position_x", "+x", "most", right, corner.x - right},
-                         Overrun{"prime_tower_position_x", "-x", "least", left, corner.x + left},
-                         Overrun{"prime_tower_position_y", "+y", "most", behind, corner.y - behind},
-                         Overrun{"prime_tower_position_y", "-y", "least", before, corner.y + before}};
-  return *std::max_element(sides.begin(), sides.end(), [](const auto& a, const auto& b) { return a.by < b.by; });
-}
-
-/// @throws Error{audit} where a tower of that size, standing where it is told to, leaves the print surface
-void refuse_outside(const Settings& plate, const tools::TowerSize& size, Point corner) {
-  const Ring surface = print_surface(plate.machine);
-  const auto outline = tools::tower_outline(plate.tools, size, corner);
-  const auto outside = tools::outside_of(outline, surface);
-  if (outside.by <= plate.audit.audit_tolerance) return;
-  const Box tower = box_of(outline), bed = box_of(surface);
-  const auto over = overrun_of(tower, bed, corner);
-  const bool fits = tower.size().x <= bed.size().x && tower.size().y <= bed.size().y;
-  throw Error{
-      Error::Kind::audit,
-      fmt::format("{}: the tower with its brim, {:.1f} × {:.1f} mm at ({:g}, {:g}), leaves the print surface by "
-                  "{:.1f} mm at {}",
-                  over.key, to_mm(tower.size().x), to_mm(tower.size().y), to_mm(corner.x), to_mm(corner.y),
-                  to_mm(outside.by), over.by > 0 ? over.side : "the edge"),
-      {},
-      over.by > 0 && fits ? fmt::format("auto, or at {} {:g}", over.bound, to_mm(over.within))
-                          : std::string("auto puts it where there is room")};
-}
-
-std::optional<Point> told_corner(const ToolSettings& t) {
-  if (!t.prime_tower_position_x || !t.prime_tower_position_y) return std::nullopt;
-  return Point{*t.prime_tower_position_x, *t.prime_tower_position_y};
-}
-
-bool wants_tower(const Settings& plate, const ToolScopes& tools) {
-  return plate.tools.prime_tower_enable.value_or(shares_nozzle(tools.tools()));
-}
-
-void place_tower(const Settings& plate, std::span<const travel::LayerInput> layers, Passes& passes) {
-  const auto& t = plate.tools;
-  const auto& size = passes.size;
-  if (const auto told = told_corner(t)) return refuse_outside(plate, size, passes.corner = *told);
-  const Ring surface = print_surface(plate.machine);
-  auto standing = standing_on(plate, layers);
-  for (const auto& region : passes.shield) standing.push_back(box_of(region.outer));
-  const auto place = tools::place_for_tower(t, size, surface, plate.machine.bed_exclude_areas, standing, beside_tower);
-  if (!place)
-    throw Error{Error::Kind::audit,
-                fmt::format("prime_tower_enable: no room on the bed for the tower, {:.1f} × {:.1f} mm",
-                            to_mm(size.width), to_mm(size.depth)),
-                {},
-                "move the models, give purge_volumes that are less, or prime_tower_enable = false"};
-  passes.corner = *place;
-}
-
-}  // namespace
-
-namespace {
 
 /// Filaments that follow each other in a nozzle mix where nothing is purged between them.
 void tell_unpurged(const std::vector<Settings>& tools, const Passes& passes, Notices& notices) {
@@ -298,33 +229,6 @@ std::vector<tools::ToolInUse> in_use(const tools::ToolSets& sets, std::span<trav
 
 }  // namespace
 
-std::vector<Box> standing_on(const Settings& plate, std::span<const travel::LayerInput> layers) {
-  std::vector<std::pair<std::pair<ObjectId, std::uint32_t>, Box>> by_object;
-  for (const auto& layer : layers)
-    for (const auto& object : layer.objects) {
-      const auto key = std::pair(object.object, object.stack);
-      auto at = std::find_if(by_object.begin(), by_object.end(), [&](const auto& b) { return b.first == key; });
-      if (at == by_object.end()) at = by_object.insert(at, {key, Box{}});
-      for (const auto& region : object.outline) at->second.add(box_of(region.outer));
-    }
-  const bool brim = plate.adhesion.adhesion_type == AdhesionType::brim;
-  std::vector<Box> out;
-  for (const auto& [key, box] : by_object)
-    if (!box.empty()) out.push_back(box.grown(brim ? plate.adhesion.brim_width : 0));
-  for (const auto& layer : layers) {  // a raft
-    Box raft;
-    for (const auto& bead : layer.adhesion) raft.add(box_of(bead));
-    if (!raft.empty()) out.push_back(raft);
-  }
-  return out;
-}
-
-void refuse_tower_outside(const Settings& plate, const ToolScopes& tools) {
-  const auto told = told_corner(plate.tools);
-  if (!told || !wants_tower(plate, tools) || tools.used() < 2) return;
-  refuse_outside(plate, tools::tower_size(plate.tools, {}, plate.machine.nozzle_diameter), *told);
-}
-
 Passes passes_of(const Settings& plate, ToolScopes& tools, Scopes& scopes, std::span<travel::LayerInput> layers,
                  Notices& notices) {
   Passes out;
@@ -343,6 +247,9 @@ Passes passes_of(const Settings& plate, ToolScopes& tools, Scopes& scopes, std::
   told(in_use(sets, layers));
   out = in_order(tools::ordered(sets, costs_of(tools.tools()), plate.tools.tool_order));
   out.shield = ooze_shield(plate, layers, out);
+  if (!out.shield.empty() && one_at_a_time(layers))
+    throw Error{Error::Kind::settings, "it is a wall around all objects, and one is finished before the next begins",
+                "ooze_shield_enabled", "ooze_shield_enabled = false, or print_sequence = all_at_once"};
   const bool changes =
       std::any_of(out.passes.begin(), out.passes.end(), [](const ToolPass& p) { return p.changes && p.from; });
   if (!changes) return out;
@@ -352,14 +259,13 @@ Passes passes_of(const Settings& plate, ToolScopes& tools, Scopes& scopes, std::
   }
   want_purging(tools.tools(), out);
   purge_into(tools, scopes, layers, out);
-  if (std::any_of(layers.begin(), layers.end(), [](const auto& layer) { return layer.time.comes_down; })) {
-    notices.push_back(
-        {"prime_tower_one_at_a_time", "prime_tower_enable: objects are printed one after the other, and no tower is"});
+  if (one_at_a_time(layers)) {
+    lay_pad(plate, tools.tools(), layers, out);
     return out;
   }
   plan_tower(tools.tools(), layers, out);
   if (out.has_tower()) {
-    place_tower(plate, layers, out);
+    place_tower(plate, standing_on(plate, layers), out);
     check_lag(plate, out, layers);
   }
   return out;
@@ -368,7 +274,8 @@ Passes passes_of(const Settings& plate, ToolScopes& tools, Scopes& scopes, std::
 Regions beside_objects(const Settings& plate, const Passes& passes) {
   // A brim goes within the shield.
   Regions out = plate.adhesion.adhesion_type == AdhesionType::brim ? Regions{} : passes.shield;
-  if (passes.has_tower()) out.insert(out.begin(), {tools::tower_outline(plate.tools, passes.size, passes.corner), {}});
+  if (passes.has_tower() && !passes.pad)
+    out.insert(out.begin(), {tools::tower_outline(plate.tools, passes.size, passes.corner), {}});
   return out;
 }
 
@@ -432,7 +339,9 @@ std::vector<travel::LayerInput> split(Passes& passes, const Settings& plate, Too
       const bool first = p == passes.begin[i];
       auto input = beads_of_pass(passes.passes[p], first, tools, scopes, layer);
       const auto put = [&](Beads& beads) {
-        input.adhesion.insert(first ? input.adhesion.end() : input.adhesion.begin(),
+        // The other filament is out before anything else is laid.
+        const bool before_skirt = !first || (passes.passes[p].changes && passes.passes[p].from);
+        input.adhesion.insert(before_skirt ? input.adhesion.begin() : input.adhesion.end(),
                               std::make_move_iterator(beads.begin()), std::make_move_iterator(beads.end()));
       };
       if (const auto purged = passes.into.find(p); purged != passes.into.end()) {

@@ -28,6 +28,7 @@ struct Passes {
   std::vector<ToolPass> passes;          ///< in the order they are printed
   std::vector<std::size_t> begin;        ///< of each layer its first pass, and one more for the end
   std::vector<tools::TowerLayer> tower;  ///< sections of the tower, upwards; empty: there is none
+  bool pad = false;                      ///< it is one section on the bed (purge_pad.h)
   std::vector<std::size_t> section_of;   ///< of each section the layer that it ends with
   std::map<std::size_t, Um> lag;         ///< by layer: how far below it its section lies
   tools::TowerSize size;
@@ -50,10 +51,6 @@ struct Passes {
   }
 };
 
-/// What is known before anything is sliced: a tower that is told to stand where not even the smallest has room.
-/// @throws Error{audit}
-void refuse_tower_outside(const Settings& plate, const ToolScopes& tools);
-
 /// Which tools print when. Beads of any tool go with the first of their layer; those above a height of
 /// tool_change_at_heights with its tool.
 /// @param layers their beads are given their tools
@@ -62,9 +59,6 @@ void refuse_tower_outside(const Settings& plate, const ToolScopes& tools);
 /// or has no room on it
 Passes passes_of(const Settings& plate, ToolScopes& tools, Scopes& scopes, std::span<travel::LayerInput> layers,
                  Notices& notices);
-
-/// The boxes of what is printed, over all layers, with what lies around it on the bed.
-std::vector<Box> standing_on(const Settings& plate, std::span<const travel::LayerInput> layers);
 
 /// The tower and the shield, which skirt and brim go round.
 Regions beside_objects(const Settings& plate, const Passes& passes);

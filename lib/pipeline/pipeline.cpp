@@ -19,6 +19,7 @@
 #include "pipeline/one_at_a_time.h"
 #include "pipeline/passes.h"
 #include "pipeline/place_heat.h"
+#include "pipeline/place_tower.h"
 #include "pipeline/plan_moves.h"
 #include "pipeline/plate.h"
 #include "pipeline/provenance.h"
@@ -33,6 +34,7 @@
 #include "settings/tools.h"
 #include "tasks/parallel.h"
 #include "tasks/tasks.h"
+#include "tools/purge.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -211,10 +213,9 @@ void keep(const Sample& sample, std::size_t at_least, PrintedLayers& layers) {
     if (!sample.has(i)) layers[i] = {layers[i].z, layers[i].height, {}, {}, {}, {}, {}, {}};
 }
 
-/// Each object is printed with one tool, in a nozzle of its own: between objects nothing is purged.
-/// @throws Error{settings}
-void check_tools_one_at_a_time(const ToolScopes& tools, const Plate& plate, const std::vector<PrintedLayers>& layers) {
-  std::set<ToolId> all;
+/// The tool of each object: one, so that tools change on the bed only. @throws Error{settings}
+std::vector<ToolId> tools_one_at_a_time(const Plate& plate, const std::vector<PrintedLayers>& layers) {
+  std::vector<ToolId> out;
   for (std::size_t o = 0; o < layers.size(); ++o) {
     std::set<ToolId> own;
     for (const auto& layer : layers[o])
@@ -224,12 +225,9 @@ void check_tools_one_at_a_time(const ToolScopes& tools, const Plate& plate, cons
       throw Error{Error::Kind::settings,
                   fmt::format("one_at_a_time: '{}' is printed with several tools", plate.objects[o].name),
                   "print_sequence", "print_sequence = all_at_once"};
-    all.insert(own.begin(), own.end());
+    out.push_back(own.empty() ? any_tool : *own.begin());
   }
-  if (all.size() > 1 && shares_nozzle(tools.tools()))
-    throw Error{Error::Kind::settings,
-                "one_at_a_time: tools that share a nozzle are purged into a tower, and there is none", "print_sequence",
-                "print_sequence = all_at_once"};
+  return out;
 }
 
 /// Are layers of an object to follow its surface?
@@ -261,13 +259,17 @@ Sequence sequence_of(const Scopes& scopes, const ToolScopes& tools, const Plate&
   const Settings& settings = scopes[0];
   if (settings.plate.print_sequence == PrintSequence::all_at_once || copies_on(plate) < 2)
     return by_layer(copies_on(plate));
-  if (tools.several()) check_tools_one_at_a_time(tools, plate, layers);
+  const auto tool_of = tools.several() ? tools_one_at_a_time(plate, layers) : std::vector<ToolId>(layers.size());
   const auto labels = labels_of(plate);
   std::vector<Standing> copies;
   for (std::size_t o = 0; o < plate.objects.size(); ++o)
     for (const Point by : plate.objects[o].copies) {
-      copies.push_back(
-          {labels[copies.size()].name, by, {&layers[o], &supports[o].layers}, 0, beside_of(scopes[feet[o]])});
+      copies.push_back({labels[copies.size()].name,
+                        by,
+                        {&layers[o], &supports[o].layers},
+                        0,
+                        beside_of(scopes[feet[o]]),
+                        tool_of[o]});
       for (const auto* list : copies.back().layers)
         for (const auto& layer : *list) copies.back().height = std::max(copies.back().height, layer.z);
     }
@@ -287,6 +289,15 @@ void note_objects(const Plate& plate, const std::vector<ObjectLabel>& labels, Re
     }
 }
 
+/// The highest point of what is printed.
+Um top_of(const Plate& plate) {
+  Um out = 0;
+  for (const auto& object : plate.objects)
+    for (const auto& volume : object.volumes)
+      if (volume.kind == VolumeKind::model) out = std::max(out, box_of(volume.mesh).max.z);
+  return out;
+}
+
 /// From the plate to its plan.
 Planned plan(const Job& job, Printing& what, Running running, PlanFor use) {
   auto& plate = what.plate;
@@ -300,7 +311,7 @@ Planned plan(const Job& job, Printing& what, Running running, PlanFor use) {
   std::optional<StageCache> common;
   if (tell_copies_apart(scopes, of_object, plate) && running.cache == nullptr)
     running.cache = &common.emplace(CacheOptions{});
-  refuse_tower_outside(job.settings, tools);
+  refuse_tower_outside(job.settings, tools, top_of(plate));
   Planned out;
   // Pictures are drawn while the model is sliced.
   const bool of_models = use == PlanFor::writing && job.settings.gcode.thumbnail_content == ThumbnailContent::model;
@@ -376,6 +387,7 @@ std::optional<audit::Passed> print(const Job& job, Printing what, const Watch& w
       std::move(digests),
       tool_count(job.settings) > 1 ? settings_of_tools(job.settings) : std::vector<Settings>{},
       std::move(cold_at_start)};
+  text.purge_volumes = tools::purge_matrix(text.tools);
   const bool of_models = job.settings.gcode.thumbnail_content == ThumbnailContent::model;
   text.thumbnails = of_models ? std::move(planned.thumbnails) : pictures_of_toolpaths(text, plan, packed);
   write_gcode(text, plan, std::move(packed), heat, check, report);
@@ -392,11 +404,7 @@ constexpr std::size_t estimate_stride = 4;
 
 /// The layers of the tallest object, about.
 std::size_t layers_of(const Settings& settings, const Plate& plate) {
-  Um height = 0;
-  for (const auto& object : plate.objects)
-    for (const auto& volume : object.volumes)
-      if (volume.kind == VolumeKind::model) height = std::max(height, box_of(volume.mesh).max.z);
-  return static_cast<std::size_t>(height / std::max(settings.layers.layer_height, Um{1}));
+  return static_cast<std::size_t>(top_of(plate) / std::max(settings.layers.layer_height, Um{1}));
 }
 
 /// The same without an end, and unless asked for all of them, with beads on some layers only.

@@ -107,6 +107,7 @@ class Mover {
     if (primes_) prime_after_ironing(of_.scopes, plan, owed_mm3_);
     const ToolId loaded = layer > 0 ? passes.passes[passes.begin[layer] - 1].tool : any_tool;
     if (plan.time.comes_down && at_) go_over(settings_.machine, of_.standing[layer], *at_, plan);
+    if (plan.time.comes_down && passes.pad) leave_over(settings_.machine, of_.standing[layer], plan);
     Begun out{std::move(plan), at_, loaded};
     at_ = motion::start_after(out.plan, at_);
     return out;

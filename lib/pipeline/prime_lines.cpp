@@ -3,6 +3,7 @@
 
 #include "geometry/boolean.h"
 #include "model/flow.h"
+#include "pipeline/place_tower.h"
 
 #include <algorithm>
 #include <optional>

@@ -170,12 +170,13 @@ void leave_out_specks(const Settings& settings, Outlines& outlines, std::vector<
   kept.resize(outlines.layers.size());
   tasks::for_each_index(outlines.layers.size(), [&](std::size_t i) {
     const SlicedLayer& layer = *outlines.layers[i];
-    if (std::none_of(layer.regions.begin(), layer.regions.end(),
-                     [&](const Region& region) { return speck(region) && !is_printed(settings, layer, i, region); }))
-      return;
+    Regions left;
+    if (std::none_of(layer.regions.begin(), layer.regions.end(), speck)) return;
+    for (const Region& region : layer.regions)
+      if (!speck(region) || is_printed(settings, layer, i, region)) left.push_back(region);
+    if (left.size() == layer.regions.size()) return;
     kept[i] = layer;
-    std::erase_if(kept[i].regions,
-                  [&](const Region& region) { return speck(region) && !is_printed(settings, layer, i, region); });
+    kept[i].regions = std::move(left);
   });
   for (std::size_t i = 0; i < kept.size(); ++i)
     if (kept[i].height > 0) outlines.layers[i] = &kept[i];
@@ -242,8 +243,7 @@ Supports make_supports(const Settings& settings, const Object& object, const std
   }
   const Point origin = outlines.box.empty() ? Point{} : outlines.box.centre();
   Supports out;
-  out.layers = tasks::parallel_map(plan.layers.size(),
-                                   [&](std::size_t k) { return fill_support(settings, plan.layers[k], origin); });
+  out.layers = fill_support(settings, plan.layers, origin);
   for (std::size_t k = 0; k < plan.trapped.size(); ++k)
     plan.figures.trapped_mm3 += plan.trapped[k] * plastic_mm3(out.layers[k]);
   if (!plan.layers.empty()) out.held = std::move(plan.held);

@@ -107,11 +107,18 @@ std::vector<Step> unload(const Settings& tool, const Along& along, Um z) {
   out.feed(-0.7 * rest, t.filament_unloading_speed);
   out.feed(-0.2 * rest, 0.5 * t.filament_unloading_speed);
   out.feed(-0.1 * rest, 0.3 * t.filament_unloading_speed);
+  const double stamp = to_mm(t.filament_stamping_distance) + tube / 2;  // from where cooling moves begin and end
   const int moves = t.filament_cooling_moves;
   for (int i = 0; i < 2 * moves; ++i) {
     const double share = moves > 0 ? i / (2.0 * moves - 1) : 0;
     const double speed =
         t.filament_cooling_initial_speed + share * (t.filament_cooling_final_speed - t.filament_cooling_initial_speed);
+    if (i % 2 == 0 && i > 0 && t.filament_stamping_distance > 0) {
+      out.step();
+      out.feed(stamp, t.filament_stamping_loading_speed);
+      out.step();
+      out.feed(-stamp, t.filament_unloading_speed);
+    }
     out.step();
     out.feed(i % 2 == 0 ? tube : -tube, speed);
   }

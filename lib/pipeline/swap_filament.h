@@ -27,7 +27,8 @@ double volume_of(const std::vector<Rammed>& rammed);
 /// Pre: settings are checked (profile/profile.h); the line has two points
 std::vector<Step> lay_rammed(const Settings& tool, const Bead& line, Um height, bool shared);
 
-/// The tip is drawn out as far as the tube that it cools in, moved to and fro there, and parked. Meanwhile the nozzle
+/// The tip is drawn out as far as the tube that it cools in, moved to and fro there (and stamped, where
+/// filament_stamping_distance says so), and parked. Meanwhile the nozzle
 /// goes on along what is purged next, so that it melts no hole and leaves no blob where it stands.
 /// Empty where parking_pos_retraction is 0.
 /// Source: PrusaSlicer's description of its wipe tower: 15 mm at the first speed, then 70, 20 and 10 % of the rest at

@@ -89,10 +89,10 @@ ScopeId ToolScopes::lowest(ScopeId area, const std::function<ScopeId(ScopeId)>& 
   return first;
 }
 
-std::size_t ToolScopes::used() const {
+std::vector<ToolId> ToolScopes::used() const {
   std::set<ToolId> out;
   for (const auto& [area, scope] : by_tool_) out.insert(area.second);
-  return out.size();
+  return {out.begin(), out.end()};
 }
 
 ScopeId ToolScopes::of(ScopeId area, ToolId tool) const {

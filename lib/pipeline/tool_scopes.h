@@ -23,8 +23,8 @@ class ToolScopes {
 
   std::size_t count() const { return tools_.size(); }
   bool several() const { return tools_.size() > 1; }
-  /// How many of them areas are printed with, as far as areas were asked for.
-  std::size_t used() const;
+  /// Those that areas are printed with, as far as areas were asked for; ascending.
+  std::vector<ToolId> used() const;
   /// The plate's settings of each tool.
   const std::vector<Settings>& tools() const { return tools_; }
 

@@ -64,20 +64,21 @@ class Guess {
            s_.support_initial_layer_density / 100;
   }
   /// Either has a roof. On a column it takes the place of what fills it; on branches most of its lowest level is free
-  /// where it is wider than the loop along its rim.
+  /// where it is wider than the loop along its rim, and strips of a slope lie on loops of their own.
   double roof_mm3(const Patch& patch) const {
     if (!s_.support_roof_enable || s_.support_roof_height <= 0) return 0;
     constexpr double joists = 0.2;
     constexpr Um narrow = 3_mm;
-    double mm2 = 0, wide_mm2 = 0;
+    double mm2 = 0, wide_mm2 = 0, loops_mm = 0;
     for (const auto& [k, regions] : patch.contacts) {
       mm2 += area_mm2(regions);
       for (const Region& region : regions)
         if (const Point size = box_of(region.outer).size(); std::min(size.x, size.y) > narrow)
           wide_mm2 += area_mm2(opened({region}, narrow / 2));
+      for (const Region& region : regions) loops_mm += perimeter_of(region.outer) / 1000;
     }
     return mm2 * to_mm(s_.support_roof_height) * s_.support_infill_rate / 100 -
-           wide_mm2 * (1 - joists) * to_mm(room_.object().nozzle) / 2;
+           (wide_mm2 * (1 - joists) - loops_mm * to_mm(line_)) * to_mm(room_.object().nozzle) / 2;
   }
 
   const Room& room_;

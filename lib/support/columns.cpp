@@ -174,8 +174,10 @@ void rest_on(const Room& room, const Stack::Level& level, const Regions& below, 
   for (const Region& piece : hangs) {
     const Box near = box_of(piece.outer).grown(2 * reach);
     Regions base = geometry::trimmed(below, near);
-    if (s.support_type == SupportType::everywhere)
-      append(base, room.part(level.bottom() - bottom_gap(s) - sinks, level.bottom(), near));
+    if (s.support_type == SupportType::everywhere) {  // what lies below it, and not walls beside
+      const Regions part = room.part(level.bottom() - bottom_gap(s) - sinks, level.bottom(), near);
+      if (!part.empty()) append(base, geometry::intersect({piece}, part));
+    }
     if (base.empty())
       free.push_back(piece);
     else
@@ -246,14 +248,25 @@ class Falling {
   }
   void clear(std::size_t k, const Regions& contacts) {
     const auto& level = stack_.levels[k];
+    const Regions& close = beside_contacts(k, contacts);
     if (ragged_ || !contacts.empty()) falling_ = geometry::simplified(falling_, corner_bound);
     ragged_ = false;
     bool cut = false;
-    Regions left = room_.free_part(falling_, level, contacts, &cut);
+    Regions left = room_.free_part(falling_, level, close, &cut);
     if (!shadow_.empty() && !shadow_[k].empty()) left = geometry::subtract(left, shadow_[k]), cut = true;
     if (!cut && contacts.empty()) return;
     falling_ = without_thin(left, line_ * 4 / 10);
     ragged_ = true, less_[k] = 1;
+  }
+  /// What is held as near beside the part as contacts are must come from further away, and leans towards it on the
+  /// last levels: the contacts of those above this one.
+  const Regions& beside_contacts(std::size_t k, const Regions& contacts) {
+    constexpr std::size_t leaning = 2;  // levels; what rests reaches about half a line further on each
+    if (!contacts.empty()) held_.push_back({k, contacts});
+    std::erase_if(held_, [k](const auto& held) { return held.first >= k + leaning; });
+    close_.clear();
+    for (const auto& held : held_) append(close_, held.second);
+    return close_;
   }
   /// From the bottom up: where the level below is no less than this one, all of it rests.
   void let_rest() {
@@ -277,8 +290,9 @@ class Falling {
   const std::vector<Regions>& shadow_;
   Um line_;
   Towers towers_;
-  Regions falling_;
-  bool ragged_ = false;  ///< it has corners of what was cut from it
+  Regions falling_, close_;
+  std::vector<std::pair<std::size_t, Regions>> held_;  ///< the last contacts, by level
+  bool ragged_ = false;                                ///< it has corners of what was cut from it
   std::vector<Regions> levels_;
   std::vector<char> less_;  ///< of each level, whether it is not all of what lies above it
 };

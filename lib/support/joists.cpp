@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/joists.h"
 
+#include "geometry/boolean.h"
 #include "geometry/clip_lines.h"
 #include "geometry/delaunay.h"
 #include "geometry/offset.h"
+#include "geometry/simplify.h"
+#include "geometry/spatial_index.h"
+#include "geometry/trimmed.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
+#include <span>
 #include <utility>
 
 namespace weft::support {
@@ -75,24 +81,147 @@ class Chosen {
   std::set<Edge> edges_;
 };
 
-}  // namespace
+/// What of beads along lines and rings lies on something, with what bridges between two rests.
+class Resting {
+ public:
+  Resting(const Regions& below, const JoistStyle& style) : below_(below), style_(style) {}
 
-void clip_joists(Joists& joists, Um line) {
-  if (joists.lines.empty()) return;
-  const Regions inside = geometry::offset(joists.area, {.by = -line * 8 / 10});  // their ends lie on the loop
-  std::vector<Polyline> left;
-  for (auto& piece : geometry::clip_lines(joists.lines, inside))
-    if (length_of(piece.line) >= line) left.push_back(std::move(piece.line));
-  joists.lines = std::move(left);
+  /// @return whether all of a ring rests; else its pieces that do, in `out`
+  bool ring(const Ring& ring, std::vector<Polyline>& out) const {
+    Polyline points = walked(ring, true);
+    const auto first = std::find_if(points.begin(), points.end(), [&](Point p) { return rests(p); });
+    if (first == points.end()) return false;
+    std::rotate(points.begin(), first, points.end());
+    points.push_back(points.front());
+    auto pieces = spans(points);
+    if (pieces.size() == 1) return true;
+    if (pieces.size() > 1 && pieces.back().back() == pieces.front().front()) {  // it goes on over the begin
+      pieces.back().insert(pieces.back().end(), pieces.front().begin() + 1, pieces.front().end());
+      pieces.front() = std::move(pieces.back());
+      pieces.pop_back();
+    }
+    for (auto& piece : pieces) {
+      geometry::drop_collinear_of_line(piece);
+      if (length_of(piece) >= 4 * style_.line) out.push_back(std::move(piece));
+    }
+    return false;
+  }
+  /// Whether any of a line rests.
+  bool line(const Polyline& line) const {
+    const auto points = walked(line, false);
+    return std::any_of(points.begin(), points.end(), [&](Point p) { return rests(p); });
+  }
+
+ private:
+  bool rests(Point p) const { return below_.region_at(p).has_value(); }
+  /// From a rest to another as far as none is too far from the next one.
+  std::vector<Polyline> spans(const Polyline& points) const {
+    std::vector<Polyline> out;
+    std::size_t last = 0;
+    double since_um = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (i > 0) since_um += distance(points[i - 1], points[i]);
+      if (!rests(points[i])) continue;
+      if (out.empty() || since_um > style_.longest)
+        out.emplace_back();
+      else
+        out.back().insert(out.back().end(), points.begin() + static_cast<std::ptrdiff_t>(last) + 1,
+                          points.begin() + static_cast<std::ptrdiff_t>(i));
+      out.back().push_back(points[i]);
+      last = i, since_um = 0;
+    }
+    return out;
+  }
+  /// Its corners, and points between them.
+  static Polyline walked(std::span<const Point> line, bool closed) {
+    constexpr double apart = 200;
+    Polyline out;
+    for (std::size_t i = 0; i + (closed ? 0 : 1) < line.size(); ++i) {
+      const Point a = line[i], b = line[(i + 1) % line.size()];
+      const int pieces = std::max(1, static_cast<int>(distance(a, b) / apart));
+      for (int k = 0; k < pieces; ++k) out.push_back(lerp(a, b, static_cast<double>(k) / pieces));
+    }
+    if (!closed) out.push_back(line.back());
+    return out;
+  }
+
+  geometry::SegmentIndex below_;
+  const JoistStyle& style_;
+};
+
+void lay_rims(const JoistPlace& place, const JoistStyle& style, Joists& out) {
+  const Resting resting(place.below, style);
+  for (const Region& region : out.area) {
+    // Under a slope each strip hangs on to the roof of the one below it: its loops are what steps lie on.
+    const bool holds_on = !geometry::trimmed(place.beside, box_of(region.outer)).empty();
+    bool all = true;
+    std::vector<Polyline> pieces;
+    std::vector<Ring> whole, rings;
+    if (!holds_on) rings = geometry::rings_of(geometry::offset({region}, {.by = -style.line / 2}));
+    for (const Ring& ring : rings) {
+      const bool rests = resting.ring(ring, pieces);
+      if (rests) whole.push_back(ring);
+      all = all && rests;
+    }
+    if (all) {
+      out.rimmed.push_back(region);
+      continue;
+    }
+    for (Ring& ring : whole) {
+      ring.push_back(ring.front());
+      pieces.push_back(std::move(ring));
+    }
+    std::move(pieces.begin(), pieces.end(), std::back_inserter(out.lines));
+  }
 }
 
-Joists joists_between(Regions area, const std::vector<Point>& tips, const JoistStyle& style) {
-  Joists out{std::move(area), {}};
+/// Where lines may be: within the area, and on their way from it to branches beyond.
+Regions ways(const std::vector<Polyline>& lines, const Regions& area, const JoistPlace& place, Um line) {
+  Regions inside = geometry::offset(area, {.by = -line * 8 / 10});  // their ends lie on the rim
+  if (!place.beside.empty()) return inside;                         // which is a loop
+  const geometry::SegmentIndex of_area(area), within(inside);
+  std::vector<Ring> bands;
+  for (const Polyline& all : lines)
+    for (std::size_t i = 1; i < all.size(); ++i) {
+      const Polyline edge{all[i - 1], all[i]};
+      if (of_area.region_at(edge[0]) && of_area.region_at(edge[1])) continue;
+      if (geometry::clip_lines({&edge, 1}, within).empty()) continue;
+      const auto beyond = geometry::clip_lines({&edge, 1}, of_area, geometry::Keep::outside);
+      if (!std::all_of(beyond.begin(), beyond.end(),
+                       [&](const auto& piece) { return place.free(piece.line.front(), piece.line.back()); }))
+        continue;
+      constexpr double half = 10;
+      const double length = distance(edge[0], edge[1]);
+      const Point along{rounded(half * (edge[1].x - edge[0].x) / length),
+                        rounded(half * (edge[1].y - edge[0].y) / length)};
+      const Point side{-along.y, along.x}, a = edge[0] - along, b = edge[1] + along;
+      bands.push_back({a - side, b - side, b + side, a + side});
+    }
+  if (bands.empty()) return inside;
+  const Regions more = geometry::regions_from_rings(bands);
+  inside.insert(inside.end(), more.begin(), more.end());
+  return geometry::unite(inside);
+}
+
+}  // namespace
+
+Joists joists_between(Regions area, const JoistPlace& place, const JoistStyle& style) {
+  Joists out{std::move(area), {}, {}};
   if (out.area.empty()) return out;
-  Chosen chosen(tips, style);
-  for (const auto& triangle : geometry::delaunay(tips)) chosen.take(triangle);
-  out.lines = chosen.lines();
-  clip_joists(out, style.line);
+  Chosen chosen(place.tips, style);
+  for (const auto& triangle : geometry::delaunay(place.tips)) chosen.take(triangle);
+  const auto lines = chosen.lines();
+  auto pieces = geometry::clip_lines(lines, ways(lines, out.area, place, style.line));
+  std::erase_if(pieces, [&](const auto& piece) { return length_of(piece.line) < style.line; });
+  lay_rims(place, style, out);
+  if (place.beside.empty()) {
+    Regions below = place.below;  // and the rims that they end on
+    const Regions within = geometry::offset(out.rimmed, {.by = -style.line});
+    for (auto& rim : geometry::subtract(out.rimmed, within)) below.push_back(std::move(rim));
+    const Resting resting(below, style);
+    std::erase_if(pieces, [&](const auto& piece) { return !resting.line(piece.line); });
+  }
+  for (auto& piece : pieces) out.lines.push_back(std::move(piece.line));
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include "core/polygon.h"
 #include "support/support.h"
 
+#include <functional>
 #include <vector>
 
 namespace weft::support {
@@ -15,12 +16,18 @@ struct JoistStyle {
   Um line = 400;           ///< width of a bead
 };
 
-/// Of an area that lies on the tips of branches, what carries the strands above it: a loop along its rim, which is the
-/// filler's, and lines from tip to tip across the strands. Of each Delaunay triangle of tips the side that is widest
-/// across the strands is one, so whatever strand crosses the triangle crosses that side.
-Joists joists_between(Regions area, const std::vector<Point>& tips, const JoistStyle& style);
+/// What joists lie on and between.
+struct JoistPlace {
+  std::vector<Point> tips;                 ///< middles of branches
+  Regions below;                           ///< what lies on the level below
+  Regions beside;                          ///< roofs of the same level
+  std::function<bool(Point, Point)> free;  ///< whether a line may run there outside of the area
+};
 
-/// Lets go of the lines of joists outside of their area.
-void clip_joists(Joists& joists, Um line);
+/// Of an area that lies on the tips of branches, what carries the strands above it: its rim, where that lies on
+/// something every so often, and lines from tip to tip across the strands. Of each Delaunay triangle of tips the side
+/// that is widest across the strands is one, so whatever strand crosses the triangle crosses that side. Lines run on to
+/// branches beyond the rim, or their ends would hang.
+Joists joists_between(Regions area, const JoistPlace& place, const JoistStyle& style);
 
 }  // namespace weft::support

@@ -33,9 +33,11 @@ std::vector<Landing> landings_of(const Room& room, const SupportLayer& layer, co
   for (const auto kind : kinds)
     for (const Region& region : layer.*kind) {
       const Box near = box_of(region.outer).grown(line + 1);
+      const Regions rests_on = geometry::trimmed(under, near);
+      if (rests_on.size() == 1 && rests_on.front() == region) continue;  // as most of a column does
       Regions part = room.part(bottom - gap - below.height, bottom - gap, near);
       if (part.empty() || geometry::intersect({region}, part).empty()) continue;
-      Regions standing = geometry::subtract({region}, grown(geometry::trimmed(under, near), line));
+      Regions standing = geometry::subtract({region}, grown(rests_on, line));
       for (std::size_t i = run.to; i-- > run.from && !standing.empty();) {  // the highest is what it stands on
         const Um z = object.layers[i]->z, free = bottom - z - gap;
         if (free < 0) continue;

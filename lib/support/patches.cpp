@@ -2,6 +2,7 @@
 #include "support/patches.h"
 
 #include "geometry/boolean.h"
+#include "geometry/simplify.h"
 #include "support/lengths.h"
 
 namespace weft::support {
@@ -9,9 +10,10 @@ namespace {
 
 /// What all of them cover, and somewhat more.
 Regions covered_by(const std::vector<Regions>& contacts, Um apart) {
+  constexpr Um coarse = 100;  // patches are much further apart
   Regions all;
   for (const auto& regions : contacts)
-    for (const Region& region : regions) all.push_back({region.outer, {}});
+    for (const Region& region : regions) all.push_back({geometry::simplified(region.outer, coarse), {}});
   return grown(all, apart / 2 + 1);
 }
 

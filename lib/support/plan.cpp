@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/stop.h"
 #include "geometry/boolean.h"
+#include "geometry/clip_lines.h"
 #include "geometry/simplify.h"
 #include "geometry/trimmed.h"
 #include "support/caps.h"
 #include "support/cheaper.h"
 #include "support/columns.h"
-#include "support/joists.h"
 #include "support/kinds.h"
 #include "support/landing.h"
 #include "support/lengths.h"
@@ -17,6 +17,7 @@
 #include "tasks/parallel.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -153,11 +154,18 @@ void note_reached(const Object& object, const Stack& stack, const Demand& demand
         left.push_back(wanted);
         continue;
       }
-      out.contact_mm2 += area_mm2(geometry::intersect({wanted}, near));
       // It is a judgement of reach: beads' finer corners do not matter to it.
       constexpr Um coarse = 80;
-      const Regions wide = grown(geometry::simplified(near, coarse), reached, coarse);
-      append(left, geometry::opening(geometry::subtract({wanted}, wide), coarse));
+      const Regions beside = geometry::subtract({wanted}, near);
+      const double covered_mm2 = area_mm2(wanted) - area_mm2(beside);
+      out.contact_mm2 += covered_mm2;
+      // Each piece of what is partly covered touches what covers it.
+      const bool all_reached = covered_mm2 > 0 && std::all_of(beside.begin(), beside.end(), [](const Region& piece) {
+                                 const Point size = box_of(piece.outer).size();
+                                 return std::hypot(size.x, size.y) < reached;
+                               });
+      const Regions wide = grown(geometry::simplified(all_reached ? Regions{wanted} : near, coarse), reached, coarse);
+      if (!all_reached) append(left, geometry::opening(geometry::subtract({wanted}, wide), coarse));
       append(out.held, geometry::intersect(geometry::trimmed(object.layers[i]->regions, box.grown(reached)), wide));
     }
     if (out.held.size() > 1) out.held = geometry::unite(out.held);
@@ -251,7 +259,11 @@ void add_branches(const Room& room, std::size_t k, const Standing& standing, Sup
   layer.joists = standing.branches.joists[k];
   if (!layer.joists.area.empty() && !columns.empty()) {
     layer.joists.area = beside(layer.joists.area, columns, 20, half / 2);
-    clip_joists(layer.joists, 2 * half);
+    layer.joists.rimmed = beside(layer.joists.rimmed, columns, 20, half / 2);
+    std::vector<Polyline> left;
+    for (auto& piece : geometry::clip_lines(layer.joists.lines, columns, geometry::Keep::outside))
+      if (length_of(piece.line) >= 2 * half) left.push_back(std::move(piece.line));
+    layer.joists.lines = std::move(left);
   }
   layer.branches = beside(areas, columns, half, half / 2);
   Regions others = roofs;

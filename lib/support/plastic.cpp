@@ -39,7 +39,7 @@ double plastic_mm3(const SupportSettings& settings, Um nozzle, const Plan& plan)
       mm3 += layer.first ? area_mm2(column) * to_mm(layer.height) * settings.support_initial_layer_density / 100
                          : column_mm3(settings, line, column, layer.height);
     double mm2 = area_mm2(layer.roof) + area_mm2(layer.bottom);
-    mm2 += loops_mm2(layer.branches, line) + loops_mm2(layer.joists.area, line);
+    mm2 += loops_mm2(layer.branches, line) + loops_mm2(layer.joists.rimmed, line);
     for (const Polyline& joist : layer.joists.lines) mm2 += length_of(joist) / 1000 * to_mm(line);
     mm3 += mm2 * to_mm(layer.height);
   }

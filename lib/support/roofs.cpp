@@ -3,6 +3,7 @@
 
 #include "core/stop.h"
 #include "geometry/boolean.h"
+#include "geometry/clip_lines.h"
 #include "support/branch_areas.h"
 #include "support/columns.h"
 #include "support/joists.h"
@@ -124,20 +125,41 @@ Regions Roofs::shaped(const Regions& area, std::size_t level) const {
   return geometry::opening(room_.free_part(out, stack_.levels[level], all), line * 4 / 10);
 }
 
-Roofs::OfLevel Roofs::of_level(std::size_t level) const {
+JoistPlace Roofs::place_on(std::size_t level, const std::vector<Regions>& branches, const Regions& dense) const {
+  const Um line = line_width(s_, o_.nozzle);
+  JoistPlace out{tips_[level], branches[level - 1], grown(dense, line), {}};
+  append(out.below, laid_[level - 1]), append(out.below, lowest_[level - 1]);
+  out.below = grown(out.below, line / 2);
+  out.free = [this, level, line, kept = geometry::SegmentIndex(grown(dense, line / 2))](Point a, Point b) {
+    const Polyline way{a, b};
+    if (!geometry::clip_lines({&way, 1}, kept).empty()) return false;
+    const double length = std::max(1.0, distance(a, b));
+    const Point side{rounded(line / 2 * (a.y - b.y) / length), rounded(line / 2 * (b.x - a.x) / length)};
+    bool cut = false;
+    room_.free_part({{{a - side, b - side, b + side, a + side}, {}}}, stack_.levels[level], {}, &cut);
+    return !cut;
+  };
+  return out;
+}
+
+Roofs::OfLevel Roofs::of_level(std::size_t level, const std::vector<Regions>& branches) const {
   const Um line = line_width(s_, o_.nozzle);
   OfLevel out;
   if (!laid_[level].empty()) out.area = shaped(laid_[level], level);
   if (lowest_[level].empty()) return out;
   Regions open = shaped(lowest_[level], level);
   if (!out.area.empty()) open = geometry::opening(geometry::subtract(open, grown(out.area, 20)), line * 4 / 10);
-  const bool one_way = s_.support_interface_pattern == SupportPattern::zigzag ||
-                       s_.support_interface_pattern == SupportPattern::lines || s_.support_interface_density >= 99.5;
+  constexpr Um narrow = 3_mm;  // strands of a roof that narrow go along it
+  const bool along = out.area.empty() && opened(open, narrow / 2).empty();
+  const bool one_way =
+      !along && (s_.support_interface_pattern == SupportPattern::zigzag ||
+                 s_.support_interface_pattern == SupportPattern::lines || s_.support_interface_density >= 99.5);
   const JoistStyle style{.strands_rad = (s_.support_infill_angle + 90) * std::numbers::pi / 180,
                          .one_way = one_way,
                          .longest = 2 * roof_covers(branch_style(s_), o_.nozzle) + o_.nozzle,
                          .line = line};
-  out.joists = joists_between(std::move(open), tips_[level], style);
+  const JoistPlace place = place_on(level, branches, out.area);
+  out.joists = joists_between(std::move(open), place, style);
   return out;
 }
 
@@ -145,7 +167,7 @@ Roofs::Laid Roofs::laid(const std::vector<Regions>& branches) && {
   lay(branches);
   auto levels = tasks::parallel_map(laid_.size(), [&](std::size_t k) {
     stop_if_asked();
-    return laid_[k].empty() && lowest_[k].empty() ? OfLevel{} : of_level(k);
+    return laid_[k].empty() && lowest_[k].empty() ? OfLevel{} : of_level(k, branches);
   });
   Laid out;
   for (auto& level : levels) out.areas.push_back(std::move(level.area)), out.joists.push_back(std::move(level.joists));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include "support/joists.h"
 #include "support/room.h"
 #include "support/support.h"
 
@@ -51,7 +52,8 @@ class Roofs {
     Regions area;
     Joists joists;
   };
-  OfLevel of_level(std::size_t level) const;
+  OfLevel of_level(std::size_t level, const std::vector<Regions>& branches) const;
+  JoistPlace place_on(std::size_t level, const std::vector<Regions>& branches, const Regions& dense) const;
   Regions shaped(const Regions& area, std::size_t level) const;
   void begin_roofs();
 

@@ -131,7 +131,7 @@ Regions Room::free_part(const Regions& area, const Stack::Level& level, const Re
     bool cut = false;
     Regions left = within_bounds(region, box, cut);
     if (!left.empty()) {
-      const Regions not_there = barred(level, box, contacts);
+      const Regions not_there = geometry::trimmed(barred(level, box, contacts), box);
       if (!not_there.empty()) left = geometry::subtract(left, not_there), cut = true;
     }
     any = any || cut;

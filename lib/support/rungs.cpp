@@ -82,7 +82,9 @@ std::vector<Hollow> hollows_under(const Room& room, const SupportLayer& level, c
   for (const Region& column : level.columns) {
     const Regions above = geometry::trimmed(roof_above, box_of(column.outer));
     if (above.empty()) continue;
-    Regions hollow = geometry::subtract({column}, opened({column}, half));
+    const Point size = box_of(column.outer).size();
+    Regions hollow{column};
+    if (std::min(size.x, size.y) > 2 * half) hollow = geometry::subtract(hollow, opened(hollow, half));
     // Of what is no wider than a bead half lies on the wall that it runs along.
     Regions begins = opened(geometry::intersect(hollow, above), line * 4 / 10);
     if (!begins.empty()) out.push_back({std::move(hollow), std::move(begins)});

@@ -47,11 +47,11 @@ struct Island {
 /// @param over_air by layer: what of it has nothing below, where that is known
 std::vector<Island> islands(const Object& object, std::span<const Regions* const> over_air = {});
 
-/// The lowest layer of a roof over branches: what its strands lie on. An area with a loop along its rim, and lines in
-/// it.
+/// The lowest layer of a roof over branches: what its strands lie on.
 struct Joists {
   Regions area;
-  std::vector<Polyline> lines;
+  Regions rimmed;               ///< what of it has a loop along its rim
+  std::vector<Polyline> lines;  ///< from branch to branch, and what of other rims lies on something
 };
 
 /// One layer of support. Areas do not overlap.

@@ -107,10 +107,17 @@ std::vector<ToolId> near_best(std::vector<ToolId> left, const std::optional<Tool
 }
 
 /// Of a layer's last tool: what all until then costs at least, with which first tool of the layer, after which last
-/// tool of the one before.
+/// tool of the one before. Of ways that cost the same one whose dearest layer costs least: all of a tower is as wide as
+/// what is purged in one layer.
 struct Reached {
   double cost = never;
   std::size_t first = 0, before = 0;
+  double dearest = 0;  ///< layer
+
+  bool better_than(const Reached& other) const {
+    constexpr double same = 1e-6;  // mm³ that sums in another order may differ by
+    return cost < other.cost - same || (cost < other.cost + same && dearest < other.dearest - same);
+  }
 };
 
 /// The ways of each different set.
@@ -126,7 +133,7 @@ ToolSets read_back(const ToolSets& layers, const std::vector<std::size_t>& index
   if (index.empty()) return out;
   std::size_t last = 0;
   for (std::size_t i = 0; i < reached.back().size(); ++i)
-    if (reached.back()[i].cost < reached.back()[last].cost) last = i;
+    if (reached.back()[i].better_than(reached.back()[last])) last = i;
   for (std::size_t k = index.size(); k-- > 0;) {
     const auto& set = layers[index[k]];
     const auto& at = reached[k][last];
@@ -159,20 +166,22 @@ ToolSets least(const ToolSets& layers, const Costs& costs) {
           if (reached.back()[b].cost < reached.back()[from].cost) from = b;
       const auto way = near_best(set, below ? std::optional((*below)[from]) : std::nullopt, costs);
       const auto last = static_cast<std::size_t>(std::find(set.begin(), set.end(), way.back()) - set.begin());
-      now[last] = {below ? reached.back()[from].cost : 0, 0, from};
+      now[last] = {below ? reached.back()[from].cost : 0, 0, from, below ? reached.back()[from].dearest : 0};
     } else {
       for (std::size_t first = 0; first < set.size(); ++first)
         for (std::size_t last = 0; last < set.size(); ++last) {
           const double inside = own.cost(first, last);
           if (inside == never) continue;
           if (index.empty()) {
-            if (inside < now[last].cost) now[last] = {inside, first, 0};
+            if (inside < now[last].cost) now[last] = {inside, first, 0, inside};
             continue;
           }
           const auto& below = layers[index.back()];
           for (std::size_t b = 0; b < below.size(); ++b) {
-            const double sum = reached.back()[b].cost + costs[below[b]][set[first]] + inside;
-            if (sum < now[last].cost) now[last] = {sum, first, b};
+            const auto& until = reached.back()[b];
+            const double here = costs[below[b]][set[first]] + inside;
+            const Reached way{until.cost + here, first, b, std::max(until.dearest, here)};
+            if (way.better_than(now[last])) now[last] = way;
           }
         }
     }

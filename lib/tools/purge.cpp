@@ -89,4 +89,11 @@ Costs purge_volumes(const std::vector<Settings>& tools) {
   return out;
 }
 
+std::vector<double> purge_matrix(const std::vector<Settings>& tools) {
+  std::vector<double> out;
+  if (tools.empty()) return out;
+  for (const auto& row : purge_volumes(tools)) out.insert(out.end(), row.begin(), row.end());
+  return out;
+}
+
 }  // namespace weft::tools

@@ -22,5 +22,7 @@ double difference(Rgb a, Rgb b);
 /// mm³ from each tool to each.
 /// Pre: purge_volumes holds n × n numbers or is auto (profile/profile.h checks that)
 Costs purge_volumes(const std::vector<Settings>& tools);
+/// The same row by row; empty where there are no tools.
+std::vector<double> purge_matrix(const std::vector<Settings>& tools);
 
 }  // namespace weft::tools

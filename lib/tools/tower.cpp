@@ -22,17 +22,36 @@ Um inner(Um side, Um line) {
   return side - 2 * line;
 }
 
-/// Lines of a strip, when each is so long.
-Um lines_of(const TowerLayer::Strip& strip, Um line, Um height, Um length) {
-  const double each = to_mm(line) * to_mm(height) * to_mm(length);
-  return static_cast<Um>(std::ceil(strip.mm3 / each - 1e-6));
+/// How a strip is laid: lines of a width, so far from one to the next.
+struct Laid {
+  Um width, pitch;
+};
+/// What is rammed has to be where it was reckoned to be; the lowest section holds the tower.
+Laid laid(const ToolSettings& settings, const TowerLayer::Strip& strip, Um line, bool lowest) {
+  if (strip.ram) return {line, line};
+  const Um width = rounded(line * settings.prime_tower_purge_width / 100);
+  return {width, lowest ? width : rounded(width * settings.prime_tower_purge_spacing / 100)};
+}
+
+/// Lines of a strip joined at their ends, each in the room between walls so far apart.
+Um lines_of(const TowerLayer::Strip& strip, const Laid& as, Um height, Um length) {
+  const double needed = 1000 * strip.mm3 / (to_mm(as.width) * to_mm(height));
+  return static_cast<Um>(std::ceil((needed + as.pitch) / (length - as.width + as.pitch) - 1e-6));
 }
 
 /// Do the layer's strips fit when lines are `along` long and lie side by side over `across`?
-bool fits(const TowerLayer& layer, Um line, Um along, Um across) {
+bool fits(const ToolSettings& settings, const TowerLayer& layer, bool lowest, Um line, Um along, Um across) {
   Um sum = 0;
-  for (const auto& strip : layer.strips) sum += lines_of(strip, line, layer.height_of(strip), along) * line;
+  for (const auto& strip : layer.strips) {
+    const auto as = laid(settings, strip, line, lowest);
+    sum += lines_of(strip, as, layer.height_of(strip), along) * as.pitch;
+  }
   return sum <= across;
+}
+
+/// How far a tower that gets wider leans out, so far up.
+Um leans(const ToolSettings& settings, Um up) {
+  return rounded(std::tan(settings.prime_tower_flare_angle * std::numbers::pi / 180) * std::max(0, up));
 }
 
 /// What a section's strips cover.
@@ -52,7 +71,7 @@ Ring rectangle(Um from, Um width, Um depth) {
   return {{from, from}, {width - from, from}, {width - from, depth - from}, {from, depth - from}};
 }
 
-Ring laid(Ring ring, double degrees, Point corner) {
+Ring placed(Ring ring, double degrees, Point corner) {
   for (auto& p : ring) p = turned(p, degrees, corner);
   return ring;
 }
@@ -100,6 +119,9 @@ TowerSize tower_size(const ToolSettings& settings, std::span<const TowerLayer> l
     most_mm2 = std::max(most_mm2, mm2_of(layer));
     top = std::max(top, layer.z);
   }
+  const auto first =
+      std::find_if(layers.begin(), layers.end(), [](const auto& layer) { return !layer.strips.empty(); });
+  if (first != layers.end()) out.first = first->z - first->height;
   const Um least = std::max(least_side, rounded(side_by_height * top));
   const Um square = rounded(1000 * std::sqrt(most_mm2)) + 2 * out.line;
   out.width = settings.prime_tower_width.value_or(std::max(least, square));
@@ -107,7 +129,8 @@ TowerSize tower_size(const ToolSettings& settings, std::span<const TowerLayer> l
   const auto all_fit = [&] {
     const Um w = inner(out.width, out.line), d = inner(out.depth, out.line);
     return std::all_of(layers.begin(), layers.end(), [&](const TowerLayer& layer) {
-      return fits(layer, out.line, w, d) && fits(layer, out.line, d, w);
+      const bool lowest = &layer == &layers.front();
+      return fits(settings, layer, lowest, out.line, w, d) && fits(settings, layer, lowest, out.line, d, w);
     });
   };
   while (!all_fit()) {
@@ -115,10 +138,20 @@ TowerSize tower_size(const ToolSettings& settings, std::span<const TowerLayer> l
     if (!settings.prime_tower_width) out.width += out.line;
   }
   out.height = top;
+  if (settings.prime_tower_shape == TowerShape::plain && !layers.empty()) {
+    const Um in = leans(settings, out.first - layers.front().z);
+    out.foot = {std::clamp((out.width - least) / 2, 0, in), std::clamp((out.depth - least) / 2, 0, in)};
+  }
   return out;
 }
 
 namespace {
+
+/// How much narrower a section that ends at z is, on either side.
+Point narrower(const ToolSettings& settings, const TowerSize& size, Um z) {
+  const Um in = leans(settings, size.first - z);
+  return {std::min(size.foot.x, in), std::min(size.foot.y, in)};
+}
 
 /// Where a layer's lines run.
 struct Lines {
@@ -127,9 +160,24 @@ struct Lines {
   Um begin = 0, end = 0;   ///< of each line; the ends are round
   Um first = 0, last = 0;  ///< of their middles, across
   Um height = 0;
+  Um pitch = 0;  ///< of those of a strip …
+  Um aside = 0;  ///< … whose middles lie so much farther in, as they are wider
 
   double mm3(const Bead& bead) const { return volume_mm3(bead, height); }
+  /// @param at where the middle of a line as wide as the tower's would be, nearest to what is laid already
+  Bead strip(Um at, Um count) const {
+    return bead_of(zigzag(at + aside, pitch, count, begin, end, along_y), line, false);
+  }
 };
+
+/// Lines of a strip among the tower's.
+Lines of_strip(const Lines& lines, const Laid& as, Um height) {
+  Lines out = lines;
+  out.line = as.width, out.pitch = as.pitch, out.height = height;
+  out.aside = (as.width - lines.line) / 2;
+  out.begin += out.aside, out.end -= out.aside;
+  return out;
+}
 
 /// What fills the room behind the strips: dense in the lowest layer.
 std::optional<Bead> grid(const ToolSettings& settings, const Lines& lines, std::size_t index, Um at) {
@@ -228,9 +276,12 @@ Beads walls(const ToolSettings& settings, const TowerSize& size, std::size_t ind
 
 }  // namespace
 
-std::vector<TowerBeads> tower_beads(const ToolSettings& settings, const TowerSize& size, const TowerLayer& layer,
+std::vector<TowerBeads> tower_beads(const ToolSettings& settings, const TowerSize& full, const TowerLayer& layer,
                                     std::size_t index, Point corner) {
   const bool along_y = index % 2 != 0;
+  const Point in = narrower(settings, full, layer.z);
+  TowerSize size = full;
+  size.width -= 2 * in.x, size.depth -= 2 * in.y;
   const Um line = size.line, half = line + line / 2;
   const Um along = along_y ? size.depth : size.width, across = along_y ? size.width : size.depth;
   const Lines lines{line, along_y, half, along - half, half, across - half, layer.height};
@@ -241,7 +292,7 @@ std::vector<TowerBeads> tower_beads(const ToolSettings& settings, const TowerSiz
   const auto add = [&](std::size_t pass, Bead bead, Um height, bool ram = false) {
     auto at = std::find_if(out.begin(), out.end(), [&](const auto& b) { return b.pass == pass && b.ram == ram; });
     if (at == out.end()) at = out.insert(out.end(), TowerBeads{pass, {}, ram, height});
-    for (auto& junction : bead.path) junction.at = turned(junction.at, settings.prime_tower_angle, corner);
+    for (auto& junction : bead.path) junction.at = turned(junction.at + in, settings.prime_tower_angle, corner);
     at->beads.push_back(std::move(bead));
   };
   // The strip of what prints the wall comes last: it is as wide as wall and grid leave to be purged.
@@ -253,25 +304,28 @@ std::vector<TowerBeads> tower_beads(const ToolSettings& settings, const TowerSiz
       last = &strip;
       continue;
     }
-    Lines own = lines;
-    own.height = layer.height_of(strip);
-    const Um count = lines_of(strip, line, own.height, inner(along, line));
-    Bead bead = bead_of(zigzag(at, line, count, lines.begin, lines.end, along_y), line, false);
+    const auto as = laid(settings, strip, line, index == 0);
+    const auto own = of_strip(lines, as, layer.height_of(strip));
+    const Um count = lines_of(strip, as, own.height, inner(along, line));
+    Bead bead = own.strip(at, count);
     if (!strip.ram) shorten(bead, own.mm3(bead) - strip.mm3, own);
     add(strip.pass, std::move(bead), own.height, strip.ram);
-    at += count * line;
+    at += count * as.pitch;
   }
+  const auto as = last != nullptr ? laid(settings, *last, line, index == 0) : Laid{line, line};
+  const auto own = of_strip(lines, as, layer.height);
   for (Um count = 0; last != nullptr; ++count) {
     std::optional<Bead> strip;
-    if (count > 0) strip = bead_of(zigzag(at, line, count, lines.begin, lines.end, along_y), line, false);
-    const auto rest = grid(settings, lines, index, at + count * line);
-    const double sum = of_walls + (strip ? lines.mm3(*strip) : 0) + (rest ? lines.mm3(*rest) : 0);
-    if (sum < last->mm3 && at + count * line <= lines.last) continue;
+    if (count > 0) strip = own.strip(at, count);
+    const Um behind = at + count * as.pitch;
+    const auto rest = grid(settings, lines, index, behind);
+    const double sum = of_walls + (strip ? own.mm3(*strip) : 0) + (rest ? lines.mm3(*rest) : 0);
+    if (sum < last->mm3 && behind <= lines.last) continue;
     if (strip) {
-      shorten(*strip, sum - last->mm3, lines);
+      shorten(*strip, sum - last->mm3, own);
       add(last->pass, std::move(*strip), layer.height);
     }
-    at += count * line;
+    at = behind;
     break;
   }
   if (auto rest = grid(settings, lines, index, at)) add(layer.wall_pass, std::move(*rest), layer.height);
@@ -281,10 +335,12 @@ std::vector<TowerBeads> tower_beads(const ToolSettings& settings, const TowerSiz
 
 Ring tower_outline(const ToolSettings& settings, const TowerSize& size, Point corner) {
   const Um brim = settings.prime_tower_brim_width / size.line * size.line;
+  const Point in{std::min(size.foot.x - brim, 0), std::min(size.foot.y - brim, 0)};
   if (settings.prime_tower_shape != TowerShape::plain)
     if (const auto foot = geometry::offset(foot_of(settings, size), {.by = brim}); !foot.empty())
-      return laid(foot.front().outer, settings.prime_tower_angle, corner);
-  return laid(rectangle(-brim, size.width, size.depth), settings.prime_tower_angle, corner);
+      return placed(foot.front().outer, settings.prime_tower_angle, corner);
+  const Point end{size.width - in.x, size.depth - in.y};
+  return placed({in, {end.x, in.y}, end, {in.x, end.y}}, settings.prime_tower_angle, corner);
 }
 
 std::optional<Point> place_for_tower(const ToolSettings& settings, const TowerSize& size, const Ring& surface,

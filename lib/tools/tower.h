@@ -39,8 +39,10 @@ bool lay_beside(const TowerLayer& film, TowerLayer& section, Um held, Um nozzle)
 /// reaches beyond.
 struct TowerSize {
   Um width = 0, depth = 0;
-  Um line = 0;    ///< width of its lines
-  Um height = 0;  ///< of the whole tower
+  Um line = 0;       ///< width of its lines
+  Um height = 0;     ///< of the whole tower
+  Um first = 0;      ///< below this nothing is purged
+  Point foot{0, 0};  ///< how much narrower the lowest section is, on either side (prime_tower_flare_angle)
 };
 
 /// @param layers upwards; a change of less height than that at which a bead holds is the caller's to avoid
@@ -58,7 +60,8 @@ struct TowerBeads {
 
 /// Strips side by side, each crossing all of the tower, along X in even layers and along Y in odd ones, so that each
 /// crosses every filament below; then lines prime_tower_max_bridging_distance apart, and a wall around all. Ribs and
-/// cone are loops of their own beside the wall, full in the lowest layer.
+/// cone are loops of their own beside the wall, full in the lowest layer. A plain tower is narrower where nothing is
+/// purged yet: by prime_tower_flare_angle it gets as wide as it has to be.
 /// @param index of the layer, from 0; the lowest is dense, and has the brim
 /// @param corner where 0, 0 of the tower comes to lie; it is turned about that by prime_tower_angle
 /// Post: the volume of what a pass lays down is what it is to purge; more where wall and grid alone are.

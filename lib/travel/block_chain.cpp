@@ -35,6 +35,42 @@ Order tour_of(PathOrder kind, const std::vector<Point>& places, const TourEnds& 
   return order;
 }
 
+/// The order of a layer below for places most of which have their own there, the others put in where they lie near the
+/// way. Nothing where too many are new.
+/// @param below  its places in their order
+std::optional<Order> order_like(const std::vector<Point>& below, const std::vector<Point>& places) {
+  Order by_x(places.size());
+  for (std::uint32_t i = 0; i < by_x.size(); ++i) by_x[i] = i;
+  std::sort(by_x.begin(), by_x.end(),
+            [&](auto a, auto b) { return std::pair(places[a], a) < std::pair(places[b], b); });
+  std::vector<char> taken(places.size(), 0);
+  Order out;
+  for (const Point p : below) {
+    auto i = std::lower_bound(by_x.begin(), by_x.end(), p.x - same_block_um,
+                              [&](auto a, double x) { return places[a].x < x; });
+    double least = same_block_um;
+    std::optional<std::uint32_t> own;
+    for (; i != by_x.end() && places[*i].x <= p.x + same_block_um; ++i)
+      if (const double d = distance(places[*i], p); taken[*i] == 0 && d < least) least = d, own = *i;
+    if (own) taken[*own] = 1, out.push_back(*own);
+  }
+  if (out.size() * 8 < places.size() * 7) return std::nullopt;
+  for (std::uint32_t i = 0; i < places.size(); ++i) {
+    if (taken[i] != 0) continue;
+    std::size_t best = 0;
+    double least = distance(places[i], places[out.front()]);
+    for (std::size_t k = 1; k <= out.size(); ++k) {
+      const Point before = places[out[k - 1]];
+      const double more = k == out.size() ? distance(before, places[i])
+                                          : distance(before, places[i]) + distance(places[i], places[out[k]]) -
+                                                distance(before, places[out[k]]);
+      if (more < least) least = more, best = k;
+    }
+    out.insert(out.begin() + static_cast<std::ptrdiff_t>(best), i);
+  }
+  return out;
+}
+
 /// The shortest order that begins at one block and, where that is said, ends at another.
 Passage passage(PathOrder kind, const std::vector<Point>& places, std::uint32_t first,
                 std::optional<std::uint32_t> last) {
@@ -85,6 +121,16 @@ std::vector<Passage> passages_of(PathOrder kind, const std::vector<Point>& place
 
 }  // namespace
 
+Order shortened(const std::vector<Point>& places, const Order& order, const TourEnds& ends) {
+  std::vector<Stop> stops;
+  std::vector<Visit> visits;
+  for (const Point p : places) stops.push_back({p, p});
+  for (const auto i : order) visits.push_back({i, false});
+  Order out;
+  for (const auto& v : shortened(stops, visits, ends)) out.push_back(v.stop);
+  return out;
+}
+
 /// Of one layer; none where it has no blocks.
 struct BlockChain::Passages {
   std::vector<Passage> all;
@@ -96,12 +142,13 @@ BlockChain::~BlockChain() = default;
 void BlockChain::add(BlockPlaces layer) {
   auto& here = layers_.emplace_back().all;
   if (layer.places.empty()) return;
-  if (kind_ == PathOrder::nearest || layer.places.size() > most_blocks) {
+  if (kind_ == PathOrder::nearest || layer.small || layer.places.size() > most_blocks) {
     // From where the best way so far ends.
     const auto best = static_cast<std::size_t>(std::min_element(costs_.begin(), costs_.end()) - costs_.begin());
     const auto from = layer.before ? layer.before : exits_.empty() ? std::nullopt : std::optional(exits_[best]);
     Passage only;
-    only.order = tour_of(kind_, layer.places, {from, std::nullopt});
+    only.order =
+        layer.small ? one_way(layer.places, {from, std::nullopt}) : tour_of(kind_, layer.places, {from, std::nullopt});
     here.push_back(std::move(only));
   } else {
     here = passages_of(kind_, layer.places, exits_);
@@ -123,6 +170,18 @@ void BlockChain::add(BlockPlaces layer) {
   for (const auto& p : here) exits_.push_back(layer.places[p.order.back()]), costs_.push_back(p.whole);
 }
 
+/// Local moves from the order below find what a search from nothing does, but for what adds up over many layers.
+Order BlockChain::one_way(const std::vector<Point>& places, const TourEnds& ends) {
+  constexpr int most_alike = 8;
+  std::optional<Order> order;
+  if (kind_ == PathOrder::optimized && !below_.empty() && like_below_ < most_alike) order = order_like(below_, places);
+  like_below_ = order ? like_below_ + 1 : 0;
+  order = order ? shortened(places, *order, ends) : tour_of(kind_, places, ends);
+  below_.clear();
+  for (const auto i : *order) below_.push_back(places[i]);
+  return *order;
+}
+
 std::vector<std::vector<std::uint32_t>> BlockChain::orders() {
   std::vector<std::vector<std::uint32_t>> orders(layers_.size());
   auto at = static_cast<std::size_t>(std::min_element(costs_.begin(), costs_.end()) - costs_.begin());
@@ -132,7 +191,7 @@ std::vector<std::vector<std::uint32_t>> BlockChain::orders() {
     orders[i] = std::move(chosen.order);
     at = chosen.came;
   }
-  layers_.clear(), exits_.clear(), costs_ = {0};
+  layers_.clear(), exits_.clear(), costs_ = {0}, below_.clear(), like_below_ = 0;
   return orders;
 }
 

@@ -69,6 +69,26 @@ void put_support_first(const std::vector<BlockOwner>& owners, std::vector<std::u
   order = std::move(out);
 }
 
+/// What follows each other of support, or of parts, in the shortest order from what is before it to what comes after.
+/// @param fixed  so many at the beginning stay where they are
+void shorten_runs(const std::vector<BlockOwner>& owners, const Linked& layer, std::size_t fixed,
+                  std::vector<std::uint32_t>& order) {
+  if (owners.empty()) return;
+  std::optional<Point> from = fixed > 0 ? layer.places[order[fixed - 1]] : layer.from;
+  for (std::size_t begin = fixed, end = fixed; begin < order.size(); begin = end) {
+    std::vector<Point> places;
+    std::vector<std::uint32_t> run, as_it_is;
+    for (; end < order.size() && owners[order[end]].support == owners[order[begin]].support; ++end) {
+      as_it_is.push_back(static_cast<std::uint32_t>(run.size()));
+      run.push_back(order[end]), places.push_back(layer.places[order[end]]);
+    }
+    const auto to = end < order.size() ? std::optional(layer.places[order[end]]) : std::nullopt;
+    std::size_t k = begin;
+    for (const auto i : shortened(places, as_it_is, {from, to})) order[k++] = run[i];
+    from = layer.places[order[end - 1]];
+  }
+}
+
 }  // namespace
 
 Linker::Linker(const TravelSettings& settings)
@@ -111,6 +131,7 @@ void Linker::add(const Prepared& layer) {
   BlockPlaces blocks;
   if (adhesion) blocks.before = out.places[0], out.block_order.push_back(0);
   blocks.places.assign(out.places.begin() + (adhesion ? 1 : 0), out.places.end());
+  blocks.small = !owners_.back().empty();
   chain_->add(std::move(blocks));
 }
 
@@ -123,6 +144,7 @@ std::vector<Linked> Linker::linked() {
     const auto skip = static_cast<std::uint32_t>(out.block_order.size());
     for (const std::uint32_t b : orders[i]) out.block_order.push_back(b + skip);
     put_support_first(owners_[i], out.block_order);
+    if (settings_.path_order == PathOrder::optimized) shorten_runs(owners_[i], out, skip, out.block_order);
     if (out.block_order.empty()) continue;
     out.begin = out.places[out.block_order.front()];
     at = out.places[out.block_order.back()];

@@ -87,23 +87,75 @@ Regions free_area(const Room& room) {
 
 Obstacles::Obstacles(const TravelSettings& settings, const LayerInput& input)
     : settings_(settings), input_(input), what_(obstacles_of(settings, input)) {
+  std::vector<Box> reach;
   for (const Region& region : what_) {
-    reach_.push_back(box_of(region.outer).grown(settings.travel_avoid_distance + 2));
+    reach.push_back(box_of(region.outer).grown(settings.travel_avoid_distance + 2));
     convex_.push_back(region.holes.empty() && is_convex(region.outer));
   }
+  for (auto& together : geometry::touching(reach)) {
+    Box box;
+    for (const std::size_t i : together) box.add(reach[i]);
+    clusters_.push_back({std::move(together), box});
+  }
+  open_ = is_open();
 }
 
-/// Whether p lies in what is kept off a convex obstacle: a way that begins or ends there leaves it just once.
-bool Obstacles::leaves_freely(std::size_t i, Point p) const {
+bool Obstacles::is_open() const {
+  const Room& room = input_.room;
+  if (!room.no_go.empty()) return false;
+  if (room.reach.size() < 3) return true;
+  Box all;
+  for (const Cluster& cluster : clusters_) all.add(cluster.reach);
+  return surrounds(room.reach, all);
+}
+
+const Regions& Obstacles::kept_off(const Cluster& cluster) const {
+  if (cluster.kept_off.empty()) {
+    Regions some;
+    for (const std::size_t i : cluster.of) some.push_back(what_[i]);
+    cluster.kept_off =
+        geometry::offset(some, {.by = settings_.travel_avoid_distance, .corner = geometry::Corner::round});
+  }
+  return cluster.kept_off;
+}
+
+/// Whether p lies in what is kept off something without holes: a way that begins or ends there leaves it just once.
+bool Obstacles::leaves_freely(const Cluster& cluster, Point p) const {
   constexpr Um doubt = 20;  // of the arcs at its corners
-  return convex_[i] && reach_[i].contains(p) && is_near(what_[i].outer, p, settings_.travel_avoid_distance - doubt);
+  if (!cluster.reach.contains(p)) return false;
+  if (cluster.of.size() == 1 && convex_[cluster.of.front()])
+    return is_near(what_[cluster.of.front()].outer, p, settings_.travel_avoid_distance - doubt);
+  const Regions& off = kept_off(cluster);
+  return off.size() == 1 && off.front().holes.empty() && side_of(off.front().outer, p) == Side::inside;
 }
 
-bool Obstacles::nothing_between(Point p, Point q) const {
-  if (!input_.room.no_go.empty() || (input_.room.reach.size() >= 3 && !is_convex(input_.room.reach))) return false;
-  for (std::size_t i = 0; i < what_.size(); ++i)
-    if (meets(p, q, reach_[i]) && !leaves_freely(i, p) && !leaves_freely(i, q)) return false;
-  return true;
+/// The clusters that may stand in the straight way.
+std::vector<std::uint32_t> Obstacles::between(Point p, Point q) const {
+  std::vector<std::uint32_t> out;
+  for (std::uint32_t i = 0; i < clusters_.size(); ++i) {
+    const Cluster& cluster = clusters_[i];
+    if (meets(p, q, cluster.reach) && !leaves_freely(cluster, p) && !leaves_freely(cluster, q)) out.push_back(i);
+  }
+  return out;
+}
+
+/// Such a way keeps to the rings that the straight one meets: it can meet no others but those in their box.
+std::optional<Polyline> Obstacles::way_round(Point p, Point q, const std::vector<std::uint32_t>& between) const {
+  Box box;
+  box.add(p), box.add(q);
+  for (const auto i : between) box.add(clusters_[i].reach);
+  std::vector<Ring> rings;
+  Box all = box;
+  for (const Cluster& cluster : clusters_)
+    if (box.overlaps(cluster.reach)) {
+      for (Ring& ring : geometry::rings_of(kept_off(cluster))) rings.push_back(std::move(ring));
+      all.add(cluster.reach);
+      ++gathered_;
+    }
+  all = all.grown(1000);
+  rings.push_back({all.min, {all.max.x, all.min.y}, all.max, {all.min.x, all.max.y}});
+  const Comb comb(std::move(rings));
+  return comb.way(p, q, {comb.hole_around(p), comb.hole_around(q)});
 }
 
 const Comb& Obstacles::around() const {
@@ -113,7 +165,11 @@ const Comb& Obstacles::around() const {
 
 std::optional<Polyline> Obstacles::way(Point p, Point q) const {
   if (what_.empty()) return std::nullopt;
-  if (nothing_between(p, q)) return Polyline{q};
+  if (open_) {
+    const auto clusters = between(p, q);
+    if (clusters.empty()) return Polyline{q};
+    if (gathered_ < clusters_.size()) return way_round(p, q, clusters);  // then all of them at once cost less
+  }
   const Comb& comb = around();
   if (comb.empty()) return std::nullopt;
   return comb.way(p, q, {comb.hole_around(p), comb.hole_around(q)});

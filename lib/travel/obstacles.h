@@ -2,6 +2,7 @@
 #pragma once
 #include "travel/travel.h"
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -18,19 +19,31 @@ class Obstacles {
 
   /// A short way that keeps travel_avoid_distance from what stands between two places, as the points after p; straight
   /// where nothing does. Nothing where none was found, or nothing is to be gone round.
+  /// Cost: what stands between the two, and what stands beside that.
   std::optional<Polyline> way(Point p, Point q) const;
 
  private:
-  bool nothing_between(Point p, Point q) const;
-  bool leaves_freely(std::size_t i, Point p) const;
+  /// What stands so near to each other that no way leads between.
+  struct Cluster {
+    std::vector<std::size_t> of;  ///< what_
+    Box reach;                    ///< with what is kept off
+    mutable Regions kept_off{};   ///< made when a way asks for it
+  };
+  const Regions& kept_off(const Cluster& cluster) const;
+  bool leaves_freely(const Cluster& cluster, Point p) const;
+  bool is_open() const;
+  std::vector<std::uint32_t> between(Point p, Point q) const;
+  std::optional<Polyline> way_round(Point p, Point q, const std::vector<std::uint32_t>& between) const;
   const Comb& around() const;
 
   const TravelSettings& settings_;
   const LayerInput& input_;
   Regions what_;
-  std::vector<Box> reach_;  ///< of each of them, with what is kept off
-  std::vector<char> convex_;
-  mutable std::optional<Comb> around_;  ///< made when something stands between: in most layers nothing does
+  std::vector<char> convex_;            ///< beside what_
+  std::vector<Cluster> clusters_;       ///< they do not meet
+  bool open_;                           ///< all of them stand free in a convex room
+  mutable std::size_t gathered_ = 0;    ///< so many clusters were looked at for single ways
+  mutable std::optional<Comb> around_;  ///< all of a layer: made when ways ask for much of it, or the room is not open
 };
 
 }  // namespace weft::travel

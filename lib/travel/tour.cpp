@@ -73,12 +73,12 @@ class Search {
     longest_move_ = n_ <= 4000 ? n_ : 1000;
   }
 
-  std::vector<Visit> run() {
+  std::vector<Visit> run(bool with_kicks) {
     // A move shortens the way by at least a micron, and the budget bounds the worst case.
     queue_.clear();
     for (const auto& place : places_) queue_.push_back(place.stop);
     settle(40L * n_ + 1000);
-    if (n_ >= fewest_to_kick && n_ <= most_to_kick) kick_and_settle();
+    if (with_kicks && n_ >= fewest_to_kick && n_ <= most_to_kick) kick_and_settle();
     std::vector<Visit> visits;
     visits.reserve(places_.size());
     for (const auto& place : places_) visits.push_back({place.stop, place.reversed});
@@ -392,7 +392,11 @@ double way(std::span<const Stop> stops, std::span<const Visit> visits, const Tou
 std::vector<Visit> tour(PathOrder order, std::span<const Stop> stops, const TourEnds& ends) {
   if (stops.empty()) return {};
   const auto visits = nearest_tour(stops, ends);
-  return order == PathOrder::nearest ? visits : Search(stops, visits, ends).run();
+  return order == PathOrder::nearest ? visits : Search(stops, visits, ends).run(true);
+}
+
+std::vector<Visit> shortened(std::span<const Stop> stops, const std::vector<Visit>& visits, const TourEnds& ends) {
+  return visits.size() < 2 ? visits : Search(stops, visits, ends).run(false);
 }
 
 }  // namespace weft::travel

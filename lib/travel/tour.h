@@ -35,6 +35,9 @@ struct TourEnds {
 ///         lists and don't-look bits); Or 1976, Lin & Kernighan 1973 (Or-3opt with positive sums of gains).
 std::vector<Visit> tour(PathOrder order, std::span<const Stop> stops, const TourEnds& ends);
 
+/// The same from an order that is nearly as short: local moves only, nothing is tried anew. Never longer than it.
+std::vector<Visit> shortened(std::span<const Stop> stops, const std::vector<Visit>& visits, const TourEnds& ends);
+
 /// Length of the way between the stops, and from and to the ends, fractional microns.
 double way(std::span<const Stop> stops, std::span<const Visit> visits, const TourEnds& ends);
 

@@ -168,6 +168,23 @@ TEST_CASE("change: while filament is drawn out and pushed in the nozzle goes on 
   CHECK_THAT(after, Contains("M900 K0.05\n") && Contains("M220 R\n"));
 }
 
+TEST_CASE("change: between two cooling moves the tip is stamped, as far and as fast as is said") {
+  const Boxes boxes;
+  const auto lines =
+      lines_of(boxes.slice({"-s", "tool_nozzles=0,0", "-s", "parking_pos_retraction=80", "-s", "cooling_tube_length=10",
+                            "-s", "cooling_tube_retraction=60", "-s", "filament_cooling_moves=3", "-s",
+                            "filament_stamping_distance=40", "-s", "filament_stamping_loading_speed=29"}));
+  int pushed = 0, drawn = 0, changes = 0;
+  for (const auto& line : lines) {
+    if (line == "T0" || line == "T1") ++changes;
+    if (line.starts_with("G1 E45 F1740")) ++pushed;  // 40 mm and half the tube, 29 mm/s
+    if (line.starts_with("G1 E-45 F5400")) ++drawn;  // at the unloading speed, 90 mm/s
+  }
+  CHECK(changes == 11);
+  CHECK(pushed == 2 * (changes - 1));  // not before the first cooling move, nor behind the last
+  CHECK(drawn == pushed);
+}
+
 TEST_CASE("change: a nozzle that is put away lays what it is to be emptied of on the tower, quickly") {
   const Boxes boxes;
   boxes.slice({"-s", "nozzle_diameter=0.4,0.4", "-s", "prime_tower_enable=true"});
@@ -244,6 +261,8 @@ TEST_CASE("tower: ribs and a cone stand beside its walls, widest at the bed, and
                            "-s",
                            "prime_tower_shape=" + shape,
                            "-s",
+                           "prime_tower_flare_angle=0",
+                           "-s",
                            "prime_tower_cone_angle=90",
                            "-s",
                            "layer_height=0.3"},
@@ -306,6 +325,71 @@ TEST_CASE("tower: one that is not kept up lies lower, the nozzle goes down to it
   CHECK(above == Approx(8));
   CHECK(highest < 2.5);
   CHECK(highest > 2);
+}
+
+TEST_CASE("tower: objects that are printed one after the other purge side by side on the bed, a tool after the other") {
+  const Boxes boxes;
+  boxes.scratch.write("high.stl", box_stl(10, 10, 12));
+  Lines words{"slice",
+              "high.stl",
+              "b.stl@T1",
+              "--copies",
+              "high=2",
+              "--arrange",
+              "-o",
+              "out.gcode",
+              "-q",
+              "-s",
+              "tool_nozzles=0,0",
+              "-s",
+              "firmware=marlin2",
+              "-s",
+              "relative_extrusion=true",
+              "-s",
+              "print_sequence=one_at_a_time",
+              "-s",
+              "machine_head_profile=0: -1x-1, 1x-1, 1x1, -1x1; 8: -15x-15, 15x-15, 15x15, -15x15"};
+  const auto run = [&](const Lines& more) {
+    auto all = words;
+    all.insert(all.end(), more.begin(), more.end());
+    return weft(all, boxes.scratch.path());
+  };
+  const auto passed = run({});
+  INFO(passed.err);
+  REQUIRE(passed.status == 0);  // the audit has followed the head
+  const auto lines = lines_of(boxes.scratch.read("out.gcode"));
+  const Tower tower(lines);
+  const auto places = places_of(lines);
+  std::string type;
+  Lines changes;
+  double purged = 0, highest = 0;
+  std::size_t changed = 0, skirt = 0, first_purged = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (lines[i].starts_with(";TYPE:")) type = lines[i].substr(6);
+    if (lines[i] == "T0" || lines[i] == "T1") {
+      changes.push_back(lines[i]);
+      if (changes.size() != 2) continue;
+      CHECK(tower.holds(places[i]));
+      changed = i;
+    }
+    if (changed != 0 && skirt == 0 && type == "Skirt/Brim" && i > changed && word(lines[i], 'E')) skirt = i;
+    const auto e = word(lines[i], 'E');
+    if (type != "Wipe tower" || !e || *e <= 0 || !(word(lines[i], 'X') || word(lines[i], 'Y'))) continue;
+    if (first_purged == 0) first_purged = i;
+    purged += *e;
+    highest = std::max(highest, *places[i].z);
+  }
+  CHECK(changes == Lines{"T1", "T0"});  // the lowest first, then both of the other
+  CHECK(highest == Approx(0.2));
+  CHECK(purged * 2.405 >= 140);  // mm³ of 1.75 mm filament
+  CHECK(first_purged < skirt);   // which is of the filament that is loaded then
+  CHECK(run({"-s", "adhesion_type=raft"}).status == 3);
+  CHECK_THAT(run({"-s", "ooze_shield_enabled=true"}).err, Contains("ooze_shield_enabled: it is a wall around all"));
+  const auto nowhere = run({"-s", "prime_tower_position_x=100", "-s", "prime_tower_position_y=100"});
+  CHECK(nowhere.status == 5);
+  const auto off = run({"-s", "prime_tower_enable=false"});
+  CHECK(off.status == 0);
+  CHECK_THAT(boxes.scratch.read("out.gcode"), !Contains(";TYPE:Wipe tower"));
 }
 
 TEST_CASE("gradient: stripes across the bed are as wide as their shares") {

@@ -179,11 +179,20 @@ TEST_CASE("cli: filaments that share a nozzle are purged into a tower, and the a
 
 TEST_CASE("cli: a tower that is told to stand outside the bed is refused with how far, and nothing is written") {
   const Boxes boxes;
-  const auto error = boxes.slice({"a.stl", "b.stl@T1", "-s", "tool_nozzles=0,0", "-s", "prime_tower_position_x=215",
+  const auto error = boxes.slice({"a.stl", "b.stl@T1", "-s", "tool_nozzles=0,0", "-s", "prime_tower_position_x=225",
                                   "-s", "prime_tower_position_y=100"},
                                  5);
   CHECK_THAT(error, Contains("prime_tower_position_x: the tower with its brim") && Contains("at +x; auto, or at most"));
   CHECK_FALSE(boxes.scratch.has("out.gcode"));
+  // What is told is enough at once.
+  const auto most = std::stod(error.substr(error.find("at most ") + 8));
+  const auto put = [&](double x, int status) {
+    boxes.slice({"a.stl", "b.stl@T1", "-s", "tool_nozzles=0,0", "-s", "adhesion_type=none", "-s",
+                 "prime_tower_position_x=" + std::to_string(x), "-s", "prime_tower_position_y=100"},
+                status);
+  };
+  put(most, 0);
+  put(most + 0.5, 5);
   const auto half = boxes.slice({"a.stl", "b.stl@T1", "-s", "tool_nozzles=0,0", "-s", "prime_tower_position_y=5"}, 3);
   CHECK_THAT(half, Contains("prime_tower_position_y: prime_tower_position_x is auto; say where it stands along both"));
 }

@@ -32,6 +32,29 @@ TEST_CASE("verify: a file of weft is made again from what it says of itself, byt
   }
 }
 
+TEST_CASE("verify: the time of day is told where SOURCE_DATE_EPOCH says one, and made again without it") {
+  Scratch scratch;
+  scratch.write("part.stl", box_stl(8, 8, 1));
+  scratch.write("p.ini", "machine_start_gcode = G28\\nM117 [timestamp] {year}/{month}/{day}\n");
+  scratch.write("plain.ini", "machine_start_gcode = G28 ; of the year\n");
+  scratch.write("list.jsonl", R"({"id": "one", "models": ["part.stl"], "profiles": ["p.ini"]})");
+  const auto slice = [&](const std::string& environment, const std::string& profile) {
+    return shell(environment + " $WEFT slice part.stl -o out.gcode -q -p " + profile, scratch.path());
+  };
+  CHECK_THAT(slice("", "p.ini").err, Contains("'timestamp' would differ from run to run"));
+  CHECK_THAT(slice("SOURCE_DATE_EPOCH=yesterday", "p.ini").err, Contains("SOURCE_DATE_EPOCH: 'yesterday'"));
+  REQUIRE(slice("SOURCE_DATE_EPOCH=1764217080", "p.ini").status == 0);
+  CHECK_THAT(scratch.read("out.gcode"), Contains("M117 20251127-041800 2025/11/27\n"));
+  CHECK(weft({"verify", "out.gcode"}, scratch.path()).status == 0);
+  REQUIRE(shell("SOURCE_DATE_EPOCH=0 $WEFT batch list.jsonl -o out -q", scratch.path()).status == 0);
+  CHECK_THAT(scratch.read("out/one.gcode"), Contains("M117 19700101-000000 1970/1/1\n"));
+  // Who does not ask is told nothing.
+  REQUIRE(slice("SOURCE_DATE_EPOCH=1764217080", "plain.ini").status == 0);
+  const auto told = scratch.read("out.gcode");
+  REQUIRE(slice("", "plain.ini").status == 0);
+  CHECK(scratch.read("out.gcode") == told);
+}
+
 TEST_CASE("verify: what was changed since is told, file or model") {
   Scratch scratch;
   scratch.write("part.stl", box_stl(20, 10, 3));

@@ -88,6 +88,41 @@ TEST_CASE("gcode: under PrusaSlicer's names values have PrusaSlicer's units and 
   CHECK(expanded("{retract_length[0]}", s) == "0");
 }
 
+TEST_CASE("gcode: a value that has one name in both is written as PrusaSlicer does") {
+  CHECK(expanded("[bridge_fan_speed] {bridge_fan_speed[0]} [gap_fill_enabled] {gap_fill_enabled}") == "100 100 1 true");
+}
+
+TEST_CASE("gcode: which tools print, of what, and what is purged between them, is told as lists") {
+  std::vector<Settings> tools(3);
+  tools[0].material.material_type = "PLA", tools[2].material.material_type = "PETG";
+  tools[0].material.filament_cost = 20, tools[2].material.filament_cost = 50;  // a kg
+  PrintPlan plan;
+  plan.layers.resize(1);
+  plan.layers[0].height = 200;
+  Extrude bead{.path = {}, .role = Role::outer_wall, .height = 200, .speed_mm_s = 50};
+  for (const Point p : Ring{{0, 0}, {10'000, 0}, {10'000, 10'000}, {5'000, 2'000}}) bead.path.push_back({p, 400, 1.F});
+  plan.layers[0].steps.emplace_back(bead);
+  Statistics statistics;
+  statistics.tools = {{.filament_mm3 = 1000, .filament_g = 10, .tower_mm3 = 500},
+                      {},
+                      {.filament_mm3 = 2000, .filament_g = 20, .tower_mm3 = 0}};
+  Job job{tools[0], plan, statistics, "x", {}};
+  job.tools = tools;
+  job.purge_volumes = {0, 1, 2, 3, 0, 5, 6, 7, 0};
+  const auto variables = print_variables(job);
+  const auto said = [&](const char* text) {
+    macro::Scope scope;
+    return macro::Template(text, "machine_start_gcode").expand(variables, scope);
+  };
+  CHECK(said("{is_extruder_used[0]} {is_extruder_used[1]} {is_extruder_used[2]} [num_printing_extruders]") ==
+        "true false true 2");
+  CHECK(said("[printing_filament_types] [initial_filament_type]") == "PLA,PETG PLA");
+  CHECK(said("[total_cost] [total_wipe_tower_filament] [total_wipe_tower_cost]") == "1.2 5 0.1");
+  CHECK(said("{wiping_volumes_matrix[2]} {wiping_volumes_matrix[6]} {size(wiping_volumes_matrix)}") == "2 6 9");
+  // Half a line of 0.4 mm more than the middle line on every side; what lies within is no corner.
+  CHECK(said("{first_layer_print_convex_hull[0]} {size(first_layer_print_convex_hull)}") == "-0.221,-0.221 5");
+}
+
 TEST_CASE("gcode: a first-layer value that is auto stands for what it resolves to") {
   CHECK(expanded("{material_print_temperature_layer_0} {initial_layer_height}") == "210 0.2");
 }

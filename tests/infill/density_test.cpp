@@ -2,6 +2,7 @@
 #include "infill/density.h"
 
 #include "areas.h"
+#include "geometry/spatial_index.h"
 #include "infill/concentric.h"
 #include "infill/prepared.h"
 #include "infill/sparse.h"
@@ -150,11 +151,9 @@ TEST_CASE("density: a wedge of densities is laid as it is asked for, by every wa
                                .reach = 30'000,
                                .even = !part.dithered},
                               beads);
-          if (part.dithered) continue;
-          prepared.density->follow(part.level, z, from, beads);
-          prepared.density->even(part.region, z, from, beads);
+          if (!part.dithered) prepared.density->follow(part.level, z, from, beads);
         }
-        prepared.density->even(block.outline.front(), z, 0, beads);
+        prepared.density->even(block.outline.front(), z, 420, dither != DensityDither::none, 0, beads);
         const auto [l, r] = halves(beads, 30'000);
         left += l / 1'200 / layers, right += r / 1'200 / layers;
       }
@@ -187,8 +186,92 @@ TEST_CASE("density: rings are as far apart at each place as it asks for, and the
   // ∫ρ dx / band = k + ½ with ρ = 0.1 + 0.3 x / 60 mm
   const auto before = [](double x) { return (0.1 * x + 0.0025e-3 * x * x) / 420; };
   for (std::size_t k = 0; k < 3; ++k) CHECK(before(met[k]) == Approx(static_cast<double>(k) + 0.5).margin(0.06));
-  density.even(block.outline.front(), 5'000, 0, beads);
+  density.even(block.outline.front(), 5'000, 420, false, 0, beads);
   CHECK(covered_mm2(beads) == Approx(0.25 * 60 * 40).epsilon(0.005));
+}
+
+TEST_CASE("density: what joins lines at a border of levels is taken from the lines around it", "[infill]") {
+  const Block block;
+  const File csv("b.csv", "0,0,0,0.2\n15,0,0,0.2\n30,0,0,0.4\n45,0,0,0.4\n60,0,0,0.4\n");
+  InfillSettings s;
+  s.infill_density_field = csv.path.string(), s.infill_pattern = InfillPattern::grid;
+  const Density density = density_of(s, block);
+  const Region& region = block.outline.front();
+  // between two places across, as a share of what is asked for
+  const auto laid = [&](bool alike) {
+    double sum = 0;
+    for (std::size_t i = 0; i < 4; ++i) {  // the lines of each layer lie elsewhere
+      Beads beads;
+      for (const Density::Part& part : density.parts(region, 5'000, i)) {
+        const std::size_t from = beads.size();
+        const Point origin{static_cast<Um>(30'000 + 700 * i), 20'000};
+        infill::fill_sparse(part.region,
+                            {.density = part.level, .band = 420, .angle_rad = degrees(45), .origin = origin}, beads);
+        density.follow(part.level, 5'000, from, beads);
+      }
+      density.even(region, 5'000, 420, alike, 0, beads);
+      sum += (halves(beads, 26'000).first - halves(beads, 18'000).first) / 4;
+    }
+    return sum / (40 * (8 * 0.2 + 0.2 / 15 * (11 * 11 - 3 * 3) / 2));
+  };
+  const double off_alike = std::abs(laid(true) - 1), off = std::abs(laid(false) - 1);
+  CHECK(off_alike > 0.015);
+  CHECK(off < off_alike / 2);
+}
+
+namespace {
+
+/// How far a place is from the nearest line that does not end there.
+double from_others(const Beads& beads, Point p) {
+  std::vector<geometry::Segment> segments;
+  for (const Bead& bead : beads)
+    for (std::size_t i = 1; i < bead.path.size(); ++i)
+      if (bead.path[i - 1].at != p && bead.path[i].at != p) segments.push_back({bead.path[i - 1].at, bead.path[i].at});
+  const auto near = geometry::SegmentIndex(std::move(segments)).nearest(p);
+  return near ? near->distance_um : 1e9;
+}
+
+}  // namespace
+
+TEST_CASE("density: lines of a level run on through what is denser, and those between end beside lines they meet",
+          "[infill]") {
+  const Region region = rectangle(0, 0, 60'000, 40'000);
+  const Region denser = rectangle(20'000, 0, 60'000, 40'000), densest = rectangle(37'300, 9'100, 51'100, 30'700);
+  const std::vector<infill::DenseLevel> levels{{0.1, {region}}, {0.2, {denser}}, {0.4, {densest}}};
+  const infill::SparseStyle style{
+      .density = 0.2, .band = 420, .angle_rad = degrees(45), .overlap_um = 100, .reach = 60'000};
+  for (const auto pattern : {InfillPattern::grid, InfillPattern::triangles, InfillPattern::cubic}) {
+    CAPTURE(static_cast<int>(pattern));
+    auto own = style;
+    own.pattern = pattern;
+    Beads beads;
+    REQUIRE(infill::fill_levels(region, own, levels, beads));
+    CHECK(covered_mm2(beads) == Approx(0.1 * 2'400 + 0.1 * 1'600 + 0.2 * area_mm2(densest)).epsilon(0.02));
+    std::size_t inside = 0;
+    for (const Bead& bead : beads)
+      for (const Point end : {bead.path.front().at, bead.path.back().at})
+        if (end.x > 500 && end.x < 59'500 && end.y > 500 && end.y < 39'500) {
+          ++inside;
+          CHECK(from_others(beads, end) < 420);
+        }
+    CHECK(inside > 10);
+    Beads coarse;
+    own.density = 0.1, own.connect = false;
+    infill::fill_sparse(region, own, coarse);
+    for (const Bead& bead : coarse)  // where others end, these go on
+      for (int k = 1; k < 20; ++k) {
+        const Point a = bead.path.front().at, c = bead.path.back().at,
+                    p{a.x + (c.x - a.x) * k / 20, a.y + (c.y - a.y) * k / 20};
+        if (std::min({p.x, 60'000 - p.x, p.y, 40'000 - p.y}) > 2'000) CHECK(from_others(beads, p) < 3);
+      }
+  }
+  for (const auto pattern : {InfillPattern::lines, InfillPattern::trihexagon, InfillPattern::gyroid}) {
+    auto own = style;
+    own.pattern = pattern;
+    Beads beads;
+    CHECK(!infill::fill_levels(region, own, levels, beads));
+    CHECK(beads.empty());
+  }
 }
 
 TEST_CASE("density: patterns go by it", "[infill]") {

@@ -62,7 +62,14 @@ TEST_CASE("prusaslicer: a shared nozzle, its tower, and how a filament is drawn 
                  "wiping_volumes_matrix = 0,120,90,0\nparking_pos_retraction = 85\n"
                  "cooling_tube_retraction = 30\nextra_loading_move = -13\nfilament_loading_speed = 14,20\n"
                  "filament_ramming_parameters = \"120 100 6.6 6.8| 0.05 6.6\";\"130 120 2.7 2.9| 0.05 2.7\"\n"
-                 "filament_load_time = 15\nfilament_unload_time = 12\n");
+                 "filament_load_time = 15\nfilament_unload_time = 12\n"
+                 "wipe_tower_extra_spacing = 150%\nwipe_tower_extra_flow = 120%\n"
+                 "filament_stamping_distance = 0,45\nfilament_stamping_loading_speed = 20,29\n");
+  CHECK(value_of(t, "prime_tower_purge_spacing") == "150");
+  CHECK(value_of(t, "prime_tower_purge_width") == "120");
+  CHECK(value_of(t, "filament_stamping_distance") == "0");
+  CHECK(value_of(t, "tool.1.filament_stamping_distance") == "45");
+  CHECK(value_of(t, "tool.1.filament_stamping_loading_speed") == "29");
   CHECK(value_of(t, "tool_nozzles") == "0");
   CHECK(value_of(t, "prime_tower_enable") == "true");
   CHECK(value_of(t, "prime_tower_position_x") == "170");

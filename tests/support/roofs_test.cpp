@@ -41,7 +41,7 @@ TEST_CASE("support: every strand of a roof over branches lies on joists, and eve
       const auto& joists = plan.layers[k - 1].joists;
       if (joists.area.empty() || plan.layers[k].roof.empty()) continue;
       ++roofs;
-      const Regions rim = geometry::subtract(joists.area, geometry::offset(joists.area, {.by = -400}));
+      const Regions rim = geometry::subtract(joists.rimmed, geometry::offset(joists.rimmed, {.by = -400}));
       std::vector<Polyline> strands;
       for (Um x = -19900; x < 20000; x += 400) strands.push_back({{x, -30000}, {x, 30000}});
       const auto carried = [&](const std::vector<Polyline>& lines, const Regions& on) {
@@ -67,7 +67,8 @@ TEST_CASE("support: every strand of a roof over branches lies on joists, and eve
         inside.push_back(std::move(piece.line));
       CHECK(inside.size() > 50);
       carried(inside, geometry::unite(on));
-      carried(joists.lines, geometry::unite(all_of(plan.layers[k - 2]), rim));
+      // A joist is a bead: it lies on what is no further beside its middle than half its width.
+      carried(joists.lines, geometry::unite(grown(all_of(plan.layers[k - 2]), 200), rim));
     }
     CHECK(roofs == 1);
   }

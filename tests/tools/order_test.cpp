@@ -112,3 +112,9 @@ TEST_CASE("tools: three filaments of which two print in each layer change sixty 
   CHECK(least == 60);
   CHECK(tools::cost_of(tools::ordered(layers, even, ToolOrder::cyclic), even) > least);
 }
+
+TEST_CASE("tools: of orders that cost the same one is chosen that purges least in one layer", "[tools]") {
+  const Costs costs{{0, 140, 140}, {140, 0, 140}, {140, 140, 0}};
+  CHECK(tools::ordered({{0}, {0, 1}, {0}}, costs, ToolOrder::least) == ToolSets{{0}, {0, 1}, {0}});
+  CHECK(tools::ordered({{1}, {0, 1}, {1}}, costs, ToolOrder::least) == ToolSets{{1}, {1, 0}, {1}});
+}

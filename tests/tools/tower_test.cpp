@@ -179,3 +179,76 @@ TEST_CASE("tools: sections as high as their layers stay each on the one below", 
   CHECK(tools::lay_beside(film, section, 300, 400));  // so low a film is held by what it is laid on
   CHECK(section.z == 520);
 }
+
+TEST_CASE("tools: wider purged lines are fewer, lines farther apart take more room, and both are as much as before",
+          "[tools]") {
+  const auto layers = two_changes(4);
+  ToolSettings fat, apart;
+  fat.prime_tower_purge_width = 200;
+  apart.prime_tower_purge_spacing = 150;
+  const auto length = [&](const ToolSettings& settings, std::size_t i) {  // of what is purged; mm
+    const auto size = tools::tower_size(settings, layers, 400);
+    double mm = 0;
+    for (const auto& strip : layers[i].strips) {
+      double mm3 = 0;
+      for (const auto& own : tools::tower_beads(settings, size, layers[i], i, {}))
+        if (own.pass == strip.pass)
+          for (const auto& bead : own.beads) {
+            mm3 += volume_mm3(bead, own.height), mm += length_mm(bead);
+            for (const auto& junction : bead.path) {  // it lies within the walls, with half its width
+              const Box room = Box{{size.line, size.line}, {size.width - size.line, size.depth - size.line}};
+              CHECK(room.contains(Box{junction.at, junction.at}.grown(junction.width / 2).min));
+              CHECK(room.contains(Box{junction.at, junction.at}.grown(junction.width / 2).max));
+            }
+          }
+      CHECK(mm3 >= strip.mm3 - 1e-6);
+      CHECK(mm3 < strip.mm3 + 0.5);  // mm³: two widths of a line stay
+    }
+    return mm;
+  };
+  CHECK(length(fat, 2) == Approx(length({}, 2) / 2).epsilon(0.02));
+  CHECK(length(apart, 2) == Approx(length({}, 2)).epsilon(0.02));
+  const auto area = [&](const ToolSettings& settings) {
+    const auto size = tools::tower_size(settings, layers, 400);
+    return to_mm(size.width - 2 * size.line) * to_mm(size.depth - 2 * size.line);
+  };
+  CHECK(area(fat) == Approx(area({})).epsilon(0.15));
+  CHECK(area(apart) == Approx(1.5 * area({})).epsilon(0.15));
+  // Lines of a strip of the lowest section lie side by side.
+  const auto size = tools::tower_size(apart, layers, 400);
+  for (const std::size_t i : {std::size_t{0}, std::size_t{2}}) {
+    const auto path = tools::tower_beads(apart, size, layers[i], i, {}).front().beads.front().path;
+    CHECK(path[2].at.y - path[1].at.y == (i == 0 ? size.line : size.line * 3 / 2));
+  }
+}
+
+TEST_CASE("tools: below its first change a plain tower is as narrow as it can stand, and leans out from there",
+          "[tools]") {
+  std::vector<TowerLayer> layers;
+  for (int i = 0; i < 120; ++i) layers.push_back({200 * (i + 1), 200, {}, 0});
+  layers.back().strips.push_back({1, 200});
+  ToolSettings settings;
+  const auto size = tools::tower_size(settings, layers, 400);
+  const auto box = [&](std::size_t i) {
+    Box out;
+    for (const auto& own : tools::tower_beads(settings, size, layers[i], i, {}))
+      for (const auto& bead : own.beads)
+        if (bead.closed && (i > 0 || out.empty())) out.add(box_of(bead));  // the first is the wall
+    return out;
+  };
+  CHECK(box(119).size().x == size.width - size.line);
+  CHECK(to_mm(box(1).size().x) == Approx(to_mm(10_mm - size.line)).margin(0.002));
+  for (std::size_t i = 1; i < layers.size(); ++i) {
+    const Um out = box(i - 1).min.x - box(i).min.x;
+    CHECK(out >= 0);
+    CHECK(out <= 116);  // 200 µm · tan 30°
+  }
+  CHECK(box_of(tools::tower_outline(settings, size, {})).size().x == size.width);  // beyond the brim of its foot
+  for (const auto shape : {TowerShape::ribs, TowerShape::cone}) {
+    settings.prime_tower_shape = shape;
+    CHECK(tools::tower_size(settings, layers, 400).foot == Point{0, 0});
+  }
+  settings.prime_tower_shape = TowerShape::plain;
+  settings.prime_tower_flare_angle = 0;
+  CHECK(tools::tower_size(settings, layers, 400).foot == Point{0, 0});
+}

@@ -2,6 +2,7 @@
 // Triply periodic minimal surfaces, cut at a height: the curves where a sum of products of sines is zero.
 #include "infill/gyroid.h"
 #include "infill/level_set.h"
+#include "infill/repeated_curves.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,6 +44,21 @@ struct SchwarzP {
   static double value(const Wave& x, const Wave& y, const Wave& z) { return x.c + y.c + z.c; }
 };
 
+/// Of a surface, cut at a height, on a grid; where it repeats, waves along an axis are those of the first period.
+template <class Surface>
+std::vector<Curve> trace(const LevelGrid& grid, double unit, const Wave& z, std::size_t repeats) {
+  Waves across;
+  for (std::size_t i = 0; i < grid.columns; ++i) across.add(wave(grid.x(i % repeats) / unit));
+  std::vector<double> values(grid.columns * grid.rows);
+  for (std::size_t j = 0; j < grid.rows; ++j) {
+    stop_if_asked();
+    const Wave y = wave(grid.y(j % repeats) / unit);
+    double* row = &values[j * grid.columns];
+    for (std::size_t i = 0; i < grid.columns; ++i) row[i] = Surface::value(across[i], y, z);
+  }
+  return zero_curves(grid, values);
+}
+
 /// @param period of the surface along each axis, in distances of lines
 template <class Surface>
 Drawing cut_at(const PatternPlace& p, double period) {
@@ -50,24 +66,26 @@ Drawing cut_at(const PatternPlace& p, double period) {
   // chords of a curve with a radius of a sixth of the period stand off by 4 µm at most
   constexpr double off = 4;
   const double steps = std::clamp(std::ceil(std::sqrt(6 * length / (8 * off))), 16.0, 96.0);
-  const LevelGrid grid(p.area, length / steps);
+  const LevelGrid whole(p.area, length / steps);
   const Wave z = wave(p.z / unit);
-  Waves across;
-  for (std::size_t i = 0; i < grid.columns; ++i) across.add(wave(grid.x(i) / unit));
-  std::vector<double> values(grid.columns * grid.rows);
-  for (std::size_t j = 0; j < grid.rows; ++j) {
-    stop_if_asked();
-    const Wave y = wave(grid.y(j) / unit);
-    double* row = &values[j * grid.columns];
-    for (std::size_t i = 0; i < grid.columns; ++i) row[i] = Surface::value(across[i], y, z);
-  }
-  Drawing out{.curves = zero_curves(grid, values), .pitch = length / 2};
+  Drawing out{.pitch = length / 2};
+  const auto nodes = static_cast<std::size_t>(steps);
   const auto around = [&](double x, double y, double d) {
     const Wave wx = wave(x / unit), wy = wave(y / unit);
     return ValuesAround{Surface::value(wx, wy, z), Surface::value(wave((x + d) / unit), wy, z),
                         Surface::value(wx, wave((y + d) / unit), z)};
   };
-  mend_zero_curves(around, grid.step, out.curves);
+  if (whole.columns * whole.rows > 2 * nodes * nodes) {
+    LevelGrid first = whole;
+    first.min = {}, first.columns = first.rows = nodes + 1;
+    if (auto curves = join_over_borders(first, trace<Surface>(first, unit, z, nodes))) {
+      mend_zero_curves(around, first.step, *curves);
+      out.curves = repeat(*curves, length, p.area);
+      return out;
+    }
+  }
+  out.curves = trace<Surface>(whole, unit, z, whole.columns + whole.rows);
+  mend_zero_curves(around, whole.step, out.curves);
   return out;
 }
 

@@ -82,6 +82,8 @@ struct ToolSettings {
   int filament_cooling_moves = 4;
   double filament_cooling_initial_speed = 2.2;
   double filament_cooling_final_speed = 3.4;
+  Um filament_stamping_distance = 0_mm;
+  double filament_stamping_loading_speed = 20;
   double filament_toolchange_delay = 0;
   Um parking_pos_retraction = 0_mm;
   Um cooling_tube_retraction = 91.5_mm;
@@ -97,6 +99,9 @@ struct ToolSettings {
   double prime_tower_angle = 0;
   Um prime_tower_brim_width = 2_mm;
   Um prime_tower_max_bridging_distance = 10_mm;
+  double prime_tower_purge_width = 100;
+  double prime_tower_purge_spacing = 100;
+  double prime_tower_flare_angle = 30;
   TowerShape prime_tower_shape = TowerShape::plain;
   double prime_tower_cone_angle = 30;
   bool prime_tower_sparse = true;
@@ -201,6 +206,12 @@ inline constexpr Rows tool_schema{
             0.1, 100, "Speed of the first of those moves."),
     setting("filament_cooling_final_speed", Scope::tool, &ToolSettings::filament_cooling_final_speed, Unit::mm_s, 0.1,
             100, "Speed of the last of them."),
+    setting("filament_stamping_distance", Scope::tool, &ToolSettings::filament_stamping_distance, Unit::mm, 0_mm,
+            1000_mm,
+            "Between two of them the tip is pushed so far beyond the middle of the tube, towards the nozzle, and drawn "
+            "back: what strings is pressed into it; 0: it is not."),
+    setting("filament_stamping_loading_speed", Scope::tool, &ToolSettings::filament_stamping_loading_speed, Unit::mm_s,
+            0.1, 500, "Speed of that push; it is drawn back at filament_unloading_speed."),
     setting("filament_toolchange_delay", Scope::tool, &ToolSettings::filament_toolchange_delay, Unit::seconds, 0, 600,
             "How long is waited after the filament was drawn out."),
     setting("parking_pos_retraction", Scope::machine, &ToolSettings::parking_pos_retraction, Unit::mm, 0_mm, 2000_mm,
@@ -233,6 +244,16 @@ inline constexpr Rows tool_schema{
             "How far the tower's first layer reaches beyond it."),
     setting("prime_tower_max_bridging_distance", Scope::plate, &ToolSettings::prime_tower_max_bridging_distance,
             Unit::mm, 1_mm, 50_mm, "Between the lines where a layer of the tower is not filled by purging."),
+    setting("prime_tower_purge_width", Scope::plate, &ToolSettings::prime_tower_purge_width, Unit::percent, 100, 300,
+            "Width of the lines that are purged, of what the tower's lines are wide (1.25 nozzles): fewer and fatter "
+            "ones, quicker laid, on the same area."),
+    setting("prime_tower_purge_spacing", Scope::plate, &ToolSettings::prime_tower_purge_spacing, Unit::percent, 100,
+            300,
+            "From one of those lines to the next, of their width; beyond 100 the tower is wider and cools better. The "
+            "lowest section stays full."),
+    setting("prime_tower_flare_angle", Scope::plate, &ToolSettings::prime_tower_flare_angle, Unit::degrees, 0, 60,
+            "Below the first change the tower has nothing to hold but itself: it is as narrow there as it can stand, "
+            "and gets wider at this angle from the vertical; 0: as wide at the bed as above. Only of a plain one."),
     setting("prime_tower_shape", Scope::plate, &ToolSettings::prime_tower_shape,
             "What the tower has beside its walls to stand by: plain, ribs at its corners, or a cone around its foot."),
     setting("prime_tower_cone_angle", Scope::plate, &ToolSettings::prime_tower_cone_angle, Unit::degrees, 0, 90,
