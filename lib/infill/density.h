@@ -3,6 +3,7 @@
 #include "field/grid.h"
 #include "infill/direction.h"
 #include "infill/shells.h"
+#include "infill/sparse.h"
 #include "model/bead.h"
 #include "settings/pattern_list.h"
 
@@ -55,6 +56,8 @@ class Density {
 
   /// Widths of beads that were laid at a level, from `from` on, follow the density along them.
   void follow(double level, double z_um, std::size_t from, Beads& beads) const;
+  /// The same of beads that run through levels. Pre: as fill_levels
+  void follow(const std::vector<DenseLevel>& levels, double z_um, std::size_t from, Beads& beads) const;
 
   /// Makes beads wider or narrower, so that around each place they cover what the density asks for there, and in the
   /// region what it asks for altogether: what joins lines at borders of parts is taken from the lines beside it.

@@ -2,6 +2,7 @@
 // How widths of lines follow a density that varies: at each place, and so that joints and what lies close is made up
 // for around them.
 #include "core/stop.h"
+#include "geometry/spatial_index.h"
 #include "infill/density.h"
 #include "infill/scan.h"
 #include "infill/web.h"
@@ -192,9 +193,28 @@ Wanted wanted_in(const Region& region, double line, const DensityAt& density) {
 
 }  // namespace
 
-void Density::follow(double level, double z_um, std::size_t from, Beads& beads) const {
+namespace {
+
+double share_of_width(double density, double level) {
   constexpr double narrowest = 0.7, widest = 1.42;
-  widen([&](Point p) { return std::clamp(at(p, z_um) / level, narrowest, widest); }, from, beads);
+  return std::clamp(density / level, narrowest, widest);
+}
+
+}  // namespace
+
+void Density::follow(double level, double z_um, std::size_t from, Beads& beads) const {
+  widen([&](Point p) { return share_of_width(at(p, z_um), level); }, from, beads);
+}
+
+void Density::follow(const std::vector<DenseLevel>& levels, double z_um, std::size_t from, Beads& beads) const {
+  std::vector<geometry::SegmentIndex> denser;
+  for (std::size_t k = 1; k < levels.size(); ++k) denser.emplace_back(levels[k].within);
+  const auto level_at = [&](Point p) {
+    std::size_t k = denser.size();
+    while (k > 0 && !denser[k - 1].region_at(p)) --k;
+    return levels[k].density;
+  };
+  widen([&](Point p) { return share_of_width(at(p, z_um), level_at(p)); }, from, beads);
 }
 
 void Density::even(const Region& region, double z_um, bool alike, std::size_t from, Beads& beads) const {

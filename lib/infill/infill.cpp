@@ -119,6 +119,22 @@ double depth_of_walls(const FillInput& input) {
   return (outer + spacing(outer)) / 2.0 + (input.wall_count - 1.0) * spacing(inner);
 }
 
+/// Parts of a region by how dense they are at least. Pre: their levels are doubled from each to the next
+std::vector<DenseLevel> levels_of(const Region& region, const std::vector<Density::Part>& parts) {
+  constexpr double same = 1.01;
+  double least = 1e9, most = 0;
+  for (const Density::Part& part : parts) least = std::min(least, part.level), most = std::max(most, part.level);
+  std::vector<DenseLevel> out;
+  for (double level = least; level < most * same; level *= 2) {
+    DenseLevel& each = out.emplace_back(DenseLevel{level, {region}});
+    if (level == least) continue;
+    each.within.clear();
+    for (const Density::Part& part : parts)
+      if (part.level * same > level) each.within = geometry::unite(each.within, {part.region});
+  }
+  return out;
+}
+
 /// Sparse lines, as dense at each place as it is asked for there. Branches have no density to meet.
 void fill_as_dense(const Region& region, SparseStyle style, Beads& beads) {
   const Density* density = style.prepared != nullptr && style.prepared->density ? &*style.prepared->density : nullptr;
@@ -132,6 +148,13 @@ void fill_as_dense(const Region& region, SparseStyle style, Beads& beads) {
   bool dithered = false;
   const std::size_t first = beads.size();
   const std::vector<Density::Part> parts = density->parts(region, style.z, style.index);
+  if (density->goes_on())
+    if (const auto levels = levels_of(region, parts); !levels.empty() && levels.front().density > least &&
+                                                      levels.back().density < most &&
+                                                      fill_levels(region, style, levels, beads)) {
+      density->follow(levels, style.z, first, beads);
+      return density->even(region, style.z, false, first, beads);
+    }
   for (const Density::Part& part : parts) {
     if (part.level < least) continue;
     const std::size_t from = beads.size();

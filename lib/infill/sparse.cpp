@@ -60,10 +60,7 @@ double angle_of(const PatternRow& row, const SparseStyle& style) {
   return style.angle_rad + static_cast<double>(style.turn % turns) * row.turn_deg * std::numbers::pi / 180;
 }
 
-/// Cuts a pattern with the region and joins what is left.
-void fill_drawn(const Region& region, const SparseStyle& style, const PatternRow& row, Beads& beads) {
-  const double angle = angle_of(row, style);
-  const Frame frame(angle, style.origin);
+PatternPlace place_of(const Region& region, const SparseStyle& style, const Frame& frame) {
   PatternPlace place{.band = static_cast<double>(style.band),
                      .density = style.density / style.multiplier,
                      .z = static_cast<double>(style.z),
@@ -73,13 +70,45 @@ void fill_drawn(const Region& region, const SparseStyle& style, const PatternRow
   // turned by any angle, the object's box reaches farther by the root of two
   const double own = std::max({-place.area.min.x, -place.area.min.y, place.area.max.x, place.area.max.y});
   place.reach = std::max(place.reach * std::numbers::sqrt2, own);
+  return place;
+}
+
+/// Whether lines of both are those of the coarser, and others midway between them.
+bool doubles(const Family& coarse, const Family& fine) {
+  constexpr double same = 1;  // µm
+  const double off = std::remainder(coarse.phase - fine.phase, fine.pitch);
+  return coarse.angle_rad == fine.angle_rad && std::abs(coarse.pitch - 2 * fine.pitch) < same && std::abs(off) < same;
+}
+
+/// What the pattern is at each level; nothing where its lines are not of the next one.
+std::vector<Drawing> nested(const Region& region, SparseStyle style, const PatternRow& row,
+                            const std::vector<DenseLevel>& levels) {
+  std::vector<Drawing> out;
+  for (const DenseLevel& level : levels) {
+    style.density = level.density;
+    const Drawing drawing = row.draw(place_of(region, style, Frame(angle_of(row, style), style.origin)));
+    if (!drawing.curves.empty() || drawing.families.size() < 2) return {};
+    if (!out.empty()) {
+      const auto &coarse = out.back().families, &fine = drawing.families;
+      if (!std::equal(coarse.begin(), coarse.end(), fine.begin(), fine.end(), doubles)) return {};
+    }
+    out.push_back(drawing);
+  }
+  return out;
+}
+
+/// Cuts a pattern with the region and joins what is left.
+void fill_drawn(const Region& region, const SparseStyle& style, const PatternRow& row, Beads& beads) {
+  const double angle = angle_of(row, style);
+  const Frame frame(angle, style.origin);
+  const PatternPlace place = place_of(region, style, frame);
   const CubeTree* cubes = cubes_of(row, style);
   Drawing drawing = cubes != nullptr ? Drawing{.curves = cubes->cut(place.z), .pitch = 3 * place.spacing(), .longer = 1}
                                      : row.draw(place);
   multiply(drawing, style.multiplier, style.band);
   Web web(region, style);
   for (const Family& family : drawing.families)
-    web.add_lines(region, angle + family.angle_rad, family.pitch, family.phase);
+    web.add_lines(region, {angle + family.angle_rad, family.pitch, family.phase});
   const bool bent = style.bend && drawing.curves.empty() && drawing.families.size() > 1;
   if (bent) web.bend_crossings();
   if (!drawing.curves.empty()) web.add_curves(region, turned_back(drawing.curves, frame, tolerance_of(style.density)));
@@ -158,6 +187,34 @@ SparseStyle sparse_style(const InfillSettings& infill, const SparseLayer& layer)
           .loops = infill.infill_wall_line_count,
           .multiplier = infill.infill_multiplier,
           .bend = infill.infill_crossings == InfillCrossings::bend};
+}
+
+bool fill_levels(const Region& region, const SparseStyle& style, const std::vector<DenseLevel>& levels, Beads& beads) {
+  const PatternRow& row = row_of(style.pattern);
+  if (row.draw == nullptr || style.multiplier > 1 || style.loops > 0 || style.bend || levels.size() < 2) return false;
+  if (cubes_of(row, style) != nullptr || region.outer.size() < 3) return false;
+  const std::vector<Drawing> drawings = nested(region, style, row, levels);
+  if (drawings.empty()) return false;
+  const double angle = angle_of(row, style);
+  Web web(region, style);
+  for (std::size_t f = 0; f < drawings.front().families.size(); ++f)
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+      const Family& own = drawings[k].families[f];
+      const double turned = angle + own.angle_rad;
+      if (k == 0)
+        web.add_lines(region, {turned, own.pitch, own.phase});
+      else  // those midway
+        web.add_lines(region,
+                      {turned, 2 * own.pitch, drawings[k - 1].families[f].phase + own.pitch, &levels[k].within, true});
+    }
+  web.end_at_lines(drawings.front().pitch);
+  double wanted = 0;  // µm²
+  for (std::size_t k = 0; k < levels.size(); ++k)
+    for (const Region& r : levels[k].within)
+      wanted += (levels[k].density - (k > 0 ? levels[k - 1].density : 0)) * area_mm2(r) * 1e6;
+  const double joint = style.anchor_max >= 0 ? style.anchor_max : row.longest_joint * drawings.back().pitch;
+  web.emit(joint, style.band, wanted / style.band, beads);
+  return true;
 }
 
 void fill_sparse(const Region& region, const SparseStyle& style, Beads& beads) {

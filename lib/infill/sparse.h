@@ -52,4 +52,16 @@ SparseStyle sparse_style(const InfillSettings& infill, const SparseLayer& layer)
 /// beads are then narrowed a little, so that the joints do not raise the density.
 void fill_sparse(const Region& region, const SparseStyle& style, Beads& beads);
 
+/// What of a region is as dense as that, or denser.
+struct DenseLevel {
+  double density = 0;
+  Regions within;
+};
+
+/// Fills a region whose density doubles from level to level with lines of several directions: those of a level run on
+/// through all that is denser, and lines between them end at lines that they meet.
+/// Pre: levels from the least dense, which is all of the region; each is twice as dense as the one before
+/// @returns false, and lays nothing, where lines of the pattern at a density are none of those at its double
+bool fill_levels(const Region& region, const SparseStyle& style, const std::vector<DenseLevel>& levels, Beads& beads);
+
 }  // namespace weft::infill

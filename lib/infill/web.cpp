@@ -54,34 +54,91 @@ void Web::add_piece(std::vector<Place> piece, End from, End to) {
   ends_.push_back(from), ends_.push_back(to);  // a line's ends are its pair
 }
 
-void Web::add_lines(const Region& region, double angle_rad, double spacing, double phase) {
-  const Frame frame(angle_rad, style_.origin);
+void Web::add_lines(const Region& region, const Lines& of) {
+  const Frame frame(of.angle_rad, style_.origin);
   const Outline turned(region, frame);
-  const double first = std::ceil((turned.least_y() - phase) / spacing) * spacing + phase;
-  const LineSet lines{first, spacing, static_cast<int>(std::floor((turned.greatest_y() - first) / spacing)) + 1};
+  const double first = std::ceil((turned.least_y() - of.phase) / of.spacing) * of.spacing + of.phase;
+  const LineSet lines{first, of.spacing, static_cast<int>(std::floor((turned.greatest_y() - first) / of.spacing)) + 1};
   const std::vector<Interval> intervals = turned.cut(lines);
+  const std::vector<Interval> wanted =
+      of.within != nullptr ? Outline(*of.within, frame).cut(lines) : std::vector<Interval>{};
   const SideFit fit(turned, lines, intervals, style_.band);
   // bent crossings need all lines to run into one half of the plane
-  const double turns = std::round(angle_rad / (2 * std::numbers::pi) * 1e6) / 1e6;
+  const double turns = std::round(of.angle_rad / (2 * std::numbers::pi) * 1e6) / 1e6;
   const bool backwards = style_.bend && turns - std::floor(turns) >= 0.5;
+  if (of.more) --families_;
+  const auto add = [&](std::uint32_t k, double from, double to) {
+    Interval i = intervals[k];
+    const double y = lines.y(i.line);
+    const auto end_at = [&](std::uint32_t edge, bool on_edge) {
+      const Turned p = turned.points()[edge], q = turned.points()[turned.next(edge)];
+      return on_edge ? End{edge, (y - p.y) / (q.y - p.y), std::abs(q.y - p.y) / std::hypot(q.x - p.x, q.y - p.y)}
+                     : End{};
+    };
+    End begin = end_at(i.from_edge, from <= i.from), end = end_at(i.to_edge, to >= i.to);
+    i.from = std::max(i.from, from), i.to = std::min(i.to, to);
+    std::vector<Place> places{turn(i.from, y, of.angle_rad)};
+    if (!fit.is_plain(k)) give_way(fit.of(k), i, y, of.angle_rad, places);
+    places.push_back(turn(i.to, y, of.angle_rad));
+    if (backwards) std::reverse(places.begin(), places.end()), std::swap(begin, end);
+    add_piece(std::move(places), begin, end);
+    family_.push_back(families_);
+  };
   StopNowAndThen stop(64);
-  for (std::uint32_t k = 0; k < intervals.size(); ++k) {
+  for (std::uint32_t k = 0, w = 0; k < intervals.size(); ++k) {
     stop.step();
     const Interval& i = intervals[k];
-    const double y = lines.y(i.line);
-    std::vector<Place> places{turn(i.from, y, angle_rad)};
-    if (!fit.is_plain(k)) give_way(fit.of(k), i, y, angle_rad, places);
-    places.push_back(turn(i.to, y, angle_rad));
-    const auto end_at = [&](std::uint32_t edge) {
-      const Turned p = turned.points()[edge], q = turned.points()[turned.next(edge)];
-      return End{edge, (y - p.y) / (q.y - p.y), std::abs(q.y - p.y) / std::hypot(q.x - p.x, q.y - p.y)};
-    };
-    if (backwards) std::reverse(places.begin(), places.end());
-    add_piece(std::move(places), end_at(backwards ? i.to_edge : i.from_edge),
-              end_at(backwards ? i.from_edge : i.to_edge));
-    family_.push_back(families_);
+    if (of.within == nullptr) {
+      add(k, i.from, i.to);
+      continue;
+    }
+    constexpr double same = 2;  // µm: what is wanted ends where the region does, but for rounding
+    while (w < wanted.size() && (wanted[w].line < i.line || (wanted[w].line == i.line && wanted[w].to <= i.from))) ++w;
+    for (std::uint32_t v = w; v < wanted.size() && wanted[v].line == i.line && wanted[v].from < i.to; ++v)
+      add(k, wanted[v].from - same, wanted[v].to + same);
   }
   ++families_;
+}
+
+void Web::end_at_lines(double farthest) {
+  std::vector<geometry::Segment> segments;
+  std::vector<int> family;
+  for (std::uint32_t line = 0; line < lines_.size(); ++line)
+    for (std::size_t i = 1; i < lines_[line].places.size(); ++i) {
+      segments.push_back({on_plane(lines_[line].places[i - 1]), on_plane(lines_[line].places[i])});
+      family.push_back(family_[line]);
+    }
+  const geometry::SegmentIndex all(std::move(segments)), edges(Regions{region_});
+  std::vector<geometry::SegmentIndex::Crossing> met;
+  StopNowAndThen stop(64);
+  for (std::uint32_t e = 0; e < ends_.size(); ++e) {
+    if (on_edge(e)) continue;
+    stop.step();
+    std::vector<Place> places = lines_[e / 2].places;
+    if (e % 2 == 0) std::reverse(places.begin(), places.end());
+    const Place end = places.back(), before = places[places.size() - 2];
+    const double last = norm(end - before);
+    if (last <= 0) continue;
+    const Place way = (1 / last) * (end - before);
+    const double back = std::min(last, farthest);
+    const Point from = on_plane(end - back * way), to = on_plane(end + farthest * way);
+    met.clear();
+    edges.crossings(on_plane(end), to, met);
+    const double room = met.empty() ? farthest : met.front().along * farthest;
+    met.clear();
+    all.crossings(from, to, met);
+    double nearest = farthest;
+    for (const auto& each : met)
+      if (const double by = each.along * (back + farthest) - back;
+          family[each.segment] != family_[e / 2] && std::abs(by) < std::abs(nearest) && by < room)
+        nearest = by;
+    if (nearest >= farthest) continue;
+    const double by = style_.band / 2.0 - nearest;  // the line's round end reaches over the other's middle
+    if (by >= lines_[e / 2].length - style_.band) continue;
+    shorten(places, by);
+    if (e % 2 == 0) std::reverse(places.begin(), places.end());
+    lines_[e / 2].length -= by, lines_[e / 2].places = std::move(places);
+  }
 }
 
 /// Beside an edge along it a line bends aside, so as not to lie in a wall.

@@ -40,7 +40,16 @@ class Web {
   Web(const Region& region, const SparseStyle& style);
 
   /// Lines y = phase + k·spacing in a frame turned by that angle. Beside an edge along them they bend aside.
-  void add_lines(const Region& region, double angle_rad, double spacing, double phase);
+  struct Lines {
+    double angle_rad = 0, spacing = 1, phase = 0;
+    const Regions* within = nullptr;  ///< what of the region they are wanted in; null: all of it
+    bool more = false;                ///< of the last family
+  };
+  void add_lines(const Region& region, const Lines& of);
+
+  /// Lines that end off the edge go on, or draw back, to the nearest line of another family that they meet, and end
+  /// beside it. @param farthest  that they may be moved by
+  void end_at_lines(double farthest);
 
   /// Lines of different families turn into each other instead of crossing. Pre: no curves were added
   void bend_crossings();

@@ -2,6 +2,7 @@
 #include "infill/density.h"
 
 #include "areas.h"
+#include "geometry/spatial_index.h"
 #include "infill/concentric.h"
 #include "infill/prepared.h"
 #include "infill/sparse.h"
@@ -216,6 +217,61 @@ TEST_CASE("density: what joins lines at a border of levels is taken from the lin
   const double off_alike = std::abs(laid(true) - 1), off = std::abs(laid(false) - 1);
   CHECK(off_alike > 0.015);
   CHECK(off < off_alike / 2);
+}
+
+namespace {
+
+/// How far a place is from the nearest line that does not end there.
+double from_others(const Beads& beads, Point p) {
+  std::vector<geometry::Segment> segments;
+  for (const Bead& bead : beads)
+    for (std::size_t i = 1; i < bead.path.size(); ++i)
+      if (bead.path[i - 1].at != p && bead.path[i].at != p) segments.push_back({bead.path[i - 1].at, bead.path[i].at});
+  const auto near = geometry::SegmentIndex(std::move(segments)).nearest(p);
+  return near ? near->distance_um : 1e9;
+}
+
+}  // namespace
+
+TEST_CASE("density: lines of a level run on through what is denser, and those between end beside lines they meet",
+          "[infill]") {
+  const Region region = rectangle(0, 0, 60'000, 40'000);
+  const Region denser = rectangle(20'000, 0, 60'000, 40'000), densest = rectangle(37'300, 9'100, 51'100, 30'700);
+  const std::vector<infill::DenseLevel> levels{{0.1, {region}}, {0.2, {denser}}, {0.4, {densest}}};
+  const infill::SparseStyle style{
+      .density = 0.2, .band = 420, .angle_rad = degrees(45), .overlap_um = 100, .reach = 60'000};
+  for (const auto pattern : {InfillPattern::grid, InfillPattern::triangles, InfillPattern::cubic}) {
+    CAPTURE(static_cast<int>(pattern));
+    auto own = style;
+    own.pattern = pattern;
+    Beads beads;
+    REQUIRE(infill::fill_levels(region, own, levels, beads));
+    CHECK(covered_mm2(beads) == Approx(0.1 * 2'400 + 0.1 * 1'600 + 0.2 * area_mm2(densest)).epsilon(0.02));
+    std::size_t inside = 0;
+    for (const Bead& bead : beads)
+      for (const Point end : {bead.path.front().at, bead.path.back().at})
+        if (end.x > 500 && end.x < 59'500 && end.y > 500 && end.y < 39'500) {
+          ++inside;
+          CHECK(from_others(beads, end) < 420);
+        }
+    CHECK(inside > 10);
+    Beads coarse;
+    own.density = 0.1, own.connect = false;
+    infill::fill_sparse(region, own, coarse);
+    for (const Bead& bead : coarse)  // where others end, these go on
+      for (int k = 1; k < 20; ++k) {
+        const Point a = bead.path.front().at, c = bead.path.back().at,
+                    p{a.x + (c.x - a.x) * k / 20, a.y + (c.y - a.y) * k / 20};
+        if (std::min({p.x, 60'000 - p.x, p.y, 40'000 - p.y}) > 2'000) CHECK(from_others(beads, p) < 3);
+      }
+  }
+  for (const auto pattern : {InfillPattern::lines, InfillPattern::trihexagon, InfillPattern::gyroid}) {
+    auto own = style;
+    own.pattern = pattern;
+    Beads beads;
+    CHECK(!infill::fill_levels(region, own, levels, beads));
+    CHECK(beads.empty());
+  }
 }
 
 TEST_CASE("density: patterns go by it", "[infill]") {

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "prusaslicer/keys.h"
+#include "prusaslicer/orca.h"
 #include "settings/catalogue.h"
 #include "source.h"
 
@@ -322,6 +323,19 @@ TEST_CASE("prusaslicer: values that do not parse whole are errors with the line"
       CHECK(e.where() == "p.ini:2");
     }
   }
+}
+
+TEST_CASE("import: OrcaSlicer's locked zigzag is a density by the distance from the surface") {
+  using Words = std::vector<std::pair<std::string, std::string>>;
+  const auto densities = [](const Words& words) { return prusaslicer::orca_configuration(words).ours; };
+  const auto by_distance = [](const char* text) { return Words{{"infill_density_by_distance", text}}; };
+  const std::pair<std::string, std::string> pattern{"sparse_infill_pattern", "lockedzag"},
+      skin{"skin_infill_density", "40%"}, skeleton{"skeleton_infill_density", "15%"}, depth{"skin_infill_depth", "1.5"},
+      none{"skin_infill_depth", "0"};
+  CHECK(densities({skin, pattern, skeleton, depth}) == by_distance("0:40, 1.5:40, 1.5:15"));
+  CHECK(densities({pattern}) == by_distance("0:25, 2:25, 2:25"));
+  CHECK(densities({pattern, skeleton, none}) == by_distance("0:15"));
+  CHECK(densities({{"sparse_infill_pattern", "grid"}, skin}).empty());
 }
 
 TEST_CASE("prusaslicer: anchors of infill are as long as the profile says, and weft's own where it says nothing") {
