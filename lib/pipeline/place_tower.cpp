@@ -41,14 +41,14 @@ struct Overrun {
   std::string_view key, side, bound;
   Um by, within;
 };
-/// The sides that it reaches over, the farthest first.
-std::vector<Overrun> overruns_of(const Box& tower, const Box& bed, Point corner) {
+/// The sides that it reaches over, the farthest first. @param around room that it needs beside itself, for a skirt
+std::vector<Overrun> overruns_of(const Box& tower, const Box& bed, Point corner, Um around) {
   const Um right = tower.max.x - bed.max.x, left = bed.min.x - tower.min.x;
   const Um behind = tower.max.y - bed.max.y, before = bed.min.y - tower.min.y;
-  std::vector sides{Overrun{"prime_tower_position_x", "+x", "most", right, corner.x - right},
-                    Overrun{"prime_tower_position_x", "-x", "least", left, corner.x + left},
-                    Overrun{"prime_tower_position_y", "+y", "most", behind, corner.y - behind},
-                    Overrun{"prime_tower_position_y", "-y", "least", before, corner.y + before}};
+  std::vector sides{Overrun{"prime_tower_position_x", "+x", "most", right, corner.x - right - around},
+                    Overrun{"prime_tower_position_x", "-x", "least", left, corner.x + left + around},
+                    Overrun{"prime_tower_position_y", "+y", "most", behind, corner.y - behind - around},
+                    Overrun{"prime_tower_position_y", "-y", "least", before, corner.y + before + around}};
   std::erase_if(sides, [](const Overrun& side) { return side.by <= 0; });
   std::stable_sort(sides.begin(), sides.end(), [](const auto& a, const auto& b) { return a.by > b.by; });
   return sides;
@@ -69,7 +69,7 @@ void refuse_outside(const Settings& plate, const tools::TowerSize& size, Point c
   const auto outside = tools::outside_of(outline, surface);
   if (outside.by <= plate.audit.audit_tolerance) return;
   const Box tower = box_of(outline), bed = box_of(surface);
-  const auto over = overruns_of(tower, bed, corner);
+  const auto over = overruns_of(tower, bed, corner, skirt_of(plate));
   const bool fits = tower.size().x <= bed.size().x && tower.size().y <= bed.size().y;
   throw Error{
       Error::Kind::audit,
