@@ -186,7 +186,7 @@ class Beads {
   /** Corners of the beads that are seen from outside, for while the camera moves over very long files. */
   coarse(p) {
     if (p.coarse) return p.coarse;
-    const seen = p.print.features.map(f => ['outer_wall', 'top_skin', 'bridge', 'overhang_wall', 'support'].includes(f.key)), way = p.way, list = [];
+    const seen = p.print.features.map(f => ['outer_wall', 'top_skin', 'bridge', 'overhang_wall', 'overhang_skin', 'support'].includes(f.key)), way = p.way, list = [];
     for (let j = 1; j < way.length; ++j) if (kindOf(way, j) === kinds.bead && seen[way.feature[j] >> 1]) list.push(j);
     const corners = new Uint32Array(6 * list.length), gl = this.gl, buffer = gl.createBuffer();
     list.forEach((j, i) => { for (let k = 0; k < 6; ++k) corners[6 * i + k] = 6 * j + k; });
