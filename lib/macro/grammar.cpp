@@ -218,7 +218,7 @@ const x3::rule<struct statement_rule> statement = "a statement";
 const auto statement_def = (word("if")[is(Op::begin_if)] > given > then) |
                            (word("elsif")[is(Op::else_if)] > given > then) | word("else")[is(Op::otherwise)] |
                            word("endif")[is(Op::end_if)] | (declaration > chosen > value) |
-                           (target >> x3::eps[is(Op::assign)] > given) | (x3::eps[is_print] > given);
+                           ((target >> x3::eps[is(Op::assign)]) > given) | (x3::eps[is_print] > given);
 BOOST_SPIRIT_DEFINE(statement)
 
 /// Runs a parser at `at`, which moves behind what was read; what is missing becomes an error with its place.

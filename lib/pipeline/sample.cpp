@@ -122,9 +122,9 @@ Statistics extrapolated(const Statistics& bottom, const Statistics& above, const
     const auto& feature = above.features[r];
     beads_mm3 += feature.mm3;
     parts_s += feature.s;
-    const auto grows = growth_of(static_cast<Role>(r));
-    if (!grows) continue;
-    const auto more = missing(measure, *grows);
+    const auto with = growth_of(static_cast<Role>(r));
+    if (!with) continue;
+    const auto more = missing(measure, *with);
     out.features[r].mm += more.length * feature.mm;
     out.features[r].s += more.length * feature.s;
     out.features[r].mm3 += more.volume * feature.mm3;
