@@ -196,10 +196,6 @@ Wanted wanted_in(const Region& region, Um band, const DensityAt& density) {
   return out;
 }
 
-}  // namespace
-
-namespace {
-
 constexpr double narrowest = 0.7, widest = 1.42;  // of a line between two levels
 
 double share_of_width(double density, double level) {

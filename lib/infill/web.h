@@ -22,9 +22,9 @@ struct Place {
   friend Place operator-(Place a, Place b) { return {a.x - b.x, a.y - b.y}; }
   friend Place operator*(double s, Place a) { return {s * a.x, s * a.y}; }
 };
+/// hypot would guard against squares that microns do not reach.
 inline double norm(Place a) {
-  return std::sqrt(a.x * a.x +
-                   a.y * a.y);  // hypot guards against squares that microns do not reach, at thrice the time
+  return std::sqrt(a.x * a.x + a.y * a.y);
 }
 
 inline constexpr double least_narrowing = 0.75;  // of the band, so that a layer has its density; most is 1 / least

@@ -86,8 +86,8 @@ std::vector<double> belts_by_tooth(const LayerAreas& layer, int teeth, double tu
 
 TEST_CASE("belts: equal teeth of a gear have equal belts, however the grid lies on them", "[infill][law]") {
   const int teeth = GENERATE(9, 13, 17, 20);
-  const double lean =
-      GENERATE(0.006, 0.010, 0.014, 0.018);  // of a tooth a layer: no belt is about as long as the shortest
+  // of a tooth a layer; where they lean more, belts are about as long as the shortest, and some teeth have none
+  const double lean = GENERATE(0.006, 0.010, 0.014, 0.018);
   CAPTURE(teeth, lean);
   std::vector<Regions> outlines, insides;
   std::vector<infill::ShellLayer> layers;
