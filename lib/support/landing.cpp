@@ -44,7 +44,7 @@ std::vector<Landing> landings_of(const Room& room, const SupportLayer& layer, co
         const Regions here = geometry::intersect(standing, room.part(z - 1, z, near));
         if (here.empty()) continue;
         standing = geometry::subtract(standing, here);
-        Regions wide = free > 1 && !s.support_synchronize_layers ? geometry::opening(here, line) : Regions{};
+        Regions wide = free > 1 && !s.support_synchronize_layers ? opened(here, line) : Regions{};
         out.push_back({std::move(wide), layer.height + free, area_mm2(here)});
       }
     }
