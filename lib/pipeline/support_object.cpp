@@ -246,6 +246,8 @@ Supports make_supports(const Settings& settings, const Object& object, const std
   out.layers = fill_support(settings, plan.layers, origin);
   for (std::size_t k = 0; k < plan.trapped.size(); ++k)
     plan.figures.trapped_mm3 += plan.trapped[k] * plastic_mm3(out.layers[k]);
+  // Levels go all the way up; where nothing stands on one, no layer begins.
+  std::erase_if(out.layers, [](const PrintedLayer& layer) { return layer.beads.empty(); });
   if (!plan.layers.empty()) out.held = std::move(plan.held);
   out.figures = plan.figures;
   out.idle_enforcers = idle_enforcers(object, marks, demand);

@@ -3,6 +3,8 @@
 #include "pipeline/pipeline.h"
 
 #include <algorithm>
+#include <sstream>
+#include <string>
 
 #include <catch2/catch.hpp>
 
@@ -73,4 +75,26 @@ TEST_CASE("support: an enforcer that meets no downward face is told, and one tha
     INFO(mark);
     CHECK(says(told(job, "support_enforcer_idle"), "meets no downward face") == idle);
   }
+}
+
+TEST_CASE("support: beside what needs none no layer begins that prints nothing", "[support]") {
+  // Between two shelves, each held from below, there is a height of the upper one's own at which nothing is held.
+  const ModelOfBoxes shelves({{-14, -10, 0, -4, 10, 25}, {-4, -10, 5, 36, 10, 8}, {-4, -10, 13, 36, 10, 16}});
+  Job job = job_of(shelves);
+  job.settings.support.support_enable = true;
+  job.settings.support.support_structure = SupportStructure::normal;
+  Report report;
+  const auto out = run(job, {}, report);
+  REQUIRE(out);
+  REQUIRE(report.support.needed_mm2 > 100);
+  std::istringstream lines{std::string(out->gcode())};
+  int layers = 0, idle = 0;
+  bool lays = true;
+  for (std::string line; std::getline(lines, line);) {
+    if (line == ";LAYER_CHANGE") ++layers, idle += !lays, lays = false;
+    lays = lays ||
+           (line.starts_with("G1 ") && line.find(" E") != std::string::npos && line.find(" X") != std::string::npos);
+  }
+  CHECK(layers > 150);
+  CHECK(idle == 0);
 }
