@@ -3,9 +3,9 @@
 
 #include "core/stop.h"
 #include "geometry/clipper_door.h"
-#include "geometry/nesting.h"
 #include "geometry/simplify.h"
 #include "geometry/traced.h"
+#include "geometry/wound.h"
 
 #include <algorithm>
 #include <iterator>
@@ -86,20 +86,24 @@ void by_batches(const Regions& what, const Regions& by, F f) {
     f(some, near);
   }
 }
+
+std::vector<Ring> clean(std::span<const Ring> rings) {
+  std::vector<Ring> out;
+  out.reserve(rings.size());
+  for (const auto& ring : rings) {
+    out.push_back(ring);
+    drop_collinear(out.back());
+    if (out.back().empty()) out.pop_back();
+  }
+  return out;
+}
 }  // namespace
 
 Regions regions_from_rings(std::span<const Ring> rings, WindingRule rule) {
-  std::vector<Ring> clean;
-  clean.reserve(rings.size());
-  for (const auto& ring : rings) {
-    clean.push_back(ring);
-    drop_collinear(clean.back());
-    if (clean.back().empty()) clean.pop_back();
-  }
-  if (auto regions = nested(clean, rule)) return *std::move(regions);
   Box box;
   for (const auto& ring : rings) box.add(box_of(ring));
   if (box.empty()) return {};
+  if (auto regions = wound(clean(rings), rule, box.centre())) return *std::move(regions);
   FineRings subject;
   subject.reserve(rings.size());
   for (const auto& ring : rings) subject.push_back(fine(ring, box.centre()));
@@ -107,6 +111,9 @@ Regions regions_from_rings(std::span<const Ring> rings, WindingRule rule) {
 }
 
 Regions unite(const Regions& regions) {
+  if (regions.size() > 1)
+    if (auto united = wound(clean(rings_of(regions)), WindingRule::nonzero, weft::box_of(regions).centre()))
+      return *std::move(united);
   return run(Operation::unite, regions, {});
 }
 Regions unite(const Regions& a, const Regions& b) {
@@ -123,8 +130,9 @@ Regions intersect(const Regions& a, const Regions& b) {
 
 Regions subtract(const Regions& from, const Regions& what) {
   Regions out;
-  by_batches(from, what,
-             [&](const Regions& some, const Regions& near) { add(out, run(Operation::subtract, some, near)); });
+  by_batches(from, what, [&](const Regions& some, const Regions& near) {
+    if (some != near) add(out, run(Operation::subtract, some, near));  // as most layers of straight walls are
+  });
   return out;
 }
 Cut cut(const Regions& what, const Regions& by) {

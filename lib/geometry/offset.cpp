@@ -3,9 +3,7 @@
 
 #include "core/stop.h"
 #include "geometry/clipper_door.h"
-#include "geometry/nesting.h"
 #include "geometry/simplify.h"
-#include "geometry/spatial_index.h"
 #include "geometry/wound.h"
 
 #include <cassert>
@@ -136,13 +134,7 @@ std::optional<Regions> settled(const clipper::FineRings& curves, Point origin) {
     rings.push_back(clipper::coarse(curve, origin));
     if (rings.back().empty()) rings.pop_back();
   }
-  const SegmentIndex index(rings);
-  const auto crossings = index.clean_crossings();
-  if (!crossings) return std::nullopt;
-  if (crossings->empty()) return nested_apart(rings, index, WindingRule::positive);
-  auto outlines = wound(rings, index, *crossings);
-  if (!outlines) return std::nullopt;
-  return clipper::tidied(*std::move(outlines), origin);
+  return wound(rings, WindingRule::positive, origin);
 }
 }  // namespace
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/wound.h"
 
+#include "geometry/clipper_door.h"
+#include "geometry/nesting.h"
 #include "geometry/simplify.h"
+#include "geometry/spatial_index.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -34,7 +37,14 @@ class Pieces {
     clean_ = find_windings() && fits();
   }
   bool clean() const { return clean_; }
+  /// Whether anything is wound around negatively.
+  bool any_negative() const {
+    const auto negative = [](int left) { return left < 1; };
+    return std::any_of(left_.begin(), left_.end(), negative) ||
+           std::any_of(left_of_begin_.begin(), left_of_begin_.end(), negative);
+  }
 
+  /// Outers counter-clockwise, holes clockwise, crossings rounded to whole microns.
   std::vector<Ring> outlines() const {
     std::vector<Ring> out;
     std::vector<char> done(passes_.size(), 0);
@@ -176,12 +186,15 @@ class Pieces {
 
 }  // namespace
 
-std::optional<std::vector<Ring>> wound(std::span<const Ring> rings, const SegmentIndex& index,
-                                       std::span<const Crossing> crossings) {
-  if (rings.size() > most_rings) return std::nullopt;
-  const Pieces pieces(rings, index, crossings);
-  if (!pieces.clean()) return std::nullopt;
-  return pieces.outlines();
+std::optional<Regions> wound(std::span<const Ring> rings, WindingRule rule, Point origin) {
+  const SegmentIndex index(rings);
+  const auto crossings = index.clean_crossings();
+  if (!crossings) return std::nullopt;
+  if (crossings->empty()) return nested(rings, index, rule);
+  if (rings.size() > most_rings || rule == WindingRule::even_odd) return std::nullopt;
+  const Pieces pieces(rings, index, *crossings);
+  if (!pieces.clean() || (rule == WindingRule::nonzero && pieces.any_negative())) return std::nullopt;
+  return clipper::tidied(pieces.outlines(), origin);
 }
 
 }  // namespace weft::geometry

@@ -1,24 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "core/polygon.h"
-#include "geometry/spatial_index.h"
+#include "geometry/boolean.h"
 
-#include <cstdint>
 #include <optional>
 #include <span>
-#include <utility>
-#include <vector>
 
 /// What rings wind around that cross themselves and each other cleanly, without a sweep; private to geometry/.
 namespace weft::geometry {
 
-/// The outlines of what the rings wind around positively: outers counter-clockwise, holes clockwise, crossings rounded
-/// to whole microns, collinear points left out; where several pieces lie at one corner, outlines may touch there.
-/// Nothing where there are many rings, or where doubles do not tell in which order crossings come.
-/// Pre: `index` was made from the rings, none of which is empty or has collinear points; `crossings` are its clean
-/// ones. Cost: O(n + k log k), k crossings; about a fifth of a sweep's. Source: Chen & McMains 2005, "Polygon
-/// offsetting by computing winding numbers".
-std::optional<std::vector<Ring>> wound(std::span<const Ring> rings, const SegmentIndex& index,
-                                       std::span<const std::pair<std::uint32_t, std::uint32_t>> crossings);
+/// What `regions_from_rings` finds; nothing where an answer would need more than following rings from crossing to
+/// crossing: where two edges have a point in common otherwise than by crossing properly, where rings that cross wind
+/// around something negatively and that is to count, or where there are many of them.
+/// Pre: no ring is empty or has collinear points (simplify.h). Where none crosses, none of their points moves.
+/// @param origin  of the grid that is swept where rounding to whole microns made outlines cross
+/// Cost: O(n + k log k), k crossings; about a third of a sweep's.
+/// Source: Chen & McMains 2005, "Polygon offsetting by computing winding numbers".
+std::optional<Regions> wound(std::span<const Ring> rings, WindingRule rule, Point origin);
 
 }  // namespace weft::geometry

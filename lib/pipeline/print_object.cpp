@@ -104,8 +104,10 @@ Regions inside_of(const WallHands& handed, const Areas& areas, const SlicedLayer
   return geometry::offset(layer.regions, {.by = -outer - (lines - 1) * inner});
 }
 
+/// @param known_over_air what of each layer has nothing below; empty: nobody has asked yet
+/// @param held of each layer, what rests on support; empty: nothing does
 Walls build_walls(const WallHands& handed, const Scopes& scopes, const Cuts& cuts, const std::vector<Areas>& areas,
-                  const std::vector<Regions>& held, const Sample& sample) {
+                  std::vector<Regions> known_over_air, const std::vector<Regions>& held, const Sample& sample) {
   Box box;  // rough walls hang on its corner, so they move with the object
   for (const auto& cut : cuts) box.add(box_of(cut.layer.regions));
   return tasks::parallel_map(cuts.size(), [&](std::size_t i) {
@@ -114,7 +116,9 @@ Walls build_walls(const WallHands& handed, const Scopes& scopes, const Cuts& cut
       bare.inside = inside_of(handed, areas[i], cuts[i].layer, i);
       return bare;
     }
-    Regions over_air = i > 0 ? geometry::subtract(cuts[i].layer.regions, cuts[i - 1].layer.regions) : Regions{};
+    Regions over_air = i < known_over_air.size() ? std::move(known_over_air[i])
+                       : i > 0                   ? geometry::subtract(cuts[i].layer.regions, cuts[i - 1].layer.regions)
+                                                 : Regions{};
     if (i < held.size() && !held[i].empty()) over_air = geometry::subtract(over_air, held[i]);
     const Regions* above = i + 1 < cuts.size() ? &cuts[i + 1].layer.regions : nullptr;
     const auto build = [&](ScopeId scope, const SlicedLayer& layer) {
@@ -358,8 +362,9 @@ PrintedLayers print_object(const Running& job, const Scopes& all_scopes, const T
   };
   Running kept = job;
   if (!job.sample.all()) kept.cache = nullptr;  // a sample is no stage's result
-  auto walled = run_stage<Stage::walls>(
-      kept, walled_by, [&] { return build_walls(wall_hands, all_scopes, *sliced, areas, support.held, job.sample); });
+  auto walled = run_stage<Stage::walls>(kept, walled_by, [&] {
+    return build_walls(wall_hands, all_scopes, *sliced, areas, std::move(support.over_air), support.held, job.sample);
+  });
 
   tell_missing_support(job, all_scopes, scopes, object, *sliced, *walled);
   const auto fill_hands = hand<Stage::infill>(all_scopes);

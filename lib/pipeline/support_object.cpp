@@ -183,6 +183,22 @@ void leave_out_specks(const Settings& settings, Outlines& outlines, std::vector<
   outlines.object.layers = outlines.layers;
 }
 
+/// What has nothing below, where specks that were left out change nothing.
+/// @param of_mesh  of each layer, with its specks
+std::vector<const Regions*> known_over_air(const std::vector<const Regions*>& of_mesh,
+                                           const std::vector<SlicedLayer>& without_specks) {
+  auto out = of_mesh;
+  for (std::size_t i = 0; i < out.size(); ++i)
+    if (without_specks[i].height > 0 || (i > 0 && without_specks[i - 1].height > 0)) out[i] = nullptr;
+  return out;
+}
+
+std::vector<Regions> over_air_of(const std::vector<slice::Cut>& cuts) {
+  return tasks::parallel_map(cuts.size(), [&](std::size_t i) {
+    return i > 0 ? geometry::subtract(cuts[i].layer.regions, cuts[i - 1].layer.regions) : Regions{};
+  });
+}
+
 /// Enforcers of which nothing is held: they lie where nothing overhangs.
 std::vector<std::uint32_t> idle_enforcers(const Object& object, const std::vector<AreasOfMark>& areas,
                                           const support::Demand& demand) {
@@ -234,6 +250,11 @@ Supports make_supports(const Settings& settings, const Object& object, const std
   auto& o = outlines.object;
   o.floor = of.floor, o.on_raft = of.on_raft, o.room = of.bounded ? &of.room : nullptr;
   o.enforced = of.enforced, o.blocked = of.blocked, o.given = of.given;
+  of.over_air = over_air_of(cuts);
+  std::vector<const Regions*> over_air;
+  for (const Regions& regions : of.over_air) over_air.push_back(&regions);
+  over_air = known_over_air(over_air, without_specks);
+  o.over_air = over_air;
   const auto demand = support::demand(settings.support, o);
   auto plan = support::plan(settings.support, o, demand);
   if (settings.support.support_type == SupportType::buildplate && plan.figures.left_mm2 >= worth_telling_mm2) {
@@ -320,9 +341,9 @@ void tell_missing_support(const Running& job, const Scopes& all, const ObjectSco
   std::vector<const Regions*> over_air;
   if (job.sample.all())
     for (const auto& layer : walls) over_air.push_back(&layer.over_air);
-  for (std::size_t i = 0; i + 1 < over_air.size(); ++i)  // known of the mesh, which has specks below
-    if (without_specks[i].height > 0) over_air[i] = over_air[i + 1] = nullptr;
-  const auto islands = support::islands(outlines.object, over_air);
+  over_air = known_over_air(over_air, without_specks);
+  outlines.object.over_air = over_air;
+  const auto islands = support::islands(outlines.object);
   if (islands.empty()) return;
   const Point at = islands.front().at + object.copies.front();
   const auto& layer = cuts[islands.front().layer].layer;

@@ -16,8 +16,9 @@ struct SupportOf {
   std::vector<Regions> enforced{}, blocked{}, given{};  ///< by layer of the object, or empty
   Um floor = 0;                                         ///< 0, or below it on a raft
   bool on_raft = false;
-  PrintedLayers layers;       ///< made by support_object
-  std::vector<Regions> held;  ///< of each layer of the object, what rests on support; empty: nothing does
+  PrintedLayers layers;           ///< made by support_object
+  std::vector<Regions> over_air;  ///< of each layer of the object, what has nothing below; empty: nobody has asked yet
+  std::vector<Regions> held;      ///< of each layer of the object, what rests on support; empty: nothing does
 };
 
 /// Where the support of each object may lie: on the bed with all of its copies, off no-go areas and off its neighbours.

@@ -47,6 +47,11 @@ std::vector<std::size_t> beginning(const Regions& here, const Regions& step, Um 
   return out;
 }
 
+/// What of a layer has nothing below, if that is known.
+const Regions* known_over_air(const Object& object, std::size_t layer) {
+  return layer < object.over_air.size() ? object.over_air[layer] : nullptr;
+}
+
 bool meets(const Region& region, const Box& box, const Regions& others) {
   for (const Region& other : others)
     if (box.overlaps(box_of(other.outer)) && !geometry::intersect({region}, {other}).empty()) return true;
@@ -61,7 +66,8 @@ class Layer {
   LayerPatches patches() {
     LayerPatches out;
     if (here_.empty()) return out;
-    const Regions step = geometry::subtract(here_, below_);
+    const Regions* const known = known_over_air(o_, i_);
+    const Regions step = known != nullptr ? *known : geometry::subtract(here_, below_);
     if (step.empty()) return out;
     const bool enforced_layer = static_cast<int>(i_) <= s_.support_enforce_layers;
     const bool automatic = s_.support_enable && s_.support_auto;
@@ -179,13 +185,13 @@ Demand demand(const SupportSettings& settings, const Object& object) {
   return out;
 }
 
-std::vector<Island> islands(const Object& object, std::span<const Regions* const> over_air) {
+std::vector<Island> islands(const Object& object) {
   const auto of_layer = tasks::parallel_map(object.layers.size(), [&](std::size_t i) {
     std::vector<Island> out;
     if (i == 0) return out;
     const Regions& here = object.layers[i]->regions;
     const Regions& below = object.layers[i - 1]->regions;
-    const Regions* known = i < over_air.size() ? over_air[i] : nullptr;
+    const Regions* known = known_over_air(object, i);
     if (here.empty() || (known ? known->empty() : here == below)) return out;
     if (known) {
       for (const auto r : beginning(here, *known, object.outer_line)) out.push_back({i, here[r].outer.front()});

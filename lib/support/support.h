@@ -24,6 +24,8 @@ struct Object {
   const Regions* room = nullptr;                   ///< where beads of support may lie; null: anywhere
   std::span<const Regions> enforced{}, blocked{};  ///< by layer, where somebody marked it; or empty
   std::span<const Regions> given{};                ///< by layer, what somebody drew as support; or empty
+  /// By layer: what of it has nothing below, where that is known; or empty.
+  std::span<const Regions* const> over_air{};
 };
 
 /// What of the underside of a layer must be held.
@@ -36,7 +38,7 @@ using Demand = std::vector<LayerDemand>;
 
 /// What of each layer of the object reaches too far into the air (settings: support_angle and what follows it).
 /// Post: wanted[i] lies in layer i and not over layer i − 1; wanted[0] is empty.
-/// Cost: one offset and three Booleans a layer.
+/// Cost: one offset and three Booleans a layer, one less where it is known what has nothing below.
 Demand demand(const SupportSettings& settings, const Object& object);
 
 /// Where something begins in the air: what is asked for also when support is off. Cost: a Boolean a layer.
@@ -44,8 +46,7 @@ struct Island {
   std::size_t layer = 0;
   Point at;
 };
-/// @param over_air by layer: what of it has nothing below, where that is known
-std::vector<Island> islands(const Object& object, std::span<const Regions* const> over_air = {});
+std::vector<Island> islands(const Object& object);
 
 /// The lowest layer of a roof over branches: what its strands lie on.
 struct Joists {

@@ -352,9 +352,13 @@ TEST_CASE("support: an island asks for support however small it is, and is told 
     steps.push_back(i == 0 ? Regions{} : geometry::subtract(body.layers[i].regions, body.layers[i - 1].regions));
   std::vector<const Regions*> known;
   for (const auto& step : steps) known.push_back(&step);
-  const auto same = support::islands(body.object(), known);
+  auto told = body.object();
+  told.over_air = known;
+  const auto same = support::islands(told);
   REQUIRE(same.size() == 1);
   CHECK((same[0].layer == found[0].layer && same[0].at == found[0].at));
+  const auto wanted = support::demand(on(), told), asked = support::demand(on(), body.object());
+  for (std::size_t i = 0; i < wanted.size(); ++i) CHECK(wanted[i].wanted == asked[i].wanted);
 }
 
 TEST_CASE("support: moved by microns it only moves") {
