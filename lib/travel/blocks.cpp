@@ -91,11 +91,10 @@ std::vector<Touch> touching_walls(const Beads& beads, const std::vector<std::uin
   const double near = 1.3 * widest, near2 = near * near + sample_um * sample_um / 4;
   const double area = (box.size().x + 1.0) * (box.size().y + 1.0);
   const auto cell =
-      static_cast<std::int64_t>(std::max(std::sqrt(near2), std::sqrt(area / static_cast<double>(4 * samples.size())))) +
-      1;
-  const auto columns = static_cast<int>(box.size().x / cell) + 1, rows = static_cast<int>(box.size().y / cell) + 1;
-  const auto column = [&](Point p) { return static_cast<int>((p.x - box.min.x) / cell); };
-  const auto row = [&](Point p) { return static_cast<int>((p.y - box.min.y) / cell); };
+      static_cast<Um>(std::max(std::sqrt(near2), std::sqrt(area / static_cast<double>(4 * samples.size())))) + 1;
+  const int columns = box.size().x / cell + 1, rows = box.size().y / cell + 1;
+  const auto column = [&](Point p) { return (p.x - box.min.x) / cell; };
+  const auto row = [&](Point p) { return (p.y - box.min.y) / cell; };
   const auto index = [&](int c, int r) {
     return static_cast<std::size_t>(r) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(c);
   };
