@@ -175,8 +175,7 @@ struct Heap {
 
   void* take(std::size_t kind) {
     if (first[kind] == nullptr) [[unlikely]] {
-      collect();
-      if (first[kind] == nullptr && !add_page(kind)) return nullptr;
+      if (!find_page(kind)) return nullptr;
     }
     Page* const page = first[kind];
     Piece* const piece = page->free;
@@ -207,8 +206,14 @@ struct Heap {
     page->listed = false;
   }
 
+  // What is rare stays out of the way of what is not: a function of its own, or all registers were saved each time.
+  [[gnu::noinline]] bool find_page(std::size_t kind) {
+    collect();
+    return first[kind] != nullptr || add_page(kind);
+  }
+
   /// To be called when pieces of a page have become free. The last of its kind is kept: it would be asked for soon.
-  void has_room(Page* page) {
+  [[gnu::noinline]] void has_room(Page* page) {
     if (!page->listed) list(page);
     if (page->used > 0 || (page->next == nullptr && page->before == nullptr)) return;
     unlist(page);
@@ -262,7 +267,7 @@ struct AtEnd {
 };
 
 /// The thread's heap; nullptr where there is none to be had, or the thread is about to end.
-Heap* find_heap() {
+[[gnu::noinline]] Heap* find_heap() {
   if (ended) return nullptr;
   {
     const std::lock_guard lock(idle_mutex);
@@ -280,7 +285,7 @@ Heap* find_heap() {
 }
 
 /// Of a piece of another thread's page. Who returns the first piece puts the page on its owner's list.
-void return_to_owner(Page* page, void* memory) {
+[[gnu::noinline]] void return_to_owner(Page* page, void* memory) {
   Piece* const piece = new (memory) Piece{page->returned.load(std::memory_order_relaxed)};
   Heap* const owner =
       page->owner;  // until the piece is returned the page cannot go, and after that only its owner may look
@@ -300,7 +305,7 @@ void return_to_owner(Page* page, void* memory) {
 namespace weft::small_memory {
 namespace {
 
-void* from_malloc(std::size_t bytes) {
+[[gnu::noinline]] void* from_malloc(std::size_t bytes) {
   for (;;) {
     if (void* const memory = std::malloc(std::max<std::size_t>(bytes, 1))) return memory;
     const auto handler = std::get_new_handler();

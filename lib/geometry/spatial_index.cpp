@@ -55,16 +55,21 @@ SegmentIndex::SegmentIndex(const Regions& regions) {
   build();
 }
 
+/// How far along x for a step of y; 0 for what is level.
+double SegmentIndex::lean_of(const Segment& s) {
+  return s.a.y == s.b.y ? 0 : (static_cast<double>(s.b.x) - s.a.x) / (static_cast<double>(s.b.y) - s.a.y);
+}
+
 /// The columns that the part of s within a row of cells may touch, a micron more rather than less.
-SegmentIndex::Cells SegmentIndex::columns_in_row(const Segment& s, int row) const {
+/// @param lean  that of s
+SegmentIndex::Cells SegmentIndex::columns_in_row(const Segment& s, double lean, int row) const {
   const auto [low, high] = std::minmax(s.a.x, s.b.x);
   if (s.a.y == s.b.y) return {column(low), column(high)};
-  const double slope = (static_cast<double>(s.b.x) - s.a.x) / (static_cast<double>(s.b.y) - s.a.y);
   const auto [bottom, top] = std::minmax(s.a.y, s.b.y);
   const Um from = std::max(bottom, box_.min.y + (row << shift_));
   const Um to = std::min<Um>(top, box_.min.y + ((row + 1) << shift_));
-  const double x0 = s.a.x + slope * (static_cast<double>(from) - s.a.y),
-               x1 = s.a.x + slope * (static_cast<double>(to) - s.a.y);
+  const double x0 = s.a.x + lean * (static_cast<double>(from) - s.a.y),
+               x1 = s.a.x + lean * (static_cast<double>(to) - s.a.y);
   const Um left = std::max(low, static_cast<Um>(std::floor(std::min(x0, x1))) - 1);
   const Um right = std::min(high, static_cast<Um>(std::ceil(std::max(x0, x1))) + 1);
   return {column(left), column(right)};
@@ -78,8 +83,9 @@ void SegmentIndex::for_each_cell(const Segment& s, F&& f) const {
     for (int c = from; c <= to; ++c) f(static_cast<std::size_t>(base + c));
     return;
   }
+  const double lean = lean_of(s);
   for (int r = first; r <= last; ++r) {
-    const Cells range = columns_in_row(s, r);
+    const Cells range = columns_in_row(s, lean, r);
     for (int c = range.first; c <= range.last; ++c) f(static_cast<std::size_t>(r * columns_ + c));
   }
 }
@@ -166,9 +172,10 @@ void SegmentIndex::for_each_near_line(Point a, Point b, F&& f) const {
   const Um bottom = std::max(std::min(a.y, b.y), box_.min.y), top = std::min(std::max(a.y, b.y), box_.max.y);
   if (bottom > top || std::max(a.x, b.x) < box_.min.x || std::min(a.x, b.x) > box_.max.x) return;
   const int first = row(bottom), last = row(top);
+  const double lean = first == last ? 0 : lean_of({a, b});
   for (int r = first; r <= last; ++r) {
     const Cells range =
-        first == last ? Cells{column(std::min(a.x, b.x)), column(std::max(a.x, b.x))} : columns_in_row({a, b}, r);
+        first == last ? Cells{column(std::min(a.x, b.x)), column(std::max(a.x, b.x))} : columns_in_row({a, b}, lean, r);
     for (int c = std::max(0, range.first); c <= std::min(columns_ - 1, range.last); ++c)
       for (const std::uint32_t i : cell(static_cast<std::size_t>(r * columns_ + c)))
         if (!f(i)) return;
@@ -222,7 +229,7 @@ void SegmentIndex::for_each_left_of(Point p, F&& f) const {
       if (side == 0 && p.x <= std::max(a.x, b.x)) f(i, 0);
       const bool up = b.y > p.y;
       if ((a.y > p.y) == up || (side > 0) == up || side == 0) continue;
-      if (c == std::max(0, columns_in_row(segments_[i], r).first))
+      if (c == std::max(0, columns_in_row(segments_[i], lean_of(segments_[i]), r).first))
         f(i, up ? -1 : 1);  // it is in several cells: count it once
     }
   }
@@ -370,9 +377,16 @@ bool SegmentIndex::simple() const {
       stop.step();
       const Segment s = segments_[here[x]];
       if (s.a == s.b) return false;
+      const auto [left, right] = std::minmax(s.a.x, s.b.x);
+      const auto [bottom, top] = std::minmax(s.a.y, s.b.y);
       for (std::size_t y = x + 1; y < here.size(); ++y) {
         const Segment& t = segments_[here[y]];
-        if (segments_touch(s.a, s.b, t.a, t.b) && !join(here[x], here[y])) return false;
+        if (std::max(t.a.x, t.b.x) < left || std::min(t.a.x, t.b.x) > right || std::max(t.a.y, t.b.y) < bottom ||
+            std::min(t.a.y, t.b.y) > top) {
+          continue;
+        }
+        const bool fits = neighbours(here[x], here[y]) ? join(here[x], here[y]) : !segments_touch(s.a, s.b, t.a, t.b);
+        if (!fits) return false;
       }
     }
   }

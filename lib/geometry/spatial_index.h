@@ -109,7 +109,8 @@ class SegmentIndex {
   bool join(std::uint32_t i, std::uint32_t j) const;
   int column(Um x) const { return (x - box_.min.x) >> shift_; }
   int row(Um y) const { return (y - box_.min.y) >> shift_; }
-  Cells columns_in_row(const Segment& s, int row) const;
+  static double lean_of(const Segment& s);
+  Cells columns_in_row(const Segment& s, double lean, int row) const;
   template <class F>
   void for_each_cell(const Segment& s, F&& f) const;
   template <class F>

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 /// Areas as bits on a grid: what shells compare layers with. A Boolean of two layers costs microseconds here; exact
@@ -36,18 +37,24 @@ class Mask {
   const Grid& grid() const { return grid_; }
   bool any() const;
   std::size_t count() const;
-  bool at(int column, int row) const;
+  bool at(int column, int r) const {
+    if (column < 0 || r < 0 || column >= grid_.columns || r >= grid_.rows) return false;
+    return (row(r)[static_cast<unsigned>(column) / 64] >> (static_cast<unsigned>(column) % 64) & 1) != 0;
+  }
   void set(int column, int row);
   /// The cell of that point; false outside of the grid.
-  bool at(Point p) const;
+  bool at(Point p) const {
+    return p.x >= grid_.origin.x && p.y >= grid_.origin.y && at(grid_.column_of(p.x), grid_.row_of(p.y));
+  }
 
   Mask& operator&=(const Mask& other);
   Mask& operator&=(std::span<const Mask* const> others);  ///< all of them in one pass. Pre: grids are the same
   Mask& operator|=(const Mask& other);
   Mask& operator-=(const Mask& other);  ///< and not
-  friend Mask operator&(Mask a, const Mask& b) { return a &= b; }
-  friend Mask operator|(Mask a, const Mask& b) { return a |= b; }
-  friend Mask operator-(Mask a, const Mask& b) { return a -= b; }
+  // The operand that is a copy already is what is returned: `return a &= b` would copy it once more.
+  friend Mask operator&(Mask a, const Mask& b) { return std::move(a &= b); }
+  friend Mask operator|(Mask a, const Mask& b) { return std::move(a |= b); }
+  friend Mask operator-(Mask a, const Mask& b) { return std::move(a -= b); }
   friend bool operator==(const Mask&, const Mask&) = default;
 
   /// Grown or shrunk by `cells` in x and in y (a square). Beyond the grid nothing is set.

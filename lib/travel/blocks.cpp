@@ -91,11 +91,10 @@ std::vector<Touch> touching_walls(const Beads& beads, const std::vector<std::uin
   const double near = 1.3 * widest, near2 = near * near + sample_um * sample_um / 4;
   const double area = (box.size().x + 1.0) * (box.size().y + 1.0);
   const auto cell =
-      static_cast<std::int64_t>(std::max(std::sqrt(near2), std::sqrt(area / static_cast<double>(4 * samples.size())))) +
-      1;
-  const auto columns = static_cast<int>(box.size().x / cell) + 1, rows = static_cast<int>(box.size().y / cell) + 1;
-  const auto column = [&](Point p) { return static_cast<int>((p.x - box.min.x) / cell); };
-  const auto row = [&](Point p) { return static_cast<int>((p.y - box.min.y) / cell); };
+      static_cast<Um>(std::max(std::sqrt(near2), std::sqrt(area / static_cast<double>(4 * samples.size())))) + 1;
+  const int columns = box.size().x / cell + 1, rows = box.size().y / cell + 1;
+  const auto column = [&](Point p) { return (p.x - box.min.x) / cell; };
+  const auto row = [&](Point p) { return (p.y - box.min.y) / cell; };
   const auto index = [&](int c, int r) {
     return static_cast<std::size_t>(r) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(c);
   };
@@ -105,25 +104,28 @@ std::vector<Touch> touching_walls(const Beads& beads, const std::vector<std::uin
   std::vector<Sample> sorted(samples.size());  // by cell: the three of a row beside each other are one run
   auto fill = first;
   for (const auto& s : samples) sorted[fill[index(column(s.at), row(s.at))]++] = s;
+  // Each pair of samples is looked at from the one whose cell comes first: the rest of its row, and the row above.
   std::vector<std::uint64_t> pairs;
   std::vector<std::uint32_t> touched_by(walls.size(),
                                         0xFFFFFFFF);  // the last wall that was found to: samples are in order of walls
   StopNowAndThen stop(64);
   for (const auto& s : samples) {
     stop.step();
-    const int c = column(s.at), r = row(s.at), last_row = std::min(rows - 1, r + 1);
-    for (int y = std::max(0, r - 1); y <= last_row; ++y) {
-      const std::uint32_t end = first[index(std::min(columns - 1, c + 1), y) + 1];
-      for (std::uint32_t k = first[index(std::max(0, c - 1), y)]; k < end; ++k) {
+    const int c = column(s.at), r = row(s.at), last_row = std::min(rows - 1, r + 1),
+              last = std::min(columns - 1, c + 1);
+    for (int y = r; y <= last_row; ++y) {
+      const std::uint32_t end = first[index(last, y) + 1];
+      for (std::uint32_t k = first[index(y == r ? c : std::max(0, c - 1), y)]; k < end; ++k) {
         const auto& other = sorted[k];
-        if (other.wall <= s.wall || other.inset == s.inset || touched_by[other.wall] == s.wall) continue;
+        if (other.inset == s.inset || touched_by[other.wall] == s.wall) continue;
         if (static_cast<double>(distance2(s.at, other.at)) > near2) continue;
         touched_by[other.wall] = s.wall;
-        pairs.push_back(std::uint64_t{s.wall} << 32 | other.wall);
+        pairs.push_back(std::uint64_t{std::min(s.wall, other.wall)} << 32 | std::max(s.wall, other.wall));
       }
     }
   }
   std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());  // each of the two may have found the other
   for (const auto pair : pairs)
     touches.push_back({static_cast<std::uint32_t>(pair >> 32), static_cast<std::uint32_t>(pair)});
   return touches;

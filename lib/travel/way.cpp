@@ -20,7 +20,7 @@ double length_from(Point p, const Polyline& way) {
 Way Router::way(Point p, Point q) const {
   auto inside = combed(layer_.comb, p, q);
   bool along_outer_walls = false;
-  if (!inside && !layer_.narrows.empty()) {
+  if (!inside && !layer_.narrows.empty() && !apart(p, q)) {
     inside = combed(half_a_bead_in(), p, q);
     along_outer_walls = !inside;
     if (!inside) inside = combed(layer_.narrows, p, q);
@@ -35,6 +35,12 @@ Way Router::way(Point p, Point q) const {
   // Checked all the same: the boundary may be moved outwards, and an outer wall may leave the outline where it is thin.
   const bool crosses = leaves_outline(p, *inside);
   return {std::move(*inside), far || strict || crosses, crosses, false};
+}
+
+/// Whether the two lie in different parts of the layer: no way inside leads from one to the other.
+bool Router::apart(Point p, Point q) const {
+  const std::uint32_t part = outline_.part_of(p), other = outline_.part_of(q);
+  return part != other && part != Comb::outside && other != Comb::outside;
 }
 
 const Comb& Router::half_a_bead_in() const {

@@ -33,6 +33,7 @@ class Router {
   bool leaves_room(Point p, const Polyline& way) const;
   std::optional<Point> gate(const Comb& comb, Point p) const;
   std::optional<Polyline> combed(const Comb& comb, Point p, Point q) const;
+  bool apart(Point p, Point q) const;
   const Comb& half_a_bead_in() const;
   bool too_long(double combed_um, double straight_um) const;
   Way direct(Point p, Point q) const;
