@@ -29,7 +29,6 @@ class Guess {
     double mm3 = 0;
     Regions falling;
     Um height = 0;
-    const Lean lean(s_, line_, stack_.levels[patch.contacts.back().first].z - room_.object().floor);
     auto next = patch.contacts.rbegin();
     for (std::size_t k = next->first + 1; k-- > 0;) {
       if (next != patch.contacts.rend() && next->first == k) append(falling, (next++)->second);
@@ -37,9 +36,8 @@ class Guess {
       if (falling.empty() || (height < step && k > 0)) continue;
       stop_if_asked();
       falling = geometry::simplified(geometry::unite(falling), coarse);
-      if (s_.support_join_distance > 0) falling = geometry::closing(falling, s_.support_join_distance / 2);
+      if (s_.support_join_distance > 0) falling = closed(falling, s_.support_join_distance / 2);
       mm3 += lost(k, falling);
-      if (s_.support_conical_enabled) falling = lean.narrower(falling, rounded(lean.after(height)));
       for (const Region& region : falling) mm3 += column_mm3(s_, line_, region, height);
       height = 0;
     }

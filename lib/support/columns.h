@@ -20,15 +20,14 @@ class Lean {
   /// @param height  of the column
   Lean(const SupportSettings& settings, Um line, Um height);
 
+  /// On a level of that height, the next one down: what lies above still rests. @return whether anything was done
+  bool narrow(Um height, Regions& falling);
+
+ private:
   /// By that much at each side; wider below 0. What lines fill gets narrower along them only, or those at its side
   /// would have nothing below.
   Regions narrower(const Regions& falling, Um by) const;
-  /// How much that is after such a height.
-  double after(Um height) const;
-  /// On a level of that height, the next one down: what lies above still rests.
-  void narrow(Um height, Regions& falling);
 
- private:
   const SupportSettings& s_;
   Um line_, least_;
   double left_ = 0;  ///< how much narrower, µm, than has been done

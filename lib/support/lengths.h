@@ -89,9 +89,13 @@ inline Regions grown(const Regions& regions, Um by, Um arc_tolerance = coarse_ar
   return geometry::offset_apart(regions, {.by = by, .corner = geometry::Corner::round, .arc_tolerance = arc_tolerance});
 }
 
-/// As geometry::opening, with arcs of as many corners as support needs.
-inline Regions opened(const Regions& regions, Um radius) {
-  return grown(grown(regions, -radius), radius);
+/// As geometry::opening, with arcs of as many corners as support needs; and so much wider.
+inline Regions opened(const Regions& regions, Um radius, Um wider = 0) {
+  return grown(grown(regions, -radius), radius + wider);
+}
+/// As geometry::closing, with such arcs.
+inline Regions closed(const Regions& regions, Um radius) {
+  return grown(grown(regions, radius), -radius);
 }
 
 /// Beads of support follow its outlines no closer than that; so much more is kept off the part.
