@@ -166,7 +166,7 @@ void thicken(Regions& area, const Regions& fresh, Um line) {
   if (fresh.empty()) return;
   // What a disc inside of the area covers is told by what lies as near as its diameter.
   const Regions around = &area == &fresh ? area : geometry::intersect(area, boxes_around(fresh, 2 * line));
-  const Regions thin = geometry::subtract(fresh, opened(around, line, line / 2));  // corners are no strips
+  const Regions thin = geometry::subtract(fresh, opened(around, line, 20));
   if (thin.empty()) return;
   append(area, grown(thin, line));
   area = geometry::unite(area);
