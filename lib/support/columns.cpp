@@ -91,23 +91,54 @@ class Towers {
   std::vector<Tower> growing_;
 };
 
-/// A level further down columns are narrower by that much at each side (wider below 0), but keep their least width.
-void lean(const SupportSettings& s, const Object& object, Um height, Regions& falling) {
-  const Um rests = line_width(s, object.nozzle) / 2;  // more of a bead would hang
-  const Um by =
-      std::clamp(rounded(height * std::tan(s.support_conical_angle * std::numbers::pi / 180)), -8 * rests, rests);
-  if (by < 0) {
-    falling = grown(falling, -by);
-    return;
-  }
-  const auto with = [](Um offset) { return geometry::OffsetOptions{.by = offset, .corner = geometry::Corner::miter}; };
-  const Um least = s.support_conical_min_width / 2;
-  Regions out = geometry::offset(falling, with(-by));
-  append(out, geometry::subtract(falling, geometry::offset(geometry::offset(falling, with(-least)), with(least + 20))));
-  falling = geometry::opening(geometry::unite(out), rests / 2);
+/// What of regions is no nearer than that to their edge, gone along a direction.
+Regions shortened(const Regions& regions, Um by, double direction_rad) {
+  const Point to{rounded(by * std::cos(direction_rad)), rounded(by * std::sin(direction_rad))};
+  return geometry::intersect(geometry::intersect(regions, moved(regions, to)), moved(regions, -to));
+}
+
+/// Lines that do not carry each other: a column may lose the ends of its lines, but none from its side.
+bool of_lines(const SupportSettings& s) {
+  return (s.support_pattern == SupportPattern::zigzag || s.support_pattern == SupportPattern::lines) &&
+         s.support_wall_count.value_or(0) == 0;
 }
 
 }  // namespace
+
+Lean::Lean(const SupportSettings& settings, Um line, Um height)
+    : s_(settings), line_(line), least_(std::max(settings.support_conical_min_width, height / 8)) {}
+
+Regions Lean::narrower(const Regions& falling, Um by) const {
+  if (by < 0) return grown(falling, -by);
+  const auto with = [](Um offset) { return geometry::OffsetOptions{.by = offset, .corner = geometry::Corner::miter}; };
+  // What stands close round something goes on round it: lines would only be cut in pieces.
+  Regions solid = falling;
+  bool round_something = false;
+  for (Region& region : solid)
+    round_something |= std::erase_if(region.holes, [&](const Ring& hole) {
+                         const Point size = box_of(hole).size();
+                         return std::max(size.x, size.y) < least_;
+                       }) > 0;
+  const Regions wide = geometry::offset(geometry::offset(solid, with(-least_ / 2)), with(least_ / 2));
+  if (wide.empty()) return falling;
+  const Regions kept = geometry::subtract(solid, geometry::offset(wide, with(20)));
+  Regions out = of_lines(s_) ? shortened(solid, by, s_.support_infill_angle * std::numbers::pi / 180)
+                             : geometry::offset(solid, with(-by));
+  append(out, kept);
+  if (!kept.empty()) out = geometry::unite(out);
+  if (round_something) out = geometry::intersect(out, falling);
+  return geometry::opening(out, line_ / 4);
+}
+
+bool Lean::narrow(Um height, Regions& falling) {
+  const Um most = line_ * 6 / 10;  // more would hang
+  left_ += height * std::tan(s_.support_conical_angle * std::numbers::pi / 180);
+  if (left_ >= 0 && left_ < most) return false;  // levels that are alike are done once
+  const Um by = std::clamp(rounded(left_), -8 * most, most);
+  left_ -= by;
+  falling = narrower(falling, by);
+  return true;
+}
 
 TowersAndOthers for_towers(const SupportSettings& settings, const std::vector<Regions>& contacts) {
   TowersAndOthers out{std::vector<Regions>(contacts.size()), std::vector<Regions>(contacts.size())};
@@ -195,12 +226,14 @@ constexpr Um corner_bound = 40_um;
 /// Columns of one patch.
 class Falling {
  public:
-  Falling(const Room& room, const Stack& stack, const std::vector<Regions>& shadow)
+  /// @param height  of the highest of them
+  Falling(const Room& room, const Stack& stack, const std::vector<Regions>& shadow, Um height)
       : s_(room.settings()),
         room_(room),
         stack_(stack),
         shadow_(shadow),
         line_(line_width(s_, room.object().nozzle)),
+        lean_(s_, line_, height),
         towers_(s_),
         levels_(stack.levels.size()),
         less_(stack.levels.size(), 0) {}
@@ -226,10 +259,7 @@ class Falling {
   /// What begins on that level, and what comes down from above.
   void begin(std::size_t k, const Regions& contacts, const Regions& given) {
     const auto& level = stack_.levels[k];
-    if (s_.support_conical_enabled && !falling_.empty()) {
-      lean(s_, room_.object(), level.height, falling_);
-      edge_.reset(), less_[k] = 1;
-    }
+    if (s_.support_conical_enabled && !falling_.empty() && lean_.narrow(level.height, falling_)) edge_.reset();
     towers_.begin(contacts, level.z);
     if (towers_.add(level.z, falling_) || !contacts.empty() || !given.empty()) edge_.reset();
     if (!contacts.empty()) {
@@ -298,6 +328,7 @@ class Falling {
   const Stack& stack_;
   const std::vector<Regions>& shadow_;
   Um line_;
+  Lean lean_;
   Towers towers_;
   Regions falling_, close_;
   std::vector<std::pair<std::size_t, Regions>> held_;  ///< the last contacts, by level
@@ -319,6 +350,10 @@ std::vector<Regions> columns(const Room& room, const Stack& stack, const std::ve
   std::vector<Regions> shadow;
   if (s.support_type == SupportType::buildplate) shadow = shadows(room, stack);
   const bool drawn = std::any_of(given.begin(), given.end(), [](const Regions& r) { return !r.empty(); });
+  const auto height_of = [&](const Patch& patch) {
+    const std::size_t top = patch.contacts.empty() ? stack.levels.size() - 1 : patch.contacts.back().first;
+    return stack.levels[top].z - room.object().floor;
+  };
   // What gets wider on the way down meets others.
   const bool wider = drawn || s.support_normal_shape == SupportShape::grid || s.support_use_towers ||
                      (s.support_conical_enabled && s.support_conical_angle < 0);
@@ -326,11 +361,12 @@ std::vector<Regions> columns(const Room& room, const Stack& stack, const std::ve
     Patch all;
     for (std::size_t k = 0; k < contacts.size(); ++k)
       if (!contacts[k].empty()) all.contacts.push_back({k, contacts[k]});
-    return Falling(room, stack, shadow).under(all, drawn ? &given : nullptr);
+    return Falling(room, stack, shadow, height_of(all)).under(all, drawn ? &given : nullptr);
   }
   const Patches patches(contacts, apart(s, room.object().nozzle));
   auto of_patch = tasks::parallel_map(patches.all().size(), [&](std::size_t i) {
-    return Falling(room, stack, shadow).under(patches.all()[i], nullptr);
+    const Patch& patch = patches.all()[i];
+    return Falling(room, stack, shadow, height_of(patch)).under(patch, nullptr);
   });
   std::vector<Regions> out(stack.levels.size());
   for (auto& levels : of_patch)

@@ -13,6 +13,26 @@ namespace weft::support {
 std::vector<Regions> columns(const Room& room, const Stack& stack, const std::vector<Regions>& contacts,
                              const std::vector<Regions>& given);
 
+/// Lets columns get narrower downwards, but none narrower than an eighth of its height: it would tip over.
+class Lean {
+ public:
+  /// @param line    width of a bead
+  /// @param height  of the column
+  Lean(const SupportSettings& settings, Um line, Um height);
+
+  /// On a level of that height, the next one down: what lies above still rests. @return whether anything was done
+  bool narrow(Um height, Regions& falling);
+
+ private:
+  /// By that much at each side; wider below 0. What lines fill gets narrower along them only, or those at its side
+  /// would have nothing below.
+  Regions narrower(const Regions& falling, Um by) const;
+
+  const SupportSettings& s_;
+  Um line_, least_;
+  double left_ = 0;  ///< how much narrower, µm, than has been done
+};
+
 /// Columns of contacts that are further from each other than that, seen from above, never meet.
 Um apart(const SupportSettings& settings, Um nozzle);
 
