@@ -165,6 +165,18 @@ void SegmentIndex::near(const Box& box, std::vector<std::uint32_t>& found) const
   found.erase(std::unique(found.begin(), found.end()), found.end());
 }
 
+bool SegmentIndex::any_near(const Box& box) const {
+  if (box.empty() || segments_.empty() || !box.overlaps(box_)) return false;
+  const int c0 = column(std::max(box.min.x, box_.min.x)), c1 = column(std::min(box.max.x, box_.max.x));
+  const int r0 = row(std::max(box.min.y, box_.min.y)), r1 = row(std::min(box.max.y, box_.max.y));
+  for (int r = r0; r <= r1; ++r) {
+    const std::size_t first = static_cast<std::size_t>(r * columns_ + c0),
+                      last = first + static_cast<std::size_t>(c1 - c0);
+    if (starts_[first] != starts_[last + 1]) return true;  // cells of a row lie side by side
+  }
+  return false;
+}
+
 /// Calls f(i) for each segment near the line, often more than once, until it returns false.
 template <class F>
 void SegmentIndex::for_each_near_line(Point a, Point b, F&& f) const {
@@ -184,8 +196,13 @@ void SegmentIndex::for_each_near_line(Point a, Point b, F&& f) const {
 
 void SegmentIndex::crossings(Point a, Point b, std::vector<Crossing>& found) const {
   found.clear();
-  for_each_near_line(a, b, [&](std::uint32_t i) {
+  const auto [left, right] = std::minmax(a.x, b.x);
+  const auto [bottom, top] = std::minmax(a.y, b.y);
+  for_each_near_line(a, b, [&, left = left, right = right, bottom = bottom, top = top](std::uint32_t i) {
     const auto& [c, d] = segments_[i];
+    if (std::max(c.x, d.x) < left || std::min(c.x, d.x) > right || std::max(c.y, d.y) < bottom ||
+        std::min(c.y, d.y) > top)
+      return true;
     if ((orient(a, b, c) > 0) == (orient(a, b, d) > 0)) return true;
     const std::int64_t at_a = orient(c, d, a), at_b = orient(c, d, b);
     if ((at_a > 0) == (at_b > 0)) return true;

@@ -50,6 +50,8 @@ class SegmentIndex {
 
   /// The segments whose cells the box meets: all that meet the box, and some that only come near. Ascending.
   void near(const Box& box, std::vector<std::uint32_t>& found) const;
+  /// Whether it finds any.
+  bool any_near(const Box& box) const;
 
   /// A segment met by a line from a to b.
   struct Crossing {
