@@ -24,35 +24,38 @@ SegmentIndex::SegmentIndex(std::vector<Segment> segments) : segments_(std::move(
 SegmentIndex::SegmentIndex(std::span<const Ring> rings) {
   std::size_t count = 0;
   for (const auto& ring : rings) count += ring.size();
-  segments_.reserve(count), origins_.reserve(count), next_.reserve(count);
-  for (std::size_t r = 0; r < rings.size(); ++r) {
-    const auto& ring = rings[r];
-    const auto first = static_cast<std::uint32_t>(segments_.size());
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const bool last = i + 1 == ring.size();
-      segments_.push_back({ring[i], ring[last ? 0 : i + 1]});
-      origins_.push_back({static_cast<std::uint32_t>(r), 0, static_cast<std::uint32_t>(i)});
-      next_.push_back(last ? first : static_cast<std::uint32_t>(segments_.size()));
-    }
-  }
+  reserve(count);
+  for (std::uint32_t r = 0; r < rings.size(); ++r) add(rings[r], {r, 0, 0});
   build();
 }
 
 SegmentIndex::SegmentIndex(const Regions& regions) {
-  for (std::size_t r = 0; r < regions.size(); ++r) {
-    for (std::size_t k = 0; k <= regions[r].holes.size(); ++k) {
-      const Ring& ring = k == 0 ? regions[r].outer : regions[r].holes[k - 1];
-      const auto first = static_cast<std::uint32_t>(segments_.size());
-      for (std::size_t i = 0; i < ring.size(); ++i) {
-        const bool last = i + 1 == ring.size();
-        segments_.push_back({ring[i], ring[last ? 0 : i + 1]});
-        origins_.push_back(
-            {static_cast<std::uint32_t>(r), static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(i)});
-        next_.push_back(last ? first : static_cast<std::uint32_t>(segments_.size()));
-      }
-    }
+  std::size_t count = 0;
+  for (const auto& region : regions) {
+    count += region.outer.size();
+    for (const auto& hole : region.holes) count += hole.size();
+  }
+  reserve(count);
+  for (std::uint32_t r = 0; r < regions.size(); ++r) {
+    add(regions[r].outer, {r, 0, 0});
+    for (std::uint32_t k = 0; k < regions[r].holes.size(); ++k) add(regions[r].holes[k], {r, k + 1, 0});
   }
   build();
+}
+
+void SegmentIndex::reserve(std::size_t segments) {
+  segments_.reserve(segments), origins_.reserve(segments), next_.reserve(segments);
+}
+
+/// @param first  where its first edge comes from
+void SegmentIndex::add(const Ring& ring, EdgeOfRegion first) {
+  const auto begin = static_cast<std::uint32_t>(segments_.size());
+  for (std::uint32_t i = 0; i < ring.size(); ++i) {
+    const bool last = i + 1 == ring.size();
+    segments_.push_back({ring[i], ring[last ? 0 : i + 1]});
+    origins_.push_back({first.region, first.ring, i});
+    next_.push_back(last ? begin : begin + i + 1);
+  }
 }
 
 /// How far along x for a step of y; 0 for what is level.

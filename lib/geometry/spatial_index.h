@@ -105,6 +105,8 @@ class SegmentIndex {
   struct Cells {
     int first = 0, last = -1;
   };
+  void reserve(std::size_t segments);
+  void add(const Ring& ring, EdgeOfRegion first);
   void build();
   bool neighbours(std::uint32_t i, std::uint32_t j) const;
   /// Whether two segments that touch are neighbours that share the end only: a fold back would lie on the other.
