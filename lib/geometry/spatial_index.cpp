@@ -24,35 +24,38 @@ SegmentIndex::SegmentIndex(std::vector<Segment> segments) : segments_(std::move(
 SegmentIndex::SegmentIndex(std::span<const Ring> rings) {
   std::size_t count = 0;
   for (const auto& ring : rings) count += ring.size();
-  segments_.reserve(count), origins_.reserve(count), next_.reserve(count);
-  for (std::size_t r = 0; r < rings.size(); ++r) {
-    const auto& ring = rings[r];
-    const auto first = static_cast<std::uint32_t>(segments_.size());
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const bool last = i + 1 == ring.size();
-      segments_.push_back({ring[i], ring[last ? 0 : i + 1]});
-      origins_.push_back({static_cast<std::uint32_t>(r), 0, static_cast<std::uint32_t>(i)});
-      next_.push_back(last ? first : static_cast<std::uint32_t>(segments_.size()));
-    }
-  }
+  reserve(count);
+  for (std::uint32_t r = 0; r < rings.size(); ++r) add(rings[r], {r, 0, 0});
   build();
 }
 
 SegmentIndex::SegmentIndex(const Regions& regions) {
-  for (std::size_t r = 0; r < regions.size(); ++r) {
-    for (std::size_t k = 0; k <= regions[r].holes.size(); ++k) {
-      const Ring& ring = k == 0 ? regions[r].outer : regions[r].holes[k - 1];
-      const auto first = static_cast<std::uint32_t>(segments_.size());
-      for (std::size_t i = 0; i < ring.size(); ++i) {
-        const bool last = i + 1 == ring.size();
-        segments_.push_back({ring[i], ring[last ? 0 : i + 1]});
-        origins_.push_back(
-            {static_cast<std::uint32_t>(r), static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(i)});
-        next_.push_back(last ? first : static_cast<std::uint32_t>(segments_.size()));
-      }
-    }
+  std::size_t count = 0;
+  for (const auto& region : regions) {
+    count += region.outer.size();
+    for (const auto& hole : region.holes) count += hole.size();
+  }
+  reserve(count);
+  for (std::uint32_t r = 0; r < regions.size(); ++r) {
+    add(regions[r].outer, {r, 0, 0});
+    for (std::uint32_t k = 0; k < regions[r].holes.size(); ++k) add(regions[r].holes[k], {r, k + 1, 0});
   }
   build();
+}
+
+void SegmentIndex::reserve(std::size_t segments) {
+  segments_.reserve(segments), origins_.reserve(segments), next_.reserve(segments);
+}
+
+/// @param first  where its first edge comes from
+void SegmentIndex::add(const Ring& ring, EdgeOfRegion first) {
+  const auto begin = static_cast<std::uint32_t>(segments_.size());
+  for (std::uint32_t i = 0; i < ring.size(); ++i) {
+    const bool last = i + 1 == ring.size();
+    segments_.push_back({ring[i], ring[last ? 0 : i + 1]});
+    origins_.push_back({first.region, first.ring, i});
+    next_.push_back(last ? begin : begin + i + 1);
+  }
 }
 
 /// How far along x for a step of y; 0 for what is level.
@@ -165,6 +168,18 @@ void SegmentIndex::near(const Box& box, std::vector<std::uint32_t>& found) const
   found.erase(std::unique(found.begin(), found.end()), found.end());
 }
 
+bool SegmentIndex::any_near(const Box& box) const {
+  if (box.empty() || segments_.empty() || !box.overlaps(box_)) return false;
+  const int c0 = column(std::max(box.min.x, box_.min.x)), c1 = column(std::min(box.max.x, box_.max.x));
+  const int r0 = row(std::max(box.min.y, box_.min.y)), r1 = row(std::min(box.max.y, box_.max.y));
+  for (int r = r0; r <= r1; ++r) {
+    const std::size_t first = static_cast<std::size_t>(r * columns_ + c0),
+                      last = first + static_cast<std::size_t>(c1 - c0);
+    if (starts_[first] != starts_[last + 1]) return true;  // cells of a row lie side by side
+  }
+  return false;
+}
+
 /// Calls f(i) for each segment near the line, often more than once, until it returns false.
 template <class F>
 void SegmentIndex::for_each_near_line(Point a, Point b, F&& f) const {
@@ -184,8 +199,13 @@ void SegmentIndex::for_each_near_line(Point a, Point b, F&& f) const {
 
 void SegmentIndex::crossings(Point a, Point b, std::vector<Crossing>& found) const {
   found.clear();
-  for_each_near_line(a, b, [&](std::uint32_t i) {
+  const auto [left, right] = std::minmax(a.x, b.x);
+  const auto [bottom, top] = std::minmax(a.y, b.y);
+  for_each_near_line(a, b, [&, left = left, right = right, bottom = bottom, top = top](std::uint32_t i) {
     const auto& [c, d] = segments_[i];
+    if (std::max(c.x, d.x) < left || std::min(c.x, d.x) > right || std::max(c.y, d.y) < bottom ||
+        std::min(c.y, d.y) > top)
+      return true;
     if ((orient(a, b, c) > 0) == (orient(a, b, d) > 0)) return true;
     const std::int64_t at_a = orient(c, d, a), at_b = orient(c, d, b);
     if ((at_a > 0) == (at_b > 0)) return true;

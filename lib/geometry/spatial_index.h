@@ -50,6 +50,8 @@ class SegmentIndex {
 
   /// The segments whose cells the box meets: all that meet the box, and some that only come near. Ascending.
   void near(const Box& box, std::vector<std::uint32_t>& found) const;
+  /// Whether it finds any.
+  bool any_near(const Box& box) const;
 
   /// A segment met by a line from a to b.
   struct Crossing {
@@ -103,6 +105,8 @@ class SegmentIndex {
   struct Cells {
     int first = 0, last = -1;
   };
+  void reserve(std::size_t segments);
+  void add(const Ring& ring, EdgeOfRegion first);
   void build();
   bool neighbours(std::uint32_t i, std::uint32_t j) const;
   /// Whether two segments that touch are neighbours that share the end only: a fold back would lie on the other.

@@ -5,12 +5,10 @@
 
 namespace weft::overhangs {
 
-bool Air::edge_near(Point a, Point b, Um reach) {
+bool Air::edge_near(Point a, Point b, Um reach) const {
   const auto [x0, x1] = std::minmax(a.x, b.x);
   const auto [y0, y1] = std::minmax(a.y, b.y);
-  const Box box{{x0 - reach, y0 - reach}, {x1 + reach, y1 + reach}};
-  index_.near(box, found_);
-  return !found_.empty();
+  return index_.any_near({{x0 - reach, y0 - reach}, {x1 + reach, y1 + reach}});
 }
 
 bool Air::at(Point p) {

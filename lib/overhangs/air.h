@@ -2,7 +2,6 @@
 #pragma once
 #include "geometry/spatial_index.h"
 
-#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -20,7 +19,7 @@ class Air {
   }
   /// Whether its edge may come that near to the way from a to b: where it does not, all of a bead's width is in the
   /// air, or none.
-  bool edge_near(Point a, Point b, Um reach);
+  bool edge_near(Point a, Point b, Um reach) const;
 
   /// Is there nothing below p? Asked along a path it costs what lies between one place and the next.
   bool at(Point p);
@@ -36,7 +35,6 @@ class Air {
   std::optional<Point> last_;  // that was asked about
   bool last_in_air_ = false;
   std::vector<geometry::SegmentIndex::Crossing> crossings_;
-  std::vector<std::uint32_t> found_;
 };
 
 }  // namespace weft::overhangs

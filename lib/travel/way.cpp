@@ -95,25 +95,26 @@ bool Router::leaves_outline(Point p, const Polyline& way) const {
 }
 
 /// The point of the comb area from which p is reached inside the part.
-std::optional<Point> Router::gate(const Comb& comb, Point p) const {
-  if (comb.part_of(p) != Comb::outside) return p;
+std::optional<Router::Gate> Router::gate(const Comb& comb, Point p) const {
+  if (const std::uint32_t part = comb.part_of(p); part != Comb::outside) return Gate{p, part};
   const auto gate = comb.nearest_on_boundary(p, reach_um);
   if (!gate || outline_.part_of(p) == Comb::outside || !outline_.sees(p, *gate)) return std::nullopt;
-  return gate;
+  return Gate{*gate, comb.part_of(*gate)};
 }
 
 std::optional<Polyline> Router::combed(const Comb& comb, Point p, Point q) const {
   if (comb.empty()) return std::nullopt;
-  const auto from = gate(comb, p), to = gate(comb, q);
-  if (!from || !to) return std::nullopt;
-  const double to_gates = distance(p, *from) + distance(*to, q);
+  const auto from = gate(comb, p);
+  if (!from) return std::nullopt;
+  const auto to = gate(comb, q);
+  if (!to) return std::nullopt;
+  const double to_gates = distance(p, from->at) + distance(to->at, q);
   if (to_gates > 0 && distance(p, q) <= to_gates && outline_.sees(p, q)) return Polyline{q};
-  const std::uint32_t part = comb.part_of(*from);
-  if (part == Comb::outside || part != comb.part_of(*to)) return std::nullopt;
-  auto inside = comb.way(*from, *to);
+  if (from->part == Comb::outside || from->part != to->part) return std::nullopt;
+  auto inside = comb.way(from->at, to->at);
   if (!inside) return std::nullopt;
-  if (*from != p) inside->insert(inside->begin(), *from);
-  if (*to != q) inside->push_back(q);
+  if (from->at != p) inside->insert(inside->begin(), from->at);
+  if (to->at != q) inside->push_back(q);
   return inside;
 }
 

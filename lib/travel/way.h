@@ -3,6 +3,7 @@
 #include "travel/obstacles.h"
 #include "travel/travel.h"
 
+#include <cstdint>
 #include <optional>
 
 namespace weft::travel {
@@ -31,7 +32,11 @@ class Router {
  private:
   bool leaves_outline(Point p, const Polyline& way) const;
   bool leaves_room(Point p, const Polyline& way) const;
-  std::optional<Point> gate(const Comb& comb, Point p) const;
+  struct Gate {
+    Point at;
+    std::uint32_t part;  ///< of the comb area
+  };
+  std::optional<Gate> gate(const Comb& comb, Point p) const;
   std::optional<Polyline> combed(const Comb& comb, Point p, Point q) const;
   bool apart(Point p, Point q) const;
   const Comb& half_a_bead_in() const;

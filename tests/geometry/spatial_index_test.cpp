@@ -64,6 +64,7 @@ TEST_CASE("geometry: the index finds what looking at every segment finds", "[law
       Box box;
       box.add(p), box.add(q);
       index.near(box, near);
+      CHECK(index.any_near(box) == !near.empty());
       std::size_t found_crossings = 0;
       bool proper = false;
       index.crossings(p, q, crossings);
