@@ -149,16 +149,6 @@ void Mask::set(int column, int row_number) {
   row(row_number)[word_of(column)] |= bit_of(column);
 }
 
-bool Mask::at(int column, int r) const {
-  if (column < 0 || r < 0 || column >= grid_.columns || r >= grid_.rows) return false;
-  return (row(r)[word_of(column)] & bit_of(column)) != 0;
-}
-
-bool Mask::at(Point p) const {
-  if (p.x < grid_.origin.x || p.y < grid_.origin.y) return false;
-  return at(grid_.column_of(p.x), grid_.row_of(p.y));
-}
-
 Mask& Mask::operator&=(const Mask& other) {
   const Mask* const one = &other;
   return *this &= std::span(&one, 1);

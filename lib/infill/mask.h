@@ -36,10 +36,17 @@ class Mask {
   const Grid& grid() const { return grid_; }
   bool any() const;
   std::size_t count() const;
-  bool at(int column, int row) const;
+  bool at(int column, int r) const {
+    if (column < 0 || r < 0 || column >= grid_.columns || r >= grid_.rows) return false;
+    const auto c = static_cast<unsigned>(column);
+    return (row(r)[c / 64] >> (c % 64) & 1) != 0;
+  }
   void set(int column, int row);
   /// The cell of that point; false outside of the grid.
-  bool at(Point p) const;
+  bool at(Point p) const {
+    if (p.x < grid_.origin.x || p.y < grid_.origin.y) return false;
+    return at(grid_.column_of(p.x), grid_.row_of(p.y));
+  }
 
   Mask& operator&=(const Mask& other);
   Mask& operator&=(std::span<const Mask* const> others);  ///< all of them in one pass. Pre: grids are the same
