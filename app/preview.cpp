@@ -4,6 +4,7 @@
 #include "core/file_bytes.h"
 #include "limited.h"
 #include "page_file.h"
+#include "preview/coverage.h"
 #include "preview_file.h"
 #include "settings/value.h"
 #include "tasks/tasks.h"
@@ -135,6 +136,18 @@ preview::Chord chord_of(preview::Kind kind, const preview::View& view) {
   return {0.5 * to_mm(std::max(view.window->size().x, view.window->size().y)) / view.size, 0};
 }
 
+/// Tells of a window beside everything that the layer prints: the picture is empty, and no fault of the file.
+void warn_if_beside(const preview::Toolpaths& paths, const preview::View& view, Console& console) {
+  if (!view.window || view.eye) return;
+  const std::size_t layer = preview::layer_shown(paths, view);
+  const Box printed = preview::box_of_beads(paths.layers[layer], paths);
+  if (printed.empty() || view.window->overlaps(printed)) return;
+  console.warning(
+      {"window_empty",
+       fmt::format("--window shows nothing: layer {} prints from {:.2f}x{:.2f} to {:.2f}x{:.2f}", layer,
+                   to_mm(printed.min.x), to_mm(printed.min.y), to_mm(printed.max.x), to_mm(printed.max.y))});
+}
+
 /// The bytes of the picture or page that the command asks for. @throws Error
 std::string drawing(const Command& command, preview::Kind kind, Console& console) {
   const auto& o = command.options;
@@ -159,7 +172,10 @@ std::string drawing(const Command& command, preview::Kind kind, Console& console
   view.title = std::filesystem::path(path).filename().string();
   std::optional<preview::Overlay> overlay;
   if (o["audit"].as<bool>()) overlay = audited(settings, gcode, console);
-  if (!is_page) return preview::draw(kind, paths, view, overlay);
+  if (!is_page) {
+    warn_if_beside(paths, view, console);
+    return preview::draw(kind, paths, view, overlay);
+  }
   std::vector<std::string> models;
   if (o.count("model")) models = o["model"].as<std::vector<std::string>>();
   return page_of(paths, gcode, path, view, overlay, models);

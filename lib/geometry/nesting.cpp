@@ -120,9 +120,7 @@ Regions assembled(std::span<const Ring> rings, const std::vector<Place>& places)
 }
 }  // namespace
 
-std::optional<Regions> nested(std::span<const Ring> rings, WindingRule rule) {
-  const SegmentIndex index(rings);
-  if (!index.simple()) return std::nullopt;
+Regions nested_apart(std::span<const Ring> rings, const SegmentIndex& index, WindingRule rule) {
   auto places = places_of(rings, index, true);
   for (auto& place : places) {
     if (place.sliver()) continue;
@@ -131,6 +129,12 @@ std::optional<Regions> nested(std::span<const Ring> rings, WindingRule rule) {
       place.kind = solid(inside, rule) ? Place::Kind::outer : Place::Kind::hole;
   }
   return assembled(rings, places);
+}
+
+std::optional<Regions> nested(std::span<const Ring> rings, WindingRule rule) {
+  const SegmentIndex index(rings);
+  if (!index.simple()) return std::nullopt;
+  return nested_apart(rings, index, rule);
 }
 
 Regions nested_by_orientation(std::span<const Ring> rings, const SegmentIndex& index) {

@@ -15,6 +15,8 @@ namespace weft::geometry {
 /// themselves; nothing when they have. Exact.
 /// Pre: no collinear points in the rings (simplify.h), no empty ring.
 std::optional<Regions> nested(std::span<const Ring> rings, WindingRule rule);
+/// The same where it is known that they have none. Pre: `index` was made from the rings.
+Regions nested_apart(std::span<const Ring> rings, const SegmentIndex& index, WindingRule rule);
 
 /// Holes (clockwise) sorted into the innermost outer ring (counter-clockwise) around them.
 /// Pre: rings do not cross, but may touch; `index` was made from them.

@@ -5,6 +5,8 @@
 #include "geometry/clipper_door.h"
 #include "geometry/nesting.h"
 #include "geometry/simplify.h"
+#include "geometry/spatial_index.h"
+#include "geometry/wound.h"
 
 #include <cassert>
 #include <cmath>
@@ -126,14 +128,21 @@ class Pen {
   std::vector<Edge> edges_;
   clipper::FineRing curve_;
 };
-/// Curves that neither cross nor touch anything are outlines as they are: no sweep is needed.
+/// Curves that neither cross nor touch anything are outlines as they are, and those that cross cleanly are followed
+/// from crossing to crossing: no sweep is needed.
 std::optional<Regions> settled(const clipper::FineRings& curves, Point origin) {
   std::vector<Ring> rings;
   for (const auto& curve : curves) {
     rings.push_back(clipper::coarse(curve, origin));
     if (rings.back().empty()) rings.pop_back();
   }
-  return nested(rings, WindingRule::positive);
+  const SegmentIndex index(rings);
+  const auto crossings = index.clean_crossings();
+  if (!crossings) return std::nullopt;
+  if (crossings->empty()) return nested_apart(rings, index, WindingRule::positive);
+  auto outlines = wound(rings, index, *crossings);
+  if (!outlines) return std::nullopt;
+  return clipper::tidied(*std::move(outlines), origin);
 }
 }  // namespace
 

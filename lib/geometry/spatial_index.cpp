@@ -339,12 +339,20 @@ std::optional<std::vector<std::pair<std::uint32_t, std::uint32_t>>> SegmentIndex
       stop.step();
       const Segment s = segments_[here[x]];
       if (s.a == s.b) return std::nullopt;
+      const auto [left, right] = std::minmax(s.a.x, s.b.x);
+      const auto [bottom, top] = std::minmax(s.a.y, s.b.y);
       for (std::size_t y = x + 1; y < here.size(); ++y) {
-        const Segment t = segments_[here[y]];
-        if (!segments_touch(s.a, s.b, t.a, t.b)) continue;
+        const Segment& t = segments_[here[y]];
+        if ((t.a.x < left && t.b.x < left) || (t.a.x > right && t.b.x > right) || (t.a.y < bottom && t.b.y < bottom) ||
+            (t.a.y > top && t.b.y > top))
+          continue;
+        if (neighbours(here[x], here[y])) {
+          if (!join(here[x], here[y])) return std::nullopt;
+          continue;
+        }
         if (segments_cross(s.a, s.b, t.a, t.b))
           out.emplace_back(here[x], here[y]);
-        else if (!join(here[x], here[y]))
+        else if (segments_touch(s.a, s.b, t.a, t.b))
           return std::nullopt;
       }
     }

@@ -11,6 +11,7 @@
 #include "infill/solid.h"
 #include "infill/sparse.h"
 #include "model/flow.h"
+#include "pipeline/feet.h"
 #include "support/lengths.h"
 #include "tasks/parallel.h"
 
@@ -51,6 +52,7 @@ class Filler {
         layer_(layer),
         origin_(origin),
         line_(length_or(s_.support_line_width, settings.machine.nozzle_diameter, settings.machine.nozzle_diameter)),
+        between_feet_(support::between_feet(settings.machine.nozzle_diameter)),
         band_(flow::band(line_, layer.height)),
         usual_band_(std::max<Um>(flow::band(line_, settings.layers.layer_height), 1)) {}
 
@@ -60,6 +62,7 @@ class Filler {
     branches();
     for (const Regions* areas : {&layer_.bottom, &layer_.roof}) interface(*areas);
     joists();
+    beads_ = on_feet(std::move(beads_), layer_.feet, {.foot = support::foot_length(line_), .apart = between_feet_});
     for (Bead& bead : beads_) {
       const auto tool = bead.role == Role::support ? s_.support_infill_extruder_nr : s_.support_interface_extruder_nr;
       if (tool) bead.tool = static_cast<ToolId>(*tool);
@@ -244,7 +247,9 @@ class Filler {
   const SupportSettings& s_;
   const support::SupportLayer& layer_;
   Point origin_;
-  Um line_, band_;
+  Um line_;
+  Um between_feet_;
+  Um band_;
   Um usual_band_;  ///< at layer_height: what shares are of, so that lines of layers of any height lie on each other
   Beads beads_;
 };

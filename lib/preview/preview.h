@@ -30,6 +30,9 @@ struct View {
   std::optional<std::pair<std::size_t, std::size_t>> layers = {};  ///< first and last one of solids; absent: all
 };
 
+/// The layer that a picture shows: that of the view, or the middle one. Pre: paths has a layer.
+std::size_t layer_shown(const Toolpaths& paths, const View& view);
+
 /// A place that an audit found wrong.
 struct Mark {
   std::string text;  ///< what is wrong there

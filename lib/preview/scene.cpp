@@ -79,8 +79,12 @@ void add_legend(Scene& scene, const Toolpaths& paths, const View& view, std::spa
 
 }  // namespace
 
+std::size_t layer_shown(const Toolpaths& paths, const View& view) {
+  return view.layer.value_or(paths.layers.size() / 2);
+}
+
 Scene scene_of(const Toolpaths& paths, const View& view, const std::optional<Overlay>& overlay) {
-  const std::size_t index = view.layer.value_or(paths.layers.size() / 2);
+  const std::size_t index = layer_shown(paths, view);
   const PathLayer& layer = paths.layers[index];
   Scene scene;
   scene.box = box_of_prints(paths, layer);

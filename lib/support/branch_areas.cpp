@@ -82,7 +82,7 @@ Pieces pieces_of(const Room& room, const Stack::Level& level, const Regions& con
     std::vector<Ring> rings;
     for (const std::size_t i : cluster) rings.push_back(circle_around(discs[i]));
     Regions regions = rings.size() == 1 ? Regions{{std::move(rings.front()), {}}} : geometry::regions_from_rings(rings);
-    if (!whole) regions = geometry::opening(room.free_part(regions, level, contacts), thin);
+    if (!whole) regions = opened(room.free_part(regions, level, contacts), thin);
     for (auto& region : regions) {
       Piece piece{std::move(region), {}, {}};
       piece.box = weft::box_of(piece.region.outer);

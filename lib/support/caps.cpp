@@ -73,7 +73,7 @@ class Capper {
       if (under.empty()) return Regions{};
       Regions here = room_.free_part(geometry::intersect(shape, geometry::unite(under)), lies, contact);
       if (!barred.empty()) here = geometry::subtract(here, barred);
-      return geometry::opening(here, line_ * 4 / 10);
+      return opened(here, line_ * 4 / 10);
     };
     out.roof = on(roof);
     out.branches = on(geometry::trimmed(base.branches, near));

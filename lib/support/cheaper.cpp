@@ -36,7 +36,7 @@ class Guess {
       if (falling.empty() || (height < step && k > 0)) continue;
       stop_if_asked();
       falling = geometry::simplified(geometry::unite(falling), coarse);
-      if (s_.support_join_distance > 0) falling = geometry::closing(falling, s_.support_join_distance / 2);
+      if (s_.support_join_distance > 0) falling = closed(falling, s_.support_join_distance / 2);
       mm3 += lost(k, falling);
       for (const Region& region : falling) mm3 += column_mm3(s_, line_, region, height);
       height = 0;

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -64,8 +65,8 @@ class Towers {
     for (const Region& region : contacts)
       if (on_tower(s_, region)) growing_.push_back({box_of(region.outer), z});
   }
-  /// Adds what towers are on a level with its top there.
-  void add(Um z, Regions& falling) {
+  /// Adds what towers are on a level with its top there. @return whether there is any
+  bool add(Um z, Regions& falling) {
     const double most = s_.support_tower_diameter / 2.0;
     std::vector<Ring> rings;
     std::erase_if(growing_, [&](const Tower& tower) {
@@ -75,9 +76,10 @@ class Towers {
       if (radius > 0) rings.push_back(circle_around({tower.box.centre(), radius}));
       return radius >= most;
     });
-    if (rings.empty()) return;
+    if (rings.empty()) return false;
     append(falling, geometry::regions_from_rings(rings));
     falling = geometry::unite(falling);
+    return true;
   }
 
  private:
@@ -133,7 +135,7 @@ void thicken(Regions& area, const Regions& fresh, Um line) {
   if (fresh.empty()) return;
   // What a disc inside of the area covers is told by what lies as near as its diameter.
   const Regions around = &area == &fresh ? area : geometry::intersect(area, boxes_around(fresh, 2 * line));
-  const Regions thin = geometry::subtract(fresh, grown(opened(around, line), 20));
+  const Regions thin = geometry::subtract(fresh, opened(around, line, 20));
   if (thin.empty()) return;
   append(area, grown(thin, line));
   area = geometry::unite(area);
@@ -226,10 +228,10 @@ class Falling {
     const auto& level = stack_.levels[k];
     if (s_.support_conical_enabled && !falling_.empty()) {
       lean(s_, room_.object(), level.height, falling_);
-      less_[k] = 1;
+      edge_.reset(), less_[k] = 1;
     }
     towers_.begin(contacts, level.z);
-    towers_.add(level.z, falling_);
+    if (towers_.add(level.z, falling_) || !contacts.empty() || !given.empty()) edge_.reset();
     if (!contacts.empty()) {
       const Regions fresh = shaped(s_, room_.object(), contacts);
       append(falling_, fresh);
@@ -244,19 +246,26 @@ class Falling {
   /// column.
   Regions joined(const Regions& falling) const {
     if (s_.support_join_distance <= 0) return geometry::unite(falling);
-    return grown(grown(falling, s_.support_join_distance / 2), -s_.support_join_distance / 2);
+    return closed(falling, s_.support_join_distance / 2);
   }
   void clear(std::size_t k, const Regions& contacts) {
     const auto& level = stack_.levels[k];
     const Regions& close = beside_contacts(k, contacts);
-    if (ragged_ || !contacts.empty()) falling_ = geometry::simplified(falling_, corner_bound);
+    if (contacts.empty() && (shadow_.empty() || shadow_[k].empty()) && room_.stands_free(falling_, edge(), level))
+      return;
+    if (ragged_ || !contacts.empty()) falling_ = geometry::simplified(falling_, corner_bound), edge_.reset();
     ragged_ = false;
     bool cut = false;
     Regions left = room_.free_part(falling_, level, close, &cut);
     if (!shadow_.empty() && !shadow_[k].empty()) left = geometry::subtract(left, shadow_[k]), cut = true;
     if (!cut && contacts.empty()) return;
     falling_ = without_thin(left, line_ * 4 / 10);
+    edge_.reset();
     ragged_ = true, less_[k] = 1;
+  }
+  const geometry::SegmentIndex& edge() {
+    if (!edge_) edge_.emplace(falling_);
+    return *edge_;
   }
   /// What is held as near beside the part as contacts are must come from further away, and leans towards it on the
   /// last levels: the contacts of those above this one.
@@ -292,6 +301,7 @@ class Falling {
   Towers towers_;
   Regions falling_, close_;
   std::vector<std::pair<std::size_t, Regions>> held_;  ///< the last contacts, by level
+  std::optional<geometry::SegmentIndex> edge_;         ///< of what falls, once asked for
   bool ragged_ = false;                                ///< it has corners of what was cut from it
   std::vector<Regions> levels_;
   std::vector<char> less_;  ///< of each level, whether it is not all of what lies above it

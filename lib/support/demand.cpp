@@ -121,7 +121,7 @@ class Layer {
         continue;
       }
       bridged_mm2 += area_mm2(crossed);
-      append(left, geometry::opening(geometry::subtract({region}, grown(crossed, 50)), o_.nozzle / 2));
+      append(left, opened(geometry::subtract({region}, grown(crossed, 50)), o_.nozzle / 2));
     }
     wanted = std::move(left);
   }

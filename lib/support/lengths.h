@@ -62,6 +62,16 @@ inline Um roof_span(Um nozzle) {
   return 10 * nozzle;
 }
 
+/// What stands on the part does so by pieces of beads of that length: shorter ones do not stay where they are laid.
+inline Um foot_length(Um line) {
+  return 3 * line;
+}
+
+/// How far feet are from each other at most: further than strands of a roof cross, as nothing lies on what sags there.
+inline Um between_feet(Um nozzle) {
+  return 25 * nozzle / 2;
+}
+
 /// Columns whose middle is no further from their edge are hollow: between lines as far apart as that density asks for
 /// they would have none, or one that stands alone.
 inline Um hollow_column(Um line, double share) {
@@ -79,9 +89,13 @@ inline Regions grown(const Regions& regions, Um by, Um arc_tolerance = coarse_ar
   return geometry::offset_apart(regions, {.by = by, .corner = geometry::Corner::round, .arc_tolerance = arc_tolerance});
 }
 
-/// As geometry::opening, with arcs of as many corners as support needs.
-inline Regions opened(const Regions& regions, Um radius) {
-  return grown(grown(regions, -radius), radius);
+/// As geometry::opening, with arcs of as many corners as support needs; and so much wider.
+inline Regions opened(const Regions& regions, Um radius, Um wider = 0) {
+  return grown(grown(regions, -radius), radius + wider);
+}
+/// As geometry::closing, with such arcs.
+inline Regions closed(const Regions& regions, Um radius) {
+  return grown(grown(regions, radius), -radius);
 }
 
 /// Beads of support follow its outlines no closer than that; so much more is kept off the part.

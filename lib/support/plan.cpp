@@ -241,7 +241,7 @@ Regions beside(const Regions& what, const Regions& other, Um apart, Um thin) {
     if (near.empty())
       out.push_back(region);
     else
-      append(out, geometry::opening(geometry::subtract({region}, grown(near, apart)), thin));
+      append(out, opened(geometry::subtract({region}, grown(near, apart)), thin));
   }
   return out;
 }

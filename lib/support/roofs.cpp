@@ -27,8 +27,8 @@ Regions around_level(const std::vector<Regions>& contacts, std::size_t k, std::s
 
 /// What of a contact, together with those of its neighbours, is wide enough to lie on more than one branch.
 Regions wide_part(const Regions& contact, const Regions& around, Um least) {
-  const Regions wide = geometry::opening(around, least / 2);
-  return wide.empty() ? wide : geometry::opening(geometry::intersect(contact, grown(wide, 50)), 20);
+  const Regions wide = opened(around, least / 2, 50);
+  return wide.empty() ? wide : geometry::opening(geometry::intersect(contact, wide), 20);
 }
 
 }  // namespace
@@ -120,9 +120,9 @@ void Roofs::lay(const std::vector<Regions>& branches) {
 Regions Roofs::shaped(const Regions& area, std::size_t level) const {
   const Um line = line_width(s_, o_.nozzle);
   const Regions all = geometry::unite(area);
-  Regions out = s_.support_join_distance > 0 ? geometry::closing(all, s_.support_join_distance / 2) : all;
+  Regions out = s_.support_join_distance > 0 ? closed(all, s_.support_join_distance / 2) : all;
   thicken(out, out, line);
-  return geometry::opening(room_.free_part(out, stack_.levels[level], all), line * 4 / 10);
+  return opened(room_.free_part(out, stack_.levels[level], all), line * 4 / 10);
 }
 
 JoistPlace Roofs::place_on(std::size_t level, const std::vector<Regions>& branches, const Regions& dense) const {
@@ -148,7 +148,7 @@ Roofs::OfLevel Roofs::of_level(std::size_t level, const std::vector<Regions>& br
   if (!laid_[level].empty()) out.area = shaped(laid_[level], level);
   if (lowest_[level].empty()) return out;
   Regions open = shaped(lowest_[level], level);
-  if (!out.area.empty()) open = geometry::opening(geometry::subtract(open, grown(out.area, 20)), line * 4 / 10);
+  if (!out.area.empty()) open = opened(geometry::subtract(open, grown(out.area, 20)), line * 4 / 10);
   constexpr Um narrow = 3_mm;  // strands of a roof that narrow go along it
   const bool along = out.area.empty() && opened(open, narrow / 2).empty();
   const bool one_way =

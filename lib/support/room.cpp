@@ -2,8 +2,8 @@
 #include "support/room.h"
 
 #include "geometry/boolean.h"
-#include "geometry/offset.h"
 #include "geometry/simplify.h"
+#include "geometry/touching.h"
 #include "geometry/trimmed.h"
 #include "support/lengths.h"
 #include "tasks/parallel.h"
@@ -20,7 +20,36 @@ constexpr Um fine_outline = 10_um;
 /// What is no further from the part than that. Corners are mitered: an arc a corner is what costs.
 Regions kept_off(const Regions& part, Um by) {
   if (part.empty()) return part;
-  return geometry::offset(part, {.by = by + fine_outline + outline_bound});
+  return geometry::offset_apart(part, {.by = by + fine_outline + outline_bound});
+}
+
+double distance_between(const geometry::Segment& s, const geometry::Segment& t) {
+  if (segments_touch(s.a, s.b, t.a, t.b)) return 0;
+  return std::min({geometry::foot_of(s.a, t).distance_um, geometry::foot_of(s.b, t).distance_um,
+                   geometry::foot_of(t.a, s).distance_um, geometry::foot_of(t.b, s).distance_um});
+}
+
+/// Whether any of a ring lies in what an edge goes around, or comes as near to the edge.
+bool is_near(const Ring& ring, const geometry::SegmentIndex& edge, Um within) {
+  std::vector<std::uint32_t> met;
+  const Box reach = edge.box().grown(within);
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const geometry::Segment side{ring[i], ring[i + 1 < ring.size() ? i + 1 : 0]};
+    Box box{side.a, side.a};
+    box.add(side.b);
+    if (!box.overlaps(reach)) continue;
+    edge.near(box.grown(within), met);
+    if (std::any_of(met.begin(), met.end(),
+                    [&](std::uint32_t m) { return distance_between(side, edge.segments()[m]) <= within; }))
+      return true;
+  }
+  return edge.winding(ring.front()).value_or(1) != 0;
+}
+
+bool contains(const Region& region, Point p) {
+  return side_of(region.outer, p) != Side::outside &&
+         std::none_of(region.holes.begin(), region.holes.end(),
+                      [p](const Ring& hole) { return side_of(hole, p) == Side::inside; });
 }
 
 }  // namespace
@@ -118,7 +147,12 @@ Regions Room::within_bounds(const Region& region, const Box& box, bool& cut) con
   if (o_.room == nullptr) return {region};
   std::vector<std::uint32_t> met;
   bounds_.near(box, met);
-  if (met.empty() && bounds_.region_at(region.outer.front())) return {region};
+  const bool meets = std::any_of(met.begin(), met.end(), [&](std::uint32_t i) {
+    const auto& side = bounds_.segments()[i];
+    return box.overlaps({{std::min(side.a.x, side.b.x), std::min(side.a.y, side.b.y)},
+                         {std::max(side.a.x, side.b.x), std::max(side.a.y, side.b.y)}});
+  });
+  if (!meets && bounds_.region_at(region.outer.front())) return {region};
   cut = true;
   return geometry::intersect({region}, geometry::trimmed(*o_.room, box));
 }
@@ -139,6 +173,46 @@ Regions Room::free_part(const Regions& area, const Stack::Level& level, const Re
   }
   if (changed != nullptr) *changed = any;
   return out;
+}
+
+bool Room::comes_near(Um low, Um high, const Regions& area, const geometry::SegmentIndex& edge, Um within) const {
+  const Box reach = edge.box().grown(within);
+  const auto run = layers_between(o_, low, high);
+  const Regions* before = nullptr;
+  for (std::size_t i = run.from; i < run.to; ++i) {
+    const Outlines& layer = outlines_[i];
+    if (before != nullptr && layer.regions == *before) continue;  // layers of a straight wall are one
+    before = &layer.regions;
+    for (std::size_t r = 0; r < layer.boxes.size(); ++r) {
+      if (!layer.boxes[r].overlaps(reach)) continue;
+      const Region& part = layer.regions[r];
+      if (is_near(part.outer, edge, within) ||
+          std::any_of(part.holes.begin(), part.holes.end(),
+                      [&](const Ring& hole) { return is_near(hole, edge, within); }) ||
+          std::any_of(area.begin(), area.end(),
+                      [&](const Region& region) { return contains(part, region.outer.front()); }))
+        return true;
+    }
+  }
+  return false;
+}
+
+bool Room::stands_free(const Regions& area, const geometry::SegmentIndex& edge, const Stack::Level& level) const {
+  if (area.empty()) return true;
+  constexpr Um hair = 10;
+  if (s_.support_blockers_avoided && !o_.blocked.empty()) return false;
+  if (o_.room != nullptr)
+    for (const Region& region : area) {
+      bool cut = false;
+      within_bounds(region, box_of(region.outer).grown(1), cut);
+      if (cut) return false;
+    }
+  const Um kept = fine_outline + outline_bound - hair, gap = top_gap(s_);
+  if (comes_near(level.bottom(), level.z, area, edge, beside_ + kept)) return false;
+  if (gap > 0 && comes_near(level.z, level.z + gap, area, edge, close_ + kept)) return false;
+  const Um step = std::max(s_.support_bottom_stair_step_height, 0);  // a stair may begin so far below
+  return level.bottom() <= o_.floor ||
+         !comes_near(level.bottom() - bottom_gap(s_) - step, level.bottom(), area, edge, 0);
 }
 
 std::vector<Regions> shadows(const Room& room, const Stack& stack) {

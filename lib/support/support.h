@@ -63,6 +63,7 @@ struct SupportLayer {
   Regions bottom;      ///< the interface over the part
   bool first = false;  ///< it lies on the bed
   Joists joists{};     ///< between branches and the roof above them
+  Regions feet{};      ///< where what stands on the part touches it by feet only
 };
 
 struct Figures {

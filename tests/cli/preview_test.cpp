@@ -46,6 +46,18 @@ TEST_CASE("weft preview: --audit shows the machine and counts what is outside") 
   CHECK_THAT(scratch.read("p.svg"), Contains(">outside</text>"));
 }
 
+TEST_CASE("weft preview: a window beside everything that is printed is told, and where the layer lies") {
+  const Scratch scratch;
+  scratch.write("part.gcode", two_layers);
+  const auto beside =
+      weft({"preview", "part.gcode", "-o", "p.png", "--layer", "0", "--window", "500x500,510x510"}, scratch.path());
+  CHECK(beside.status == 0);
+  CHECK_THAT(beside.err, Contains("--window shows nothing: layer 0 prints from "));
+  const auto there = weft({"preview", "part.gcode", "-o", "p.png", "--window", "-999x-999,999x999"}, scratch.path());
+  CHECK(there.status == 0);
+  CHECK(there.err.empty());
+}
+
 TEST_CASE("weft preview: wrong use and files that cannot be shown") {
   const Scratch scratch;
   scratch.write("part.gcode", two_layers);

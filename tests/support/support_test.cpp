@@ -200,6 +200,28 @@ TEST_CASE("support: what stands on the part begins the gap above it that is set,
     }
 }
 
+TEST_CASE("support: columns on the part stand on feet as high as a bead may sag, not so floors or what is slender") {
+  const auto feet_under = [](const SupportSettings& s, Um half_wide, int high) {
+    Body body;
+    body.add(10, {rectangle(-30000, -20000, 30000, 20000)});
+    body.add(high, {rectangle(-30000, -20000, -26000, 20000)});
+    body.add(5, {rectangle(-30000, -20000, -26000, 20000), rectangle(-26000, -half_wide, 20000, half_wide)});
+    const auto plan = planned(s, body);
+    Um top = 0;
+    double mm2 = 0;
+    for (const auto& layer : plan.layers)
+      if (!layer.feet.empty()) top = std::max(top, layer.z - 2000), mm2 = std::max(mm2, area_mm2(layer.feet));
+    return std::pair(top, mm2);
+  };
+  const auto [top, mm2] = feet_under(on(), 8000, 40);
+  CHECK(mm2 > 500);
+  CHECK((top >= 200 + 266 && top <= 200 + 600));
+  auto s = on();
+  s.support_bottom_enable = true;
+  CHECK(feet_under(s, 8000, 40).first == 0);
+  CHECK(feet_under(on(), 1000, 200).first == 0);
+}
+
 TEST_CASE("support: conical columns get narrower downwards and keep their least width") {
   auto body = tee(100);
   auto s = on();

@@ -208,8 +208,8 @@ inline constexpr Rows tool_schema{
             100, "Speed of the last of them."),
     setting("filament_stamping_distance", Scope::tool, &ToolSettings::filament_stamping_distance, Unit::mm, 0_mm,
             1000_mm,
-            "Between two of them the tip is pushed so far beyond the middle of the tube, towards the nozzle, and drawn "
-            "back: what strings is pressed into it; 0: it is not."),
+            "Between two cooling moves the tip is pushed so far beyond the middle of the tube, towards the nozzle, "
+            "and drawn back: what strings is pressed into it; 0: it is not."),
     setting("filament_stamping_loading_speed", Scope::tool, &ToolSettings::filament_stamping_loading_speed, Unit::mm_s,
             0.1, 500, "Speed of that push; it is drawn back at filament_unloading_speed."),
     setting("filament_toolchange_delay", Scope::tool, &ToolSettings::filament_toolchange_delay, Unit::seconds, 0, 600,

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/feet.h"
+
+#include "geometry/spatial_index.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace weft::pipeline {
+namespace {
+
+/// A part of a bead by how far along it, µm.
+struct Stretch {
+  double from = 0, to = 0;
+};
+
+/// A bead with its length.
+class Walk {
+ public:
+  explicit Walk(const Bead& bead) : bead_(bead), path_(bead.path) {
+    if (bead.closed) path_.push_back(path_.front());
+    at_.push_back(0);
+    for (std::size_t i = 1; i < path_.size(); ++i) at_.push_back(at_.back() + distance(path_[i - 1].at, path_[i].at));
+  }
+  double length() const { return at_.back(); }
+
+  /// The runs over an area.
+  std::vector<Stretch> over(const geometry::SegmentIndex& area) const {
+    constexpr double step = 100;
+    std::vector<Stretch> out;
+    bool was = false;
+    const int count = std::max(1, static_cast<int>(length() / step));
+    for (int i = 0; i < count; ++i) {
+      const double from = length() * i / count, to = length() * (i + 1) / count;
+      const bool is = area.region_at(junction((from + to) / 2).at).has_value();
+      if (is && was) out.back().to = to;
+      if (is && !was) out.push_back({from, to});
+      was = is;
+    }
+    return out;
+  }
+  Bead piece(Stretch part) const {
+    Bead out = bead_;
+    out.closed = false;
+    out.path = {junction(part.from)};
+    for (std::size_t i = 0; i < path_.size(); ++i)
+      if (at_[i] > part.from && at_[i] < part.to) out.path.push_back(path_[i]);
+    out.path.push_back(junction(part.to));
+    return out;
+  }
+
+ private:
+  Junction junction(double along) const {
+    const auto next = std::upper_bound(at_.begin() + 1, at_.end() - 1, along) - at_.begin();
+    const auto i = static_cast<std::size_t>(next);
+    const double length = at_[i] - at_[i - 1];
+    Junction out = path_[i];
+    if (length > 0) out.at = lerp(path_[i - 1].at, path_[i].at, std::clamp((along - at_[i - 1]) / length, 0.0, 1.0));
+    return out;
+  }
+
+  const Bead& bead_;
+  std::vector<Junction> path_;
+  std::vector<double> at_;
+};
+
+/// What is left out of a run between its feet.
+void leave_out(Stretch run, bool around, FeetStyle style, std::vector<Stretch>& gaps) {
+  constexpr double least_feet = 3;
+  const double foot = style.foot, length = run.to - run.from, feet_in_line = around ? 0 : foot;
+  const double count = std::ceil((length - feet_in_line) / (foot + style.apart));
+  const double pitch = (length - feet_in_line) / std::max(count, around ? least_feet : least_feet - 1);
+  if (pitch < 2 * foot) return;
+  for (double from = run.from + foot; from < run.to - foot / 2; from += pitch)
+    gaps.push_back({from, from + pitch - foot});
+}
+
+}  // namespace
+
+Beads on_feet(Beads beads, const Regions& on_part, FeetStyle style) {
+  if (on_part.empty()) return beads;
+  const geometry::SegmentIndex area(on_part);
+  Beads out;
+  for (Bead& bead : beads) {
+    const Walk walk(bead);
+    std::vector<Stretch> gaps;
+    for (const Stretch run : walk.over(area))
+      leave_out(run, bead.closed && run.to - run.from >= walk.length(), style, gaps);
+    double from = 0;
+    for (const Stretch gap : gaps) {
+      out.push_back(walk.piece({from, gap.from}));
+      from = gap.to;
+    }
+    if (gaps.empty())
+      out.push_back(std::move(bead));
+    else if (from < walk.length())
+      out.push_back(walk.piece({from, walk.length()}));
+  }
+  return out;
+}
+
+}  // namespace weft::pipeline
