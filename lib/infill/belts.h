@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "core/polygon.h"
+#include "infill/layer_inside.h"
 #include "infill/mask.h"
 
 #include <cstddef>
@@ -30,11 +31,13 @@ struct Belts {
 /// (k − ½) · band runs where the belt is at least that wide. A belt's inner edge follows from what lies layers away and
 /// is not seen: it moves to the edge of the last line, by half a line at most. So a belt below half a line has none, as
 /// what it would close is below the walls of the next layer. Where lines begin and end is decided by the belt's mean
-/// width over some millimetres, so that equal places are alike, however the grid lies on them.
+/// width over some millimetres, by outlines where cells leave it in doubt, and lines that are about as long as the
+/// shortest are kept or left out together: so equal places are alike, however the grid lies on them.
 /// @param inside of the walls, exactly
 /// @param solid,sparse cells of it; what is too narrow for a line of its own is solid, too
+/// @param layers whose insides decide which is which
 /// @param band of a line, µm
 /// Cost: three offsets of the regions that have such belts, one of those that could; 20 µs a centimetre of wall.
-Belts find_belts(const Regions& inside, const Mask& solid, const Mask& sparse, Um band);
+Belts find_belts(const Regions& inside, const Mask& solid, const Mask& sparse, const LayersInReach& layers, Um band);
 
 }  // namespace weft::infill

@@ -46,12 +46,14 @@ class Window {
   }
   const Grid& grid() const { return grid_; }
   const Mask& outline(std::size_t layer) const { return outlines_[layer - outlines_from_]; }
-  const Mask& inside(std::size_t layer) const { return insides_[layer - insides_from_]; }
+  const Mask& inside(std::size_t layer) const { return layer_inside(layer).cells(); }
+  const LayerInside& layer_inside(std::size_t layer) const { return insides_[layer - insides_from_]; }
 
  private:
   std::size_t insides_from_, outlines_from_;
   Grid grid_;
-  std::vector<Mask> outlines_, insides_;
+  std::vector<Mask> outlines_;
+  std::vector<LayerInside> insides_;
 };
 
 /// How many layers above (or below) a layer decide whether it is solid: [low, high) with the layer itself; beyond the
@@ -79,16 +81,23 @@ int cells(double um, const Grid& grid) {
   return std::max(1, static_cast<int>(std::lround(um / grid.cell)));
 }
 
-Mask solid_cells(const Window& window, std::span<const ShellLayer> layers, std::size_t index, Reach reach) {
-  const Mask& inside = window.inside(index);
-  if (index + reach.above >= layers.size() && reach.above > 0) return inside;
-  if (reach.below > index) return inside;
+/// Nothing where that reaches beyond the object's ends.
+std::optional<LayersInReach> layers_in(Reach reach, const Window& window, std::size_t layers, std::size_t index) {
+  if (reach.below > index || index + reach.above >= layers) return std::nullopt;
+  LayersInReach out{&window.layer_inside(index), {}};
+  for (std::size_t away = std::max(reach.below, reach.above); away > 0; --away) {
+    if (away <= reach.below) out.others.push_back(&window.layer_inside(index - away));
+    if (away <= reach.above) out.others.push_back(&window.layer_inside(index + away));
+  }
+  return out;
+}
+
+Mask solid_cells(const LayersInReach& layers) {
   std::vector<const Mask*> others;
-  for (std::size_t j = index - reach.below; j <= index + reach.above; ++j)
-    if (j != index) others.push_back(&window.inside(j));
-  Mask core = inside;
+  for (const LayerInside* other : layers.others) others.push_back(&other->cells());
+  Mask core = layers.here->cells();
   core &= others;
-  return inside - core;
+  return layers.here->cells() - core;
 }
 
 /// Strips of an area that are narrower than a line and a half.
@@ -128,6 +137,7 @@ struct Split {
   Mask solid, seen_above, air_below;
   std::optional<Mask> sparse;  ///< present when any
   std::optional<Mask> thin;    ///< of it: what would be solid, but is too narrow for a line of its own
+  LayersInReach layers;        ///< that decided so
 };
 
 Split split_of(const ShellSettings& settings, const InfillSettings& infill, const ShellObject& object,
@@ -137,13 +147,16 @@ Split split_of(const ShellSettings& settings, const InfillSettings& infill, cons
   const Mask& inside = window.inside(index);
   const Reach reach = reach_of(settings, object.layers, index);
   const Mask none(grid);
-  Split out{static_cast<double>(flow::automatic_width(object.nozzle, layer.height)), inside, none, none, {}, {}};
+  Split out{static_cast<double>(flow::automatic_width(object.nozzle, layer.height)), inside, none, none, {}, {}, {}};
   if (reach.above > 0) out.seen_above = index + 1 < object.layers.size() ? inside - window.outline(index + 1) : inside;
   if (reach.below > 0 && index > 0) out.air_below = inside - window.outline(index - 1);
   const bool whole =
       settings.infill_solid_every_layers && index % static_cast<std::size_t>(*settings.infill_solid_every_layers) == 0;
   if (infill.infill_sparse_density >= 100 || whole) return out;
-  const Mask all = solid_cells(window, object.layers, index, reach);
+  std::optional<LayersInReach> layers = layers_in(reach, window, object.layers.size(), index);
+  if (!layers) return out;
+  out.layers = *std::move(layers);
+  const Mask all = solid_cells(out.layers);
   out.solid = all.opened(cells(0.3 * out.line, grid));
   if (out.seen_above.any() || out.air_below.any())
     out.solid |= (out.seen_above | out.air_below).grown(cells(out.line, grid)) & inside;
@@ -209,9 +222,10 @@ void find_internal_bridges(const ShellSettings& settings, const SparseStyle& bel
 
 /// Narrow solid beside sparse infill is as wide as its lines; what is too short for one is sparse.
 /// @param thin of what is sparse: what belts may close
-void lay_belts(const Regions& inside, const Mask& thin, double line, Um band, Kinds& kinds) {
+void lay_belts(const Regions& inside, const Mask& thin, const LayersInReach& layers, double line, Um band,
+               Kinds& kinds) {
   const Grid& grid = kinds.inside.grid();
-  Belts belts = find_belts(inside, kinds.solid | thin, *kinds.sparse - thin, band);
+  Belts belts = find_belts(inside, kinds.solid | thin, *kinds.sparse - thin, layers, band);
   if (!belts.found.empty()) {
     kinds.solid -= belts.area;
     const Mask left = (kinds.solid - kinds.solid.opened(cells(0.4 * line, grid))) & belts.area.grown(cells(line, grid));
@@ -269,7 +283,7 @@ Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, cons
   const Um height = object.layers[index].height;
   if (kinds.sparse)
     lay_belts(
-        *object.layers[index].inside, *split.thin & *kinds.sparse, line,
+        *object.layers[index].inside, *split.thin & *kinds.sparse, split.layers, line,
         flow::spacing(length_or(settings.skin_line_width, object.nozzle, flow::automatic_width(object.nozzle, height)),
                       height, object.overlap_factor),
         kinds);

@@ -86,8 +86,9 @@ std::vector<double> belts_by_tooth(const LayerAreas& layer, int teeth, double tu
 
 TEST_CASE("belts: equal teeth of a gear have equal belts, however the grid lies on them", "[infill][law]") {
   const int teeth = GENERATE(9, 13, 17, 20);
-  // of a tooth a layer; where they lean more, belts are about as long as the shortest, and some teeth have none
-  const double lean = GENERATE(0.006, 0.010, 0.014, 0.018);
+  // of a tooth a layer; from 0.02 on belts are about as long as the shortest
+  const double lean = GENERATE(0.006, 0.0103, 0.014, 0.0181, 0.0207, 0.023, 0.0255, 0.028, 0.0303, 0.0334, 0.036,
+                               0.0391, 0.042, 0.0456, 0.048, 0.05);
   CAPTURE(teeth, lean);
   std::vector<Regions> outlines, insides;
   std::vector<infill::ShellLayer> layers;

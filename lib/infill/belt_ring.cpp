@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "infill/belt_ring.h"
+
+#include "geometry/spatial_index.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace weft::infill {
+namespace {
+
+constexpr double widest = most_belt_lines + 0.5;  // bands: wider ones are filled across
+constexpr double looked_at = 7;                   // bands: how deep
+constexpr double step_um = 200;                   // along the wall: half a bead
+constexpr double mean_over_um = 4000;             // along the wall, of a belt's width: no line begins and ends for less
+constexpr double shortest_um = 2000;              // of a line, of a pause in it, and of what is no spike between belts
+constexpr double about_um = 500;                  // that is about as long
+constexpr double doubt = 0.3;                     // cells: nearer to a limit a mean by cells says nothing
+
+/// Whether a layer has a place and what is around it.
+bool surely_has(const Mask& cells, Point p) {
+  const int column = cells.grid().column_of(p.x), row = cells.grid().row_of(p.y);
+  return cells.at(column, row) && cells.at(column - 1, row - 1) && cells.at(column + 1, row - 1) &&
+         cells.at(column - 1, row + 1) && cells.at(column + 1, row + 1);
+}
+
+}  // namespace
+
+void LengthLimit::add(double um) {
+  if (std::abs(um - shortest_um) < about_um) near_.push_back(um);
+}
+
+double LengthLimit::um() const {
+  std::vector<double> all = near_;
+  std::sort(all.begin(), all.end());
+  all.push_back(shortest_um + about_um);
+  double last = shortest_um - about_um, gap = 0, limit = 0;
+  for (const double um : all) {
+    if (um - last > gap) gap = um - last, limit = (um + last) / 2;
+    last = um;
+  }
+  return limit;
+}
+
+BeltRing::BeltRing(Ring ring, double depth_um, const BeltGround& ground)
+    : ring_(std::move(ring)),
+      depth_(depth_um),
+      cell_(ground.solid.grid().cell),
+      most_(looked_at * ground.band),
+      ground_(ground) {
+  for (std::size_t i = 0; i < ring_.size(); ++i) {
+    const Point a = ring_[i], b = ring_[(i + 1) % ring_.size()];
+    const double length = distance(a, b);
+    if (length == 0) continue;
+    const int looks = static_cast<int>(std::ceil(length / step_um));
+    Sample s;
+    s.nx = -(b.y - a.y) / length, s.ny = (b.x - a.x) / length;  // the inside is to the left
+    s.length = length / looks;
+    for (int k = 0; k < looks; ++k) {
+      s.at = lerp(a, b, (k + 0.5) / looks), s.along = perimeter_ + (k + 0.5) * s.length;
+      samples_.push_back(s);
+      look_across(samples_.back());
+    }
+    perimeter_ += length;
+  }
+}
+
+/// What is in the cell that far from the wall. Grids have a margin: nothing is outside.
+BeltRing::Cell BeltRing::look(const Sample& s, double um) const {
+  const Grid& grid = ground_.solid.grid();
+  const double cells_a_um = 1 / cell_;
+  const int column = static_cast<int>((s.at.x - grid.origin.x + (um - depth_) * s.nx) * cells_a_um),
+            row = static_cast<int>((s.at.y - grid.origin.y + (um - depth_) * s.ny) * cells_a_um);
+  return ground_.sparse.at(column, row) ? Cell::sparse : ground_.solid.at(column, row) ? Cell::solid : Cell::wall;
+}
+
+/// From the wall to the first cell that is sparse, or half way to the other side.
+void BeltRing::look_across(Sample& s) const {
+  s.free = look(s, depth_) != Cell::wall;
+  if (!s.free) return;
+  double way = cell_ / 2;
+  Cell found = Cell::wall;
+  for (; way < most_; way += cell_) {
+    found = look(s, way);
+    if (found == Cell::sparse || (found == Cell::wall && way >= depth_)) break;
+  }
+  s.all_solid = found != Cell::sparse;
+  s.width = (way - cell_ / 2) / (s.all_solid ? 2 : 1);
+}
+
+/// The same by outlines.
+void BeltRing::measure(Sample& s, Measuring& on) const {
+  if (std::exchange(s.exact, true) || !s.free) return;
+  const double by_cells = s.width * (s.all_solid ? 2 : 1), enough = std::min(by_cells + 3 * cell_, most_);
+  s.width = std::min(first_that_all_have(s, enough, on), most_);
+  if (s.width == most_) s.width = std::min(first_that_all_have(s, most_, on), most_);
+  if (!s.all_solid && look(s, 2 * s.width + cell_) != Cell::wall) return;
+  ground_.layers.here->edges().crossings(s.at, place(s, most_), on.met);
+  if (!on.met.empty()) s.width = std::min(s.width, (depth_ + on.met.front().along * (most_ - depth_)) / 2);
+}
+
+/// How far it is from the wall to where no other layer lacks anything, if that is no further than `most`. A layer that
+/// surely has what those have that were asked need not be asked.
+double BeltRing::first_that_all_have(const Sample& s, double most, Measuring& on) const {
+  const std::vector<const LayerInside*>& others = ground_.layers.others;
+  const double from = -cell_;
+  const Point a = place(s, from), b = place(s, most);
+  on.changes.clear();
+  on.asked.assign(others.size(), false);
+  double first = 0;
+  int lack = 0;  // that many lack what is at a
+  const auto next = [&] {
+    const Point at = place(s, first);
+    std::size_t i = 0;
+    while (i < others.size() && (on.asked[i] || surely_has(others[i]->cells(), at))) ++i;
+    return i;
+  };
+  for (std::size_t i = next(); i < others.size(); i = next()) {
+    on.asked[i] = true;
+    others[i]->edges().crossings(a, b, on.met);
+    lack += on.met.empty() ? !others[i]->cells().at(s.at) : on.met.front().enters;
+    for (const auto& c : on.met) on.changes.push_back({from + c.along * (most - from), c.enters ? -1 : 1});
+    std::sort(on.changes.begin(), on.changes.end());
+    int still = lack;
+    std::size_t k = 0;
+    while (still > 0 && k < on.changes.size()) still += on.changes[k++].second;
+    if (still > 0) return beyond;
+    if (k > 0) first = std::max(0.0, on.changes[k - 1].first);
+  }
+  return first;
+}
+
+/// Maximal runs of samples, once around; a ring that is all one begins with the first.
+template <class Is>
+std::vector<BeltRing::Run> BeltRing::runs(const Is& is) const {
+  const std::size_t n = samples_.size();
+  std::vector<Run> out;
+  std::size_t first = 0;
+  while (first < n && is(samples_[first])) ++first;
+  if (first == n && n > 0) return {{0, n}};
+  bool goes_on = false;
+  for (std::size_t k = 0, i = first; k < n; ++k, i = i + 1 < n ? i + 1 : 0) {
+    if (!std::exchange(goes_on, is(samples_[i])) && goes_on) out.push_back({i, 0});
+    if (goes_on) ++out.back().count;
+  }
+  return out;
+}
+
+double BeltRing::begins_um(std::size_t i) const {
+  const Sample& s = sample(i);
+  return s.along - s.length / 2 + perimeter_ * static_cast<double>(i / samples_.size());
+}
+
+void BeltRing::add_solid_runs(LengthLimit& limit) const {
+  for (const Run& run : runs([](const Sample& s) { return s.all_solid; })) limit.add(length_of(run));
+}
+
+void BeltRing::open_solid_runs(double longest_um) {
+  for (const Run& run : runs([](const Sample& s) { return s.all_solid; })) {
+    if (length_of(run) < longest_um && run.count < samples_.size()) continue;
+    for (std::size_t k = 0; k < run.count; ++k) samples_[(run.first + k) % samples_.size()].free = false;
+  }
+}
+
+void BeltRing::find_lines() {
+  const auto too_narrow = [&](const Sample& s) { return s.width + cell_ < depth_; };
+  if (std::all_of(samples_.begin(), samples_.end(), too_narrow)) return;
+  find_means();
+  measure_doubtful(1), measure_doubtful(-1);
+  for (Sample& s : samples_) s.line = s.free && s.over >= 0;
+}
+
+/// Means of the widths around each place, as far as a line may go on there.
+void BeltRing::find_means() {
+  struct Sum {  // over the samples before the next, from one turn before the ring's first point
+    std::size_t next = 0;
+    double begins = 0, length = 0, area = 0;
+  };
+  const auto sum_to = [&](Sum& sum, double um) {
+    for (;;) {
+      const Sample& s = samples_[sum.next];
+      const double length = std::min(um - sum.begins, s.length);
+      if (length < s.length) return std::pair{sum.length + s.free * length, sum.area + s.free * length * s.width};
+      sum.begins += s.length, sum.length += s.free * s.length, sum.area += s.free * s.length * s.width;
+      if (++sum.next == samples_.size()) sum.next = 0;
+    }
+  };
+  const double half = std::min(mean_over_um, perimeter_) / 2;
+  Sum from{0, -perimeter_, 0, 0}, to = from;
+  for (Sample& s : samples_) {
+    const auto [length_from, area_from] = sum_to(from, s.along - half);
+    const auto [length_to, area_to] = sum_to(to, s.along + half);
+    const double mean = s.free ? (area_to - area_from) / (length_to - length_from) : 0;
+    s.over = std::min(mean - depth_, widest * ground_.band - mean);
+  }
+}
+
+/// Lines, or with sign −1 pauses, that may be long enough or may not, as far as cells can tell, are measured.
+void BeltRing::measure_doubtful(double sign) {
+  const double most = doubt * cell_;
+  bool any = false;
+  for (const Run& run : runs([&](const Sample& s) { return s.free && sign * s.over > -most; })) {
+    if (length_of(run) < shortest_um - about_um) continue;
+    double sure = 0;
+    for (std::size_t k = 0; k < run.count; ++k)
+      if (const Sample& s = sample(run.first + k); sign * s.over > most) sure += s.length;
+    if (sure >= shortest_um + about_um) continue;
+    measure_around(run), any = true;
+  }
+  if (any) find_means();
+}
+
+void BeltRing::measure_around(const Run& run) {
+  const std::size_t n = samples_.size();
+  std::size_t first = run.first + n, end = first + run.count;  // one turn on, so that nothing is before the ring
+  const double from = begins_um(first) - mean_over_um / 2, to = begins_um(end) + mean_over_um / 2;
+  while (first > end - n && begins_um(first) > from) --first;
+  while (end < first + n && begins_um(end) < to) ++end;
+  Measuring on;
+  for (std::size_t i = first; i < end; ++i) measure(samples_[i % n], on);
+}
+
+/// How much later than that sample what it is begins: where its mean passes the limit.
+double BeltRing::later(std::size_t i) const {
+  const Sample &a = sample(i + samples_.size() - 1), &b = sample(i);
+  if (!a.free || !b.free || (a.over >= 0) == (b.over >= 0)) return 0;
+  return a.over / (a.over - b.over) * (a.length + b.length) / 2 - a.length / 2;
+}
+
+double BeltRing::drawn_length(const Run& run) const {
+  return length_of(run) - later(run.first) + later(run.first + run.count);
+}
+
+/// Runs that have a line, or none, and could be the other: a pause only where a line may go on.
+std::vector<BeltRing::Run> BeltRing::turnable(bool line) const {
+  std::vector<Run> out = runs([&](const Sample& s) { return s.line == line; });
+  std::erase_if(out, [&](const Run& run) {
+    bool may = run.count < samples_.size();
+    for (std::size_t k = 0; k < run.count && may; ++k) may = line || sample(run.first + k).free;
+    return !may;
+  });
+  return out;
+}
+
+void BeltRing::add_runs(bool line, LengthLimit& limit) const {
+  for (const Run& run : turnable(line)) limit.add(drawn_length(run));
+}
+
+void BeltRing::turn_short(bool line, double shortest_um) {
+  for (const Run& run : turnable(line))
+    if (drawn_length(run) < shortest_um)
+      for (std::size_t k = 0; k < run.count; ++k) samples_[(run.first + k) % samples_.size()].line = !line;
+}
+
+std::vector<BeltLine> BeltRing::lines() const {
+  std::vector<BeltLine> out;
+  for (const Run& run : runs([](const Sample& s) { return s.line; })) {
+    if (run.count == samples_.size()) return {{ring_, true}};
+    const std::size_t end = run.first + run.count;
+    out.push_back({between(begins_um(run.first) + later(run.first), begins_um(end) + later(end)), false});
+  }
+  return out;
+}
+
+/// The ring from one place to another.
+Polyline BeltRing::between(double from, double to) const {
+  Polyline out;
+  const std::size_t n = ring_.size();
+  double at = 0;
+  for (std::size_t i = 0; i < 2 * n && at < to; ++i) {
+    const Point a = ring_[i % n], b = ring_[(i + 1) % n];
+    const double length = distance(a, b);
+    if (length > 0 && at + length > from) {
+      if (out.empty()) out.push_back(lerp(a, b, std::max(0.0, (from - at) / length)));
+      out.push_back(lerp(a, b, std::min(1.0, (to - at) / length)));
+    }
+    at += length;
+  }
+  return out;
+}
+
+}  // namespace weft::infill
