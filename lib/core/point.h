@@ -49,6 +49,12 @@ constexpr bool segments_cross(Point a, Point b, Point c, Point d) {
   return sign(orient(a, b, c)) * sign(orient(a, b, d)) < 0 && sign(orient(c, d, a)) * sign(orient(c, d, b)) < 0;
 }
 
+/// Where the line cd crosses ab: 0 at a … 1 at b. Pre: a and b are not on one side of cd, nor both on it.
+constexpr double crossed_at(Point a, Point b, Point c, Point d) {
+  const auto from = static_cast<double>(orient(c, d, a)), to = static_cast<double>(orient(c, d, b));
+  return from / (from - to);
+}
+
 /// Whether ab and cd have a point in common, ends included. Exact.
 constexpr bool segments_touch(Point a, Point b, Point c, Point d) {
   if (std::max(a.x, b.x) < std::min(c.x, d.x) || std::max(c.x, d.x) < std::min(a.x, b.x) ||

@@ -199,13 +199,10 @@ void SegmentIndex::for_each_near_line(Point a, Point b, F&& f) const {
 
 void SegmentIndex::crossings(Point a, Point b, std::vector<Crossing>& found) const {
   found.clear();
-  const auto [left, right] = std::minmax(a.x, b.x);
-  const auto [bottom, top] = std::minmax(a.y, b.y);
-  for_each_near_line(a, b, [&, left = left, right = right, bottom = bottom, top = top](std::uint32_t i) {
+  const Box box = Segment{a, b}.box();
+  for_each_near_line(a, b, [&](std::uint32_t i) {
+    if (!box.overlaps(segments_[i].box())) return true;
     const auto& [c, d] = segments_[i];
-    if (std::max(c.x, d.x) < left || std::min(c.x, d.x) > right || std::max(c.y, d.y) < bottom ||
-        std::min(c.y, d.y) > top)
-      return true;
     if ((orient(a, b, c) > 0) == (orient(a, b, d) > 0)) return true;
     const std::int64_t at_a = orient(c, d, a), at_b = orient(c, d, b);
     if ((at_a > 0) == (at_b > 0)) return true;
@@ -333,15 +330,10 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> SegmentIndex::crossing_pair
     for (std::size_t x = 0; x + 1 < here.size(); ++x) {
       stop.step();
       const Segment s = segments_[here[x]];
-      const auto [left, right] = std::minmax(s.a.x, s.b.x);
-      const auto [bottom, top] = std::minmax(s.a.y, s.b.y);
+      const Box box = s.box();
       for (std::size_t y = x + 1; y < here.size(); ++y) {
         const Segment& t = segments_[here[y]];
-        // Boxes that only touch: what crosses there would be two parallels.
-        if (std::max(t.a.x, t.b.x) <= left || std::min(t.a.x, t.b.x) >= right || std::max(t.a.y, t.b.y) <= bottom ||
-            std::min(t.a.y, t.b.y) >= top) {
-          continue;
-        }
+        if (!box.overlaps(t.box())) continue;
         if (segments_cross(s.a, s.b, t.a, t.b)) out.emplace_back(here[x], here[y]);
       }
     }
@@ -366,13 +358,10 @@ std::optional<std::vector<std::pair<std::uint32_t, std::uint32_t>>> SegmentIndex
       stop.step();
       const Segment s = segments_[here[x]];
       if (s.a == s.b) return std::nullopt;
-      const auto [left, right] = std::minmax(s.a.x, s.b.x);
-      const auto [bottom, top] = std::minmax(s.a.y, s.b.y);
+      const Box box = s.box();
       for (std::size_t y = x + 1; y < here.size(); ++y) {
         const Segment& t = segments_[here[y]];
-        if ((t.a.x < left && t.b.x < left) || (t.a.x > right && t.b.x > right) || (t.a.y < bottom && t.b.y < bottom) ||
-            (t.a.y > top && t.b.y > top))
-          continue;
+        if (!box.overlaps(t.box())) continue;
         if (neighbours(here[x], here[y])) {
           if (!join(here[x], here[y])) return std::nullopt;
           continue;
@@ -397,14 +386,10 @@ bool SegmentIndex::simple() const {
       stop.step();
       const Segment s = segments_[here[x]];
       if (s.a == s.b) return false;
-      const auto [left, right] = std::minmax(s.a.x, s.b.x);
-      const auto [bottom, top] = std::minmax(s.a.y, s.b.y);
+      const Box box = s.box();
       for (std::size_t y = x + 1; y < here.size(); ++y) {
         const Segment& t = segments_[here[y]];
-        if (std::max(t.a.x, t.b.x) < left || std::min(t.a.x, t.b.x) > right || std::max(t.a.y, t.b.y) < bottom ||
-            std::min(t.a.y, t.b.y) > top) {
-          continue;
-        }
+        if (!box.overlaps(t.box())) continue;
         const bool fits = neighbours(here[x], here[y]) ? join(here[x], here[y]) : !segments_touch(s.a, s.b, t.a, t.b);
         if (!fits) return false;
       }

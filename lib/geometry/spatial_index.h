@@ -2,6 +2,7 @@
 #pragma once
 #include "core/polygon.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -13,6 +14,9 @@ namespace weft::geometry {
 
 struct Segment {
   Point a, b;
+  constexpr Box box() const {
+    return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
+  }
   friend constexpr bool operator==(const Segment&, const Segment&) = default;
 };
 

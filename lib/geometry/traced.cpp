@@ -63,13 +63,9 @@ class Outlines {
     for (const auto& [i, j] : *pairs) {  // i < j, so i is a's where they are of different sets
       if (of_b(ring_of(i)) || !of_b(ring_of(j))) return false;
       const Segment &s = index_.segments()[i], &t = index_.segments()[j];
-      const auto share = [](const Segment& of, const Segment& by) {
-        const auto from = static_cast<double>(orient(by.a, by.b, of.a)),
-                   to = static_cast<double>(orient(by.a, by.b, of.b));
-        return from / (from - to);
-      };
-      const double along = share(s, t);
-      crossings_.push_back({lerp(s.a, s.b, along), orient(t.a, t.b, s.b) > 0, {{{i, along}, {j, share(t, s)}}}});
+      const double along = crossed_at(s.a, s.b, t.a, t.b);
+      crossings_.push_back(
+          {lerp(s.a, s.b, along), orient(t.a, t.b, s.b) > 0, {{{i, along}, {j, crossed_at(t.a, t.b, s.a, s.b)}}}});
       crossed_[ring_of(i)] = crossed_[ring_of(j)] = 1;
     }
     return true;

@@ -69,17 +69,12 @@ class Pieces {
     passes_.reserve(2 * crossings.size());
     for (const auto& [i, j] : crossings) {
       const Segment &s = index_.segments()[i], &t = index_.segments()[j];
-      const auto share = [](const Segment& of, const Segment& by) {
-        const auto from = static_cast<double>(orient(by.a, by.b, of.a)),
-                   to = static_cast<double>(orient(by.a, by.b, of.b));
-        return from / (from - to);
-      };
-      const double along = share(s, t);
+      const double along = crossed_at(s.a, s.b, t.a, t.b);
       const Point at = lerp(s.a, s.b, along);
       const auto k = static_cast<std::uint32_t>(passes_.size());
       const bool to_left = orient(t.a, t.b, s.b) > 0;
       passes_.push_back({i, along, at, to_left, k + 1});
-      passes_.push_back({j, share(t, s), at, !to_left, k});
+      passes_.push_back({j, crossed_at(t.a, t.b, s.a, s.b), at, !to_left, k});
     }
     sort_passes();
     from_.assign(rings_.size() + 1, 0);

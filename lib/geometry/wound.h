@@ -14,7 +14,7 @@ namespace weft::geometry {
 /// around something negatively and that is to count, or where there are many of them.
 /// Pre: no ring is empty or has collinear points (simplify.h). Where none crosses, none of their points moves.
 /// @param origin  of the grid that is swept where rounding to whole microns made outlines cross
-/// Cost: O(n + k log k), k crossings; about a third of a sweep's.
+/// Cost: O(n + k log k), k crossings.
 /// Source: Chen & McMains 2005, "Polygon offsetting by computing winding numbers".
 std::optional<Regions> wound(std::span<const Ring> rings, WindingRule rule, Point origin);
 

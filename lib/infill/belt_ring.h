@@ -34,6 +34,7 @@ class LengthLimit {
 /// A ring along the wall that a belt's line may run on, and how wide the belt is along it.
 class BeltRing {
  public:
+  /// Pre: what is inside of the wall lies to the left of the ring; `ground` outlives this.
   /// @param depth_um of the ring below the wall
   BeltRing(Ring ring, double depth_um, const BeltGround& ground);
 

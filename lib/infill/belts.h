@@ -37,7 +37,8 @@ struct Belts {
 /// @param solid,sparse cells of it; what is too narrow for a line of its own is solid, too
 /// @param layers whose insides decide which is which
 /// @param band of a line, µm
-/// Cost: three offsets of the regions that have such belts, one of those that could; 20 µs a centimetre of wall.
+/// Cost: three offsets of the regions that have such belts, one of those that could; where a width is in doubt, the
+/// edges of the layers in reach beside it.
 Belts find_belts(const Regions& inside, const Mask& solid, const Mask& sparse, const LayersInReach& layers, Um band);
 
 }  // namespace weft::infill

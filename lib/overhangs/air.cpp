@@ -6,9 +6,7 @@
 namespace weft::overhangs {
 
 bool Air::edge_near(Point a, Point b, Um reach) const {
-  const auto [x0, x1] = std::minmax(a.x, b.x);
-  const auto [y0, y1] = std::minmax(a.y, b.y);
-  return index_.any_near({{x0 - reach, y0 - reach}, {x1 + reach, y1 + reach}});
+  return index_.any_near(geometry::Segment{a, b}.box().grown(reach));
 }
 
 bool Air::at(Point p) {

@@ -247,9 +247,7 @@ class Filler {
   const SupportSettings& s_;
   const support::SupportLayer& layer_;
   Point origin_;
-  Um line_;
-  Um between_feet_;
-  Um band_;
+  Um line_, between_feet_, band_;
   Um usual_band_;  ///< at layer_height: what shares are of, so that lines of layers of any height lie on each other
   Beads beads_;
 };

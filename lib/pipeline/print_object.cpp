@@ -116,9 +116,7 @@ Walls build_walls(const WallHands& handed, const Scopes& scopes, const Cuts& cut
       bare.inside = inside_of(handed, areas[i], cuts[i].layer, i);
       return bare;
     }
-    Regions over_air = i < known_over_air.size() ? std::move(known_over_air[i])
-                       : i > 0                   ? geometry::subtract(cuts[i].layer.regions, cuts[i - 1].layer.regions)
-                                                 : Regions{};
+    Regions over_air = i < known_over_air.size() ? std::move(known_over_air[i]) : over_air_of(cuts, i);
     if (i < held.size() && !held[i].empty()) over_air = geometry::subtract(over_air, held[i]);
     const Regions* above = i + 1 < cuts.size() ? &cuts[i + 1].layer.regions : nullptr;
     const auto build = [&](ScopeId scope, const SlicedLayer& layer) {

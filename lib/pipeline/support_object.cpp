@@ -193,12 +193,6 @@ std::vector<const Regions*> known_over_air(const std::vector<const Regions*>& of
   return out;
 }
 
-std::vector<Regions> over_air_of(const std::vector<slice::Cut>& cuts) {
-  return tasks::parallel_map(cuts.size(), [&](std::size_t i) {
-    return i > 0 ? geometry::subtract(cuts[i].layer.regions, cuts[i - 1].layer.regions) : Regions{};
-  });
-}
-
 /// Enforcers of which nothing is held: they lie where nothing overhangs.
 std::vector<std::uint32_t> idle_enforcers(const Object& object, const std::vector<AreasOfMark>& areas,
                                           const support::Demand& demand) {
@@ -250,7 +244,7 @@ Supports make_supports(const Settings& settings, const Object& object, const std
   auto& o = outlines.object;
   o.floor = of.floor, o.on_raft = of.on_raft, o.room = of.bounded ? &of.room : nullptr;
   o.enforced = of.enforced, o.blocked = of.blocked, o.given = of.given;
-  of.over_air = over_air_of(cuts);
+  of.over_air = tasks::parallel_map(cuts.size(), [&](std::size_t i) { return over_air_of(cuts, i); });
   std::vector<const Regions*> over_air;
   for (const Regions& regions : of.over_air) over_air.push_back(&regions);
   over_air = known_over_air(over_air, without_specks);
@@ -276,6 +270,10 @@ Supports make_supports(const Settings& settings, const Object& object, const std
 }
 
 }  // namespace
+
+Regions over_air_of(const std::vector<slice::Cut>& cuts, std::size_t i) {
+  return i > 0 ? geometry::subtract(cuts[i].layer.regions, cuts[i - 1].layer.regions) : Regions{};
+}
 
 std::vector<SupportOf> rooms_of(const Scopes& scopes, const Plate& plate) {
   const auto& objects = plate.objects;

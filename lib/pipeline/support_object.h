@@ -21,6 +21,9 @@ struct SupportOf {
   std::vector<Regions> held;      ///< of each layer of the object, what rests on support; empty: nothing does
 };
 
+/// What of a layer has nothing below. Pre: i is one of the cuts.
+Regions over_air_of(const std::vector<slice::Cut>& cuts, std::size_t i);
+
 /// Where the support of each object may lie: on the bed with all of its copies, off no-go areas and off its neighbours.
 std::vector<SupportOf> rooms_of(const Scopes& scopes, const Plate& plate);
 

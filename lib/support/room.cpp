@@ -35,8 +35,7 @@ bool is_near(const Ring& ring, const geometry::SegmentIndex& edge, Um within) {
   const Box reach = edge.box().grown(within);
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const geometry::Segment side{ring[i], ring[i + 1 < ring.size() ? i + 1 : 0]};
-    Box box{side.a, side.a};
-    box.add(side.b);
+    const Box box = side.box();
     if (!box.overlaps(reach)) continue;
     edge.near(box.grown(within), met);
     if (std::any_of(met.begin(), met.end(),
@@ -147,11 +146,8 @@ Regions Room::within_bounds(const Region& region, const Box& box, bool& cut) con
   if (o_.room == nullptr) return {region};
   std::vector<std::uint32_t> met;
   bounds_.near(box, met);
-  const bool meets = std::any_of(met.begin(), met.end(), [&](std::uint32_t i) {
-    const auto& side = bounds_.segments()[i];
-    return box.overlaps({{std::min(side.a.x, side.b.x), std::min(side.a.y, side.b.y)},
-                         {std::max(side.a.x, side.b.x), std::max(side.a.y, side.b.y)}});
-  });
+  const bool meets =
+      std::any_of(met.begin(), met.end(), [&](std::uint32_t i) { return box.overlaps(bounds_.segments()[i].box()); });
   if (!meets && bounds_.region_at(region.outer.front())) return {region};
   cut = true;
   return geometry::intersect({region}, geometry::trimmed(*o_.room, box));

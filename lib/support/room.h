@@ -46,7 +46,7 @@ class Room {
   /// Whether nothing is kept out of an area on a level, so that no more than a hair would be taken from its rim. What
   /// is beside contacts needs more than that.
   /// @param edge  the area's
-  /// Cost: the corners of the part beside; a tenth of what it costs to cut.
+  /// Cost: the corners of the part beside.
   bool stands_free(const Regions& area, const geometry::SegmentIndex& edge, const Stack::Level& level) const;
 
   const SupportSettings& settings() const { return s_; }

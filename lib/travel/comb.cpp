@@ -246,10 +246,7 @@ void Comb::hits(Point p, Point q, IgnoredRings ignored, std::vector<Hit>& out) c
   out.clear();
   visit_edges(p, q, [&](std::uint32_t e) {
     const Point a = moved_[e], b = moved_[e + 1];
-    if (!ignored.has(ring_of_[e]) && cross(p, q, a, b)) {
-      const auto from = static_cast<double>(orient(a, b, p)), to = static_cast<double>(orient(a, b, q));
-      out.push_back({from / (from - to), e});
-    }
+    if (!ignored.has(ring_of_[e]) && cross(p, q, a, b)) out.push_back({crossed_at(p, q, a, b), e});
     return false;
   });
   std::sort(out.begin(), out.end(),

@@ -21,14 +21,14 @@ std::optional<Regions> followed(const std::vector<Ring>& rings, WindingRule rule
   return wound(rings, rule, {});
 }
 /// What a sweep makes of them.
-Regions swept(const std::vector<Ring>& rings) {
+Regions swept(const std::vector<Ring>& rings, WindingRule rule = WindingRule::positive) {
   clipper::FineRings fine;
   for (const Ring& ring : rings) {
     fine.emplace_back();
     for (const Point p : ring)
       fine.back().push_back({std::int64_t{p.x} * clipper::steps, std::int64_t{p.y} * clipper::steps});
   }
-  return clipper::run(clipper::Operation::unite, WindingRule::positive, fine, {}, {});
+  return clipper::run(clipper::Operation::unite, rule, fine, {}, {});
 }
 
 Ring ellipse(Point centre, double across, double up, int corners) {
@@ -93,6 +93,26 @@ TEST_CASE("geometry: rings at random are followed to what a sweep makes of them"
     const Regions all = swept(rings);
     CHECK(area_mm2(exclusive_or(*mine, all)) < 0.005 * (1 + area_mm2(all)));
     CHECK(area_mm2(*mine) == Approx(area_mm2(all)).margin(0.02));
+  }
+  CHECK(done > 300);
+}
+
+TEST_CASE("geometry: discs at random are united to what a sweep makes of them, by either rule", "[law]") {
+  std::mt19937 random(11);
+  const auto any = [&](Um most) { return static_cast<Um>(random() % static_cast<unsigned>(most)); };
+  int done = 0;
+  for (int round = 0; round < 200; ++round) {
+    std::vector<Ring> discs;
+    for (int i = 2 + any(10); i > 0; --i) {
+      discs.push_back(ellipse({any(20000), any(20000)}, 1000 + any(5000), 1000 + any(5000), 5 + any(40)));
+      drop_collinear(discs.back());
+    }
+    for (const auto rule : {WindingRule::positive, WindingRule::nonzero}) {
+      const auto mine = followed(discs, rule);
+      if (!mine) continue;
+      ++done;
+      CHECK(area_mm2(exclusive_or(*mine, swept(discs, rule))) < 0.01);  // as much as whole microns may change
+    }
   }
   CHECK(done > 300);
 }
