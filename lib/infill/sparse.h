@@ -32,6 +32,7 @@ struct SparseStyle {
   int multiplier = 1;                  ///< lines side by side for each of the pattern
   bool even = true;                    ///< lines of a small region are as wide as its density asks for, not as usual
   bool bend = false;                   ///< lines of two directions turn where they meet, and none crosses another
+  bool alone = false;                  ///< no wall holds the lines, only their joints: laid whatever they take
   const Prepared* prepared = nullptr;  ///< of the object, for patterns that look at all of it
 };
 

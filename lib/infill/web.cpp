@@ -255,7 +255,7 @@ void Web::emit(double most, Um band, double wanted, Beads& beads) {
     double laid = around;
     for (const std::vector<Place>& path : paths) laid += infill::length_of(path);
     if (laid <= 0) return;
-    if (style_.connect && longest > 0 && wanted < least_narrowing * laid) continue;
+    if (style_.connect && !style_.alone && longest > 0 && wanted < least_narrowing * laid) continue;
     return write(paths, std::max(1, rounded(band * std::clamp(wanted / laid, least_narrowing, widest))), beads);
   }
 }

@@ -89,6 +89,7 @@ class Filler {
       return std::move(beads_);
     }
     sparse(wide, share(), s_.support_pattern, s_.support_infill_angle, Role::support);
+    if (s_.support_pattern == SupportPattern::zigzag) widen_lone_lines(column);
     if (reaches_further(column, wide, half))
       loops(geometry::opening(geometry::subtract({column}, coarsely(wide, half)), band_ / 4), 1, Role::support, true);
     return std::move(beads_);
@@ -105,6 +106,32 @@ class Filler {
     return geometry::offset(from, {.by = by, .corner = geometry::Corner::round, .arc_tolerance = coarse});
   }
   static double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+  /// A line of a zigzag that is joined to no other would stand there alone, as high as its column and as thin as a
+  /// bead, until the nozzle knocks it over: a loop around its share of the column is laid instead.
+  void widen_lone_lines(const Region& column) {
+    const double apart = usual_band_ / share();
+    if (apart < 2 * band_) return;  // lines that near lean on each other
+    const auto lone = std::stable_partition(beads_.begin(), beads_.end(), [&](const Bead& b) { return !straight(b); });
+    const Beads lines(std::make_move_iterator(lone), std::make_move_iterator(beads_.end()));
+    beads_.erase(lone, beads_.end());
+    for (const Bead& line : lines)
+      loops(geometry::intersect({column}, {{around(line, rounded(apart / 2)), {}}}), 1, Role::support, true);
+  }
+  /// Whether no bend of a bead leaves its chord by more than a bead: seen along it, it is as thin as one.
+  bool straight(const Bead& bead) const {
+    const Point a = bead.path.front().at, b = bead.path.back().at;
+    return !bead.closed && std::all_of(bead.path.begin(), bead.path.end(), [&](const auto& place) {
+      return geometry::foot_of(place.at, {a, b}).distance_um <= static_cast<double>(band_);
+    });
+  }
+  /// The rectangle of all that is no further from a bead's chord than that, along it or beside.
+  static Ring around(const Bead& bead, Um by) {
+    const Point a = bead.path.front().at, b = bead.path.back().at;
+    const double length = std::max(distance(a, b), 1.0);
+    const Point on{rounded((b.x - a.x) / length * by), rounded((b.y - a.y) / length * by)}, beside{-on.y, on.x};
+    return {a - on - beside, b + on - beside, b + on + beside, a - on + beside};
+  }
 
   double share() const { return (layer_.first ? s_.support_initial_layer_density : s_.support_infill_rate) / 100; }
   /// Whether any corner is further than that from what lies within.
@@ -215,7 +242,8 @@ class Filler {
                                     .connect = row.connect,
                                     .z = layer_.z,
                                     .origin = origin_,
-                                    .even = false};
+                                    .even = false,
+                                    .alone = true};
     // A bead's end is round and reaches half its width further than its path.
     for (const Region& region : geometry::offset(areas, {.by = -band_ / 2})) {
       stop_if_asked();

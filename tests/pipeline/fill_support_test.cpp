@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/fill_support.h"
 
+#include "geometry/spatial_index.h"
 #include "rectangle.h"
 
+#include <cmath>
+#include <numbers>
 #include <set>
 
 #include <catch2/catch.hpp>
@@ -70,4 +73,43 @@ TEST_CASE("support: lines of levels of any height lie on each other") {
   // What is the same is filled the same.
   REQUIRE(filled[2].beads.size() == filled[0].beads.size());
   for (std::size_t i = 0; i < filled[0].beads.size(); ++i) CHECK(filled[2].beads[i] == filled[0].beads[i]);
+}
+
+namespace {
+
+/// How far a bead leaves its chord, µm: as thin as it is, it would fall over. A closed one is as wide as it is.
+double leaves_its_chord(const Bead& bead) {
+  if (bead.closed) return 1e9;
+  double most = 0;
+  for (const auto& place : bead.path)
+    most = std::max(most, geometry::foot_of(place.at, {bead.path.front().at, bead.path.back().at}).distance_um);
+  return most;
+}
+
+Region ellipse(double a, double b, double turn) {
+  Region out;
+  for (int i = 0; i < 48; ++i) {
+    const double t = i * std::numbers::pi / 24, x = a * std::cos(t), y = b * std::sin(t);
+    out.outer.push_back({static_cast<Um>(x * std::cos(turn) - y * std::sin(turn)),
+                         static_cast<Um>(x * std::sin(turn) + y * std::cos(turn))});
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("support: no line of a column stands alone") {
+  Settings s;
+  s.layers.layer_height = 200;
+  for (double a = 1000; a < 12000; a += 370)
+    for (double b = a; b < 3 * a; b += 0.45 * a)
+      for (const double turn : {0.0, 0.7, 1.5}) {
+        const Regions column{ellipse(a, b, turn)};
+        const auto filled = pipeline::fill_support(s, {level(2000, 200, &support::SupportLayer::columns, column)}, {});
+        REQUIRE(!filled.front().beads.empty());
+        for (const Bead& bead : filled.front().beads) {
+          INFO(a << " by " << b << ", turned by " << turn);
+          CHECK(leaves_its_chord(bead) > 400);
+        }
+      }
 }
