@@ -111,6 +111,10 @@ Regions Room::stair(const Stack::Level& level, const Box& near) const {
   return geometry::intersect(geometry::unite(part(begun - gap, level.bottom() - gap, wide)), grown(now, width));
 }
 
+Regions Room::kept_off_beside(const Stack::Level& level, const Box& near) const {
+  return kept_off(part(level.bottom(), level.z, near.grown(beside_ + 3 * outline_bound)), beside_);
+}
+
 KeepOut Room::keep_out(const Stack::Level& level, const Box& near) const {
   KeepOut out;
   const Regions part_beside = part(level.bottom(), level.z, near.grown(beside_ + 3 * outline_bound));

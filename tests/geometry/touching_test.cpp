@@ -4,6 +4,7 @@
 #include "geometry/boolean.h"
 #include "rectangle.h"
 
+#include <algorithm>
 #include <random>
 
 #include <catch2/catch.hpp>
@@ -23,6 +24,23 @@ TEST_CASE("geometry: what overlaps or touches is joined, and covers what a union
     CHECK(joined.size() == united.size());
     CHECK(area_mm2(joined) == Approx(area_mm2(united)));
   }
+}
+
+TEST_CASE("geometry: what lies in the box of a frame is joined with it where it meets its outline or lies within") {
+  Region frame = rectangle(0, 0, 30000, 30000);
+  Ring hole = rectangle(2000, 2000, 28000, 28000).outer;
+  std::reverse(hole.begin(), hole.end());
+  frame.holes.push_back(hole);
+  const Region alone = rectangle(10000, 10000, 11000, 11000), beside = rectangle(12000, 10000, 13000, 11000),
+               at_edge = rectangle(2000, 5000, 3000, 6000), across = rectangle(1000, 8000, 4000, 9000),
+               within = rectangle(500, 20000, 1500, 21000), on_another = rectangle(10200, 10200, 10700, 10700);
+  const Regions some{alone, frame, beside, at_edge, across, within, on_another};
+  const Regions joined = geometry::joined(some), united = geometry::unite(some);
+  REQUIRE(joined.size() == 3);
+  CHECK(united.size() == 3);
+  CHECK(area_mm2(joined) == Approx(area_mm2(united)));
+  CHECK(geometry::subtract(joined, united).empty());
+  CHECK(geometry::subtract(united, joined).empty());
 }
 
 TEST_CASE("geometry: boxes meet by others, and each is in one set") {
