@@ -63,8 +63,16 @@ class Room {
     std::vector<Box> boxes;
   };
   Regions within_bounds(const Region& region, const Box& box, bool& cut) const;
-  KeepOut keep_out(const Stack::Level& level, const Box& near) const;
-  Regions barred(const Stack::Level& level, const Box& near, const Regions& contacts) const;
+  /// An area that something may be kept out of.
+  struct Place {
+    Box box;
+    const Regions& area;
+    geometry::SegmentIndex edge;
+  };
+  /// The part in that height, as far as it comes as near to a place.
+  Regions part_near(Um low, Um high, const Place& place, Um within) const;
+  KeepOut keep_out(const Stack::Level& level, const Place& place) const;
+  Regions barred(const Stack::Level& level, const Place& place, const Regions& contacts) const;
   Regions stair(const Stack::Level& level, const Box& near) const;
 
   const SupportSettings& s_;
