@@ -182,6 +182,7 @@ class Pieces {
 }  // namespace
 
 std::optional<Regions> wound(std::span<const Ring> rings, WindingRule rule, Point origin) {
+  if (auto alone = convex_alone(rings)) return alone;
   const SegmentIndex index(rings);
   const auto crossings = index.clean_crossings();
   if (!crossings) return std::nullopt;
