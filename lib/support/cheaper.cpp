@@ -103,8 +103,14 @@ Split cheaper(const Room& room, const Stack& stack, const Field& field, const st
   const Patches patches(contacts, apart(room.settings(), room.object().nozzle));
   const Guess guess(room, stack);
   const auto& all = patches.all();
-  const auto columns_mm3 = tasks::parallel_map(all.size(), [&](std::size_t i) { return guess.columns_mm3(all[i]); });
-  const auto by_branches_mm3 = branches_mm3(room, stack, field, contacts, patches);
+  // Branches are reckoned level by level: columns are meanwhile.
+  std::vector<double> columns_mm3, by_branches_mm3;
+  tasks::for_each_index(2, [&](std::size_t structure) {
+    if (structure == 0)
+      by_branches_mm3 = branches_mm3(room, stack, field, contacts, patches);
+    else
+      columns_mm3 = tasks::parallel_map(all.size(), [&](std::size_t i) { return guess.columns_mm3(all[i]); });
+  });
   // Where both take about the same, columns are done sooner and stand firmer; neither is reckoned better than that.
   constexpr double about_the_same = 0.8;
   Split out{std::vector<Regions>(contacts.size()), std::vector<Regions>(contacts.size())};

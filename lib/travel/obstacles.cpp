@@ -20,11 +20,18 @@ Regions obstacles_of(const TravelSettings& settings, const LayerInput& input) {
   constexpr Um coarse = 50;  // support is kept off by much more
   Regions out;
   const auto add = [&](const Regions& more) { out.insert(out.end(), more.begin(), more.end()); };
+  // Ring by ring: where chords meet, what is kept off both meets as well.
+  const auto add_coarse = [&](const Regions& more) {
+    for (const Region& region : more) {
+      Region& to = out.emplace_back(Region{geometry::simplified(region.outer, coarse), {}});
+      for (const Ring& hole : region.holes) to.holes.push_back(geometry::simplified(hole, coarse));
+    }
+  };
   for (const auto& object : input.objects) {
     if (!object.support && settings.travel_avoid_other_parts) add(object.outline);
-    if (object.support && settings.travel_avoid_supports) add(geometry::simplified(object.outline, coarse));
+    if (object.support && settings.travel_avoid_supports) add_coarse(object.outline);
   }
-  if (settings.travel_avoid_supports) add(geometry::simplified(input.support, coarse));
+  if (settings.travel_avoid_supports) add_coarse(input.support);
   return out;
 }
 
