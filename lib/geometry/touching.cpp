@@ -93,9 +93,16 @@ class Overlapping {
   DisjointSets together_;
 };
 
+/// So few are done at once sooner than it is known which of them overlap.
+bool are_few(const Regions& regions) {
+  constexpr std::size_t few = 64;
+  return regions.size() <= few;
+}
+
 /// Boxes of what is long or bent meet much that it does not: what overlaps is told by outlines.
 Regions joined_where_met(const Regions& regions) {
   if (regions.size() < 2) return regions;
+  if (are_few(regions)) return unite(regions);
   return by_sets(regions, Overlapping(regions).sets(),
                  [](Regions some) { return some.size() > 1 ? unite(some) : some; });
 }
@@ -110,7 +117,7 @@ Regions offset_apart(const Regions& regions, const OffsetOptions& options) {
   // Corners may reach as far as the miter limit lets them.
   const Um larger = rounded(std::max(options.by, 0) * std::max(options.miter_limit, 1.0)) + 2;
   return by_clusters(regions, larger, [&](const Regions& some) {
-    if (some.size() == 1) return offset(some, options);
+    if (are_few(some)) return offset(some, options);
     Regions each;
     for (const Region& region : some) {
       Regions one = offset({region}, options);
