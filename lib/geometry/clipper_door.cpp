@@ -239,6 +239,7 @@ Ring coarse(const FineRing& ring, Point origin) {
 }
 
 Regions tidied(std::vector<Ring> rings, Point origin) {
+  if (auto alone = convex_alone(rings)) return *std::move(alone);
   // Rounding to whole microns can push a corner through an edge close by. Then both get a corner where they cross, and
   // what that turned over is united away. Nearly always once is enough.
   constexpr int most_rounds = 4;

@@ -17,6 +17,22 @@ double cross(Direction a, Direction b) {
 
 }  // namespace
 
+bool runs_round_convex(const Ring& ring) {
+  const std::size_t n = ring.size();
+  if (n < 3) return false;
+  const auto rises = [](Point d) { return d.y > 0 || (d.y == 0 && d.x > 0); };
+  int rounds = 0;
+  Point before = ring[n - 1];
+  for (std::size_t i = 0; i < n; ++i) {
+    const Point at = ring[i], after = ring[i + 1 < n ? i + 1 : 0], comes = at - before, goes = after - at;
+    const auto turn = orient(before, at, after);
+    if (turn < 0 || (turn == 0 && dot(comes, goes) <= 0)) return false;
+    rounds += !rises(comes) && rises(goes) ? 1 : 0;
+    before = at;
+  }
+  return rounds == 1;
+}
+
 std::optional<Ring> inset_of_convex(const Ring& ring, Um by) {
   const std::size_t n = ring.size();
   if (n < 3) return std::nullopt;

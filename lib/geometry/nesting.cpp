@@ -3,6 +3,7 @@
 
 #include "core/stop.h"
 #include "core/tolerances.h"
+#include "geometry/convex.h"
 
 #include <algorithm>
 #include <cmath>
@@ -139,6 +140,12 @@ Regions nested_by_orientation(std::span<const Ring> rings, const SegmentIndex& i
   for (auto& place : places)
     if (!place.sliver()) place.kind = place.double_area > 0 ? Place::Kind::outer : Place::Kind::hole;
   return assembled(rings, places);
+}
+
+std::optional<Regions> convex_alone(std::span<const Ring> rings) {
+  if (rings.size() != 1 || !runs_round_convex(rings.front())) return std::nullopt;
+  if (static_cast<double>(double_area(rings.front())) < 2 * tolerances::sliver_area_um2) return Regions{};
+  return Regions{{rings.front(), {}}};
 }
 
 }  // namespace weft::geometry

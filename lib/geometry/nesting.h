@@ -3,6 +3,7 @@
 #include "geometry/boolean.h"
 #include "geometry/spatial_index.h"
 
+#include <optional>
 #include <span>
 
 /// From rings that do not cross to regions, without moving a point; private to geometry/.
@@ -17,5 +18,9 @@ Regions nested(std::span<const Ring> rings, const SegmentIndex& index, WindingRu
 /// Holes (clockwise) sorted into the innermost outer ring (counter-clockwise) around them.
 /// Pre: rings do not cross, but may touch; `index` was made from them.
 Regions nested_by_orientation(std::span<const Ring> rings, const SegmentIndex& index);
+
+/// What either makes of one ring that runs round something convex, as discs do, and most that grows or shrinks one:
+/// nothing need be asked. Nothing where the rings are not that.
+std::optional<Regions> convex_alone(std::span<const Ring> rings);
 
 }  // namespace weft::geometry

@@ -2,6 +2,7 @@
 #include "geometry/simplify.h"
 
 #include "core/stop.h"
+#include "geometry/convex.h"
 #include "geometry/spatial_index.h"
 
 #include <algorithm>
@@ -139,6 +140,8 @@ Regions simplified(const Regions& regions, Um bound) {
     region.outer = simplified(region.outer, bound);
     for (auto& hole : region.holes) hole = simplified(hole, bound);
   }
+  const auto convex = [](const Region& region) { return region.holes.empty() && runs_round_convex(region.outer); };
+  if (std::all_of(regions.begin(), regions.end(), convex)) return out;  // chords lie within what was apart
   // Each round gives a ring its points back; when all have theirs, nothing crosses.
   for (bool crossed = true; crossed;) {
     crossed = false;

@@ -378,6 +378,29 @@ std::optional<std::vector<std::pair<std::uint32_t, std::uint32_t>>> SegmentIndex
   return out;
 }
 
+std::vector<std::pair<std::uint32_t, std::uint32_t>> SegmentIndex::rings_that_meet() const {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
+  StopNowAndThen stop(256);
+  for (std::size_t k = 0; k + 1 < starts_.size(); ++k) {
+    const auto here = cell(k);
+    for (std::size_t x = 0; x + 1 < here.size(); ++x) {
+      stop.step();
+      const Segment s = segments_[here[x]];
+      const std::uint32_t ring = origins_[here[x]].region;
+      const Box box = s.box();
+      for (std::size_t y = x + 1; y < here.size(); ++y) {
+        const std::uint32_t other = origins_[here[y]].region;
+        const Segment& t = segments_[here[y]];
+        if (ring != other && box.overlaps(t.box()) && segments_touch(s.a, s.b, t.a, t.b))
+          out.push_back(std::minmax(ring, other));
+      }
+    }
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
 bool SegmentIndex::simple() const {
   StopNowAndThen stop(256);
   for (std::size_t k = 0; k + 1 < starts_.size(); ++k) {

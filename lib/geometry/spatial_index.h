@@ -101,6 +101,9 @@ class SegmentIndex {
   /// nothing. Exact. Pre: made from rings or regions.
   std::optional<std::vector<std::pair<std::uint32_t, std::uint32_t>>> clean_crossings() const;
 
+  /// The pairs of rings that have a point in common, ascending. Exact. Pre: made from rings.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> rings_that_meet() const;
+
   /// Whether no two segments have a point in common, but for neighbours in a ring their common end. Exact.
   /// Pre: made from rings or regions.
   bool simple() const;

@@ -3,9 +3,11 @@
 
 #include "core/disjoint_sets.h"
 #include "geometry/boolean.h"
+#include "geometry/spatial_index.h"
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -29,14 +31,11 @@ std::vector<std::vector<std::size_t>> touching(std::span<const Box> boxes) {
 
 namespace {
 
-/// f(regions of a cluster) for all of them, their boxes larger by so much; what it returns, together.
+/// f(regions of a set) for all sets; what it returns, together.
 template <class F>
-Regions by_clusters(const Regions& regions, Um larger, F f) {
-  std::vector<Box> boxes;
-  boxes.reserve(regions.size());
-  for (const Region& region : regions) boxes.push_back(box_of(region.outer).grown(larger));
+Regions by_sets(const Regions& regions, const std::vector<std::vector<std::size_t>>& sets, F f) {
   Regions out;
-  for (const auto& set : touching(boxes)) {
+  for (const auto& set : sets) {
     Regions some;
     for (const std::size_t i : set) some.push_back(regions[i]);
     some = f(std::move(some));
@@ -45,16 +44,87 @@ Regions by_clusters(const Regions& regions, Um larger, F f) {
   return out;
 }
 
+/// By sets of those whose boxes, larger by so much, meet.
+template <class F>
+Regions by_clusters(const Regions& regions, Um larger, F f) {
+  std::vector<Box> boxes;
+  boxes.reserve(regions.size());
+  for (const Region& region : regions) boxes.push_back(box_of(region.outer).grown(larger));
+  return by_sets(regions, touching(boxes), f);
+}
+
+/// Which regions overlap or touch, directly or by others.
+class Overlapping {
+ public:
+  explicit Overlapping(const Regions& regions)
+      : rings_(rings_of(regions)), index_(rings_), count_(regions.size()), together_(count_) {
+    for (std::uint32_t r = 0; r < regions.size(); ++r) of_ring_.insert(of_ring_.end(), 1 + regions[r].holes.size(), r);
+    join_outlines();
+    join_what_lies_within(regions);
+  }
+  std::vector<std::vector<std::size_t>> sets() {
+    std::vector<std::vector<std::size_t>> by_least(count_), out;
+    for (std::size_t i = 0; i < count_; ++i) by_least[together_.of(i)].push_back(i);
+    for (auto& set : by_least)
+      if (!set.empty()) out.push_back(std::move(set));
+    return out;
+  }
+
+ private:
+  void join_outlines() {
+    for (const auto& [a, b] : index_.rings_that_meet()) together_.join(of_ring_[a], of_ring_[b]);
+  }
+  /// What no outline crosses lies in another as its first corner does.
+  void join_what_lies_within(const Regions& regions) {
+    std::vector<SegmentIndex::RingWinding> windings;
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+      index_.windings(regions[r].outer.front(), windings);
+      std::map<std::size_t, int> around;
+      for (const auto& w : windings) around[of_ring_[w.ring]] += w.winding;
+      for (const auto& [other, winding] : around)
+        if (other != r && winding != 0) together_.join(r, other);
+    }
+  }
+
+  std::vector<Ring> rings_;
+  SegmentIndex index_;
+  std::vector<std::size_t> of_ring_;  // its region
+  std::size_t count_;
+  DisjointSets together_;
+};
+
+/// So few are done at once sooner than it is known which of them overlap.
+bool are_few(const Regions& regions) {
+  constexpr std::size_t few = 64;
+  return regions.size() <= few;
+}
+
+/// Boxes of what is long or bent meet much that it does not: what overlaps is told by outlines.
+Regions joined_where_met(const Regions& regions) {
+  if (regions.size() < 2) return regions;
+  if (are_few(regions)) return unite(regions);
+  return by_sets(regions, Overlapping(regions).sets(),
+                 [](Regions some) { return some.size() > 1 ? unite(some) : some; });
+}
+
 }  // namespace
 
 Regions joined(const Regions& regions) {
-  return by_clusters(regions, 1, [](Regions some) { return some.size() > 1 ? unite(some) : some; });
+  return by_clusters(regions, 1, [](const Regions& some) { return joined_where_met(some); });
 }
 
 Regions offset_apart(const Regions& regions, const OffsetOptions& options) {
   // Corners may reach as far as the miter limit lets them.
   const Um larger = rounded(std::max(options.by, 0) * std::max(options.miter_limit, 1.0)) + 2;
-  return by_clusters(regions, larger, [&](const Regions& some) { return offset(some, options); });
+  return by_clusters(regions, larger, [&](const Regions& some) {
+    if (are_few(some)) return offset(some, options);
+    Regions each;
+    for (const Region& region : some) {
+      Regions one = offset({region}, options);
+      std::move(one.begin(), one.end(), std::back_inserter(each));
+    }
+    return joined_where_met(each);
+  });
 }
 
 }  // namespace weft::geometry

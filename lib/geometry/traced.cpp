@@ -14,7 +14,7 @@ namespace weft::geometry {
 namespace {
 using clipper::Operation;
 
-constexpr std::size_t most_rings = 64;  // each is asked for what lies around it, by a look at all to its left
+constexpr std::size_t most_rings = 2048;  // each is asked for what lies around it, by a look at all to its left
 
 /// Where an outline of a crosses one of b.
 struct Crossing {

@@ -13,7 +13,7 @@
 namespace weft::geometry {
 namespace {
 
-constexpr std::size_t most_rings = 64;  // each is asked for what lies around it, by a look at all to its left
+constexpr std::size_t most_rings = 2048;  // each is asked for what lies around it, by a look at all to its left
 
 using Crossing = std::pair<std::uint32_t, std::uint32_t>;
 
@@ -182,6 +182,7 @@ class Pieces {
 }  // namespace
 
 std::optional<Regions> wound(std::span<const Ring> rings, WindingRule rule, Point origin) {
+  if (auto alone = convex_alone(rings)) return alone;
   const SegmentIndex index(rings);
   const auto crossings = index.clean_crossings();
   if (!crossings) return std::nullopt;

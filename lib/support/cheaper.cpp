@@ -26,19 +26,28 @@ class Guess {
 
   double columns_mm3(const Patch& patch) const {
     constexpr Um step = 2_mm, coarse = 0.1_mm;
-    double mm3 = 0;
+    double mm3 = 0, by_mm = 0;
     Regions falling;
     Um height = 0;
+    bool changed = false;  // since by_mm was reckoned: most columns fall far as they are
     auto next = patch.contacts.rbegin();
     for (std::size_t k = next->first + 1; k-- > 0;) {
-      if (next != patch.contacts.rend() && next->first == k) append(falling, (next++)->second);
+      if (next != patch.contacts.rend() && next->first == k) append(falling, (next++)->second), changed = true;
       height += stack_.levels[k].height;
       if (falling.empty() || (height < step && k > 0)) continue;
       stop_if_asked();
-      falling = geometry::simplified(geometry::unite(falling), coarse);
-      if (s_.support_join_distance > 0) falling = closed(falling, s_.support_join_distance / 2);
-      mm3 += lost(k, falling);
-      for (const Region& region : falling) mm3 += column_mm3(s_, line_, region, height);
+      if (changed) {
+        falling = geometry::simplified(geometry::unite(falling), coarse);
+        if (s_.support_join_distance > 0) falling = closed(falling, s_.support_join_distance / 2);
+      }
+      bool cut = false;
+      mm3 += lost(k, falling, cut);
+      if (changed || cut) {
+        by_mm = 0;
+        for (const Region& region : falling) by_mm += column_mm3(s_, line_, region, 1_mm);
+      }
+      changed = cut;
+      mm3 += by_mm * to_mm(height);
       height = 0;
     }
     return mm3 + foot_mm3(falling) - roof_mm3(patch);
@@ -46,7 +55,8 @@ class Guess {
 
  private:
   /// Takes away what the part keeps off on a level. @return what of it stands on the part, as so much plastic
-  double lost(std::size_t k, Regions& falling) const {
+  /// @param cut  becomes true where something is near enough to keep it off
+  double lost(std::size_t k, Regions& falling, bool& cut) const {
     constexpr double mm3_by_scar_mm2 = 1;  // what stands on the part is filed off
     double mm3 = 0;
     const auto& level = stack_.levels[k];
@@ -54,8 +64,8 @@ class Guess {
     if (s_.support_type == SupportType::everywhere)
       if (const Regions part = room_.part(level.bottom(), level.z, near); !part.empty())
         mm3 += mm3_by_scar_mm2 * area_mm2(geometry::intersect(falling, part));
-    if (const Regions kept_off = room_.keep_out(level, near).near; !kept_off.empty())
-      falling = opened(geometry::subtract(falling, kept_off), line_ / 2);
+    if (const Regions kept_off = room_.kept_off_beside(level, near); !kept_off.empty())
+      falling = opened(geometry::subtract(falling, kept_off), line_ / 2), cut = true;
     return mm3;
   }
   /// What the first layer of what stands there takes, with what spreads around it.
@@ -93,8 +103,14 @@ Split cheaper(const Room& room, const Stack& stack, const Field& field, const st
   const Patches patches(contacts, apart(room.settings(), room.object().nozzle));
   const Guess guess(room, stack);
   const auto& all = patches.all();
-  const auto columns_mm3 = tasks::parallel_map(all.size(), [&](std::size_t i) { return guess.columns_mm3(all[i]); });
-  const auto by_branches_mm3 = branches_mm3(room, stack, field, contacts, patches);
+  // Branches are reckoned level by level: columns are meanwhile.
+  std::vector<double> columns_mm3, by_branches_mm3;
+  tasks::for_each_index(2, [&](std::size_t structure) {
+    if (structure == 0)
+      by_branches_mm3 = branches_mm3(room, stack, field, contacts, patches);
+    else
+      columns_mm3 = tasks::parallel_map(all.size(), [&](std::size_t i) { return guess.columns_mm3(all[i]); });
+  });
   // Where both take about the same, columns are done sooner and stand firmer; neither is reckoned better than that.
   constexpr double about_the_same = 0.8;
   Split out{std::vector<Regions>(contacts.size()), std::vector<Regions>(contacts.size())};

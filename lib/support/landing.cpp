@@ -78,11 +78,14 @@ std::vector<Landing> landings_of(const Room& room, std::span<const SupportLayer>
   const Regions under = all_areas(below);
   for (const auto kind : kinds)
     for (const Region& region : layer.*kind) {
+      const Regions& same_below = below.*kind;  // as most of a column has
+      if (std::find(same_below.begin(), same_below.end(), region) != same_below.end()) continue;
+      const Regions alone{region};
+      if (!room.comes_near(bottom - gap - below.height, bottom - gap, alone, geometry::SegmentIndex(alone), 0))
+        continue;
       const Box near = box_of(region.outer).grown(line + 1);
       const Regions rests_on = geometry::trimmed(under, near);
-      if (rests_on.size() == 1 && rests_on.front() == region) continue;  // as most of a column does
-      Regions part = room.part(bottom - gap - below.height, bottom - gap, near);
-      if (part.empty() || geometry::intersect({region}, part).empty()) continue;
+      if (rests_on.size() == 1 && rests_on.front() == region) continue;
       Regions standing = geometry::subtract({region}, grown(rests_on, line));
       for (std::size_t i = run.to; i-- > run.from && !standing.empty();) {  // the highest is what it stands on
         const Um z = object.layers[i]->z, free = bottom - z - gap;

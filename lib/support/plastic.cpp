@@ -27,7 +27,9 @@ double loops_mm2(const Regions& regions, Um line) {
 double column_mm3(const SupportSettings& settings, Um line, const Region& area, Um height) {
   const double mm2 = area_mm2(area), loop = perimeter_mm(area) * to_mm(line),
                share = settings.support_infill_rate / 100;
-  const bool narrow = geometry::offset({area}, {.by = -hollow_column(line, share)}).empty();
+  const Um half = hollow_column(line, share);
+  const Point size = box_of(area.outer).size();
+  const bool narrow = std::min(size.x, size.y) <= 2 * half || geometry::offset({area}, {.by = -half}).empty();
   return to_mm(height) * std::min(mm2, narrow ? loop : mm2 * share + loop / 2);
 }
 

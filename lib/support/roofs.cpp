@@ -17,11 +17,17 @@
 namespace weft::support {
 namespace {
 
-/// Contacts of levels around one, so many up and down, together.
-Regions around_level(const std::vector<Regions>& contacts, std::size_t k, std::size_t count) {
+/// Contacts of levels around one, so many up and down, together, as far as they come as near to those of the level.
+Regions around_level(const std::vector<Regions>& contacts, std::size_t k, std::size_t count, Um near) {
+  std::vector<Box> boxes;
+  for (const Region& region : contacts[k]) boxes.push_back(box_of(region.outer).grown(near));
   Regions around;
   for (std::size_t j = k >= count ? k - count + 1 : 0; j < std::min(contacts.size(), k + count); ++j)
-    append(around, contacts[j]);
+    for (const Region& region : contacts[j]) {
+      const Box box = box_of(region.outer);
+      if (std::any_of(boxes.begin(), boxes.end(), [&](const Box& own) { return own.overlaps(box); }))
+        around.push_back(region);
+    }
   return grown(around, 20);
 }
 
@@ -59,7 +65,8 @@ void Roofs::begin_roofs() {
   auto around = tasks::parallel_map(contacts_.size(), [&](std::size_t k) {
     if (contacts_[k].empty()) return Regions{};
     stop_if_asked();
-    return around_level(contacts_, k, interface_levels(stack_, k, std::max<Um>(s_.support_roof_height, side_by_side)));
+    const Um height = std::max<Um>(s_.support_roof_height, side_by_side);
+    return around_level(contacts_, k, interface_levels(stack_, k, height), 2 * least);
   });
   wide_ = tasks::parallel_map(contacts_.size(), [&](std::size_t k) {
     if (contacts_[k].empty()) return Regions{};

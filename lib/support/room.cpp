@@ -51,6 +51,15 @@ bool contains(const Region& region, Point p) {
                       [p](const Ring& hole) { return side_of(hole, p) == Side::inside; });
 }
 
+/// Whether a piece of the part comes as near to an area.
+bool comes_near(const Region& part, const Regions& area, const geometry::SegmentIndex& edge, Um within) {
+  return is_near(part.outer, edge, within) ||
+         std::any_of(part.holes.begin(), part.holes.end(),
+                     [&](const Ring& hole) { return is_near(hole, edge, within); }) ||
+         std::any_of(area.begin(), area.end(),
+                     [&](const Region& region) { return contains(part, region.outer.front()); });
+}
+
 }  // namespace
 
 Um beside(const SupportSettings& settings, const Object& object) {
@@ -111,27 +120,38 @@ Regions Room::stair(const Stack::Level& level, const Box& near) const {
   return geometry::intersect(geometry::unite(part(begun - gap, level.bottom() - gap, wide)), grown(now, width));
 }
 
-KeepOut Room::keep_out(const Stack::Level& level, const Box& near) const {
+Regions Room::kept_off_beside(const Stack::Level& level, const Box& near) const {
+  return kept_off(part(level.bottom(), level.z, near.grown(beside_ + 3 * outline_bound)), beside_);
+}
+
+Regions Room::part_near(Um low, Um high, const Place& place, Um within) const {
+  Regions out = part(low, high, place.box.grown(within));
+  std::erase_if(out, [&](const Region& piece) { return !support::comes_near(piece, place.area, place.edge, within); });
+  return out;
+}
+
+KeepOut Room::keep_out(const Stack::Level& level, const Place& place) const {
   KeepOut out;
-  const Regions part_beside = part(level.bottom(), level.z, near.grown(beside_ + 3 * outline_bound));
+  const Regions part_beside = part_near(level.bottom(), level.z, place, beside_ + 3 * outline_bound);
   out.near = kept_off(part_beside, beside_);
   out.touch = close_ == beside_ ? out.near : kept_off(part_beside, close_);
   const Um above = top_gap(s_), below = bottom_gap(s_);
   if (above > 0) {
     // What lies in the gap is kept off sideways too, so that a bead has room beside it for a contact that ends lower.
-    const Regions in_gap = part(level.z, level.z + above, near.grown(close_ + 3 * outline_bound));
+    const Regions in_gap = part_near(level.z, level.z + above, place, close_ + 3 * outline_bound);
     if (in_gap != part_beside) out.over = kept_off(in_gap, close_);
   }
-  if (below > 0 && level.bottom() > o_.floor) append(out.over, part(level.bottom() - below, level.bottom(), near));
-  append(out.over, stair(level, near));
+  if (below > 0 && level.bottom() > o_.floor)
+    append(out.over, part_near(level.bottom() - below, level.bottom(), place, 1));
+  append(out.over, stair(level, place.box));
   if (s_.support_blockers_avoided) append(out.over, blocked_between(o_, level.bottom(), level.z));
   return out;
 }
 
-Regions Room::barred(const Stack::Level& level, const Box& near, const Regions& contacts) const {
-  KeepOut out = keep_out(level, near);
+Regions Room::barred(const Stack::Level& level, const Place& place, const Regions& contacts) const {
+  KeepOut out = keep_out(level, place);
   Regions barred = std::move(out.over);
-  const Regions close = contacts.empty() ? contacts : geometry::trimmed(contacts, near.grown(o_.nozzle + 1));
+  const Regions close = contacts.empty() ? contacts : geometry::trimmed(contacts, place.box.grown(o_.nozzle + 1));
   if (close.empty()) {
     append(barred, out.near);
   } else {
@@ -161,7 +181,9 @@ Regions Room::free_part(const Regions& area, const Stack::Level& level, const Re
     bool cut = false;
     Regions left = within_bounds(region, box, cut);
     if (!left.empty()) {
-      const Regions not_there = geometry::trimmed(barred(level, box, contacts), box);
+      const Regions alone{region};
+      const Regions not_there =
+          geometry::trimmed(barred(level, {box, alone, geometry::SegmentIndex(alone)}, contacts), box);
       if (!not_there.empty()) left = geometry::subtract(left, not_there), cut = true;
     }
     any = any || cut;
@@ -181,13 +203,7 @@ bool Room::comes_near(Um low, Um high, const Regions& area, const geometry::Segm
     before = &layer.regions;
     for (std::size_t r = 0; r < layer.boxes.size(); ++r) {
       if (!layer.boxes[r].overlaps(reach)) continue;
-      const Region& part = layer.regions[r];
-      if (is_near(part.outer, edge, within) ||
-          std::any_of(part.holes.begin(), part.holes.end(),
-                      [&](const Ring& hole) { return is_near(hole, edge, within); }) ||
-          std::any_of(area.begin(), area.end(),
-                      [&](const Region& region) { return contains(part, region.outer.front()); }))
-        return true;
+      if (support::comes_near(layer.regions[r], area, edge, within)) return true;
     }
   }
   return false;

@@ -35,8 +35,8 @@ class Room {
 
   /// The part's outlines in that height, near the box. They may overlap.
   Regions part(Um low, Um high, const Box& near) const;
-  /// What is kept out of a level, near the box.
-  KeepOut keep_out(const Stack::Level& level, const Box& near) const;
+  /// What the part beside keeps out of a level, near the box.
+  Regions kept_off_beside(const Stack::Level& level, const Box& near) const;
   /// What of an area is not kept out of a level: beside contacts the smaller distance holds.
   /// Post: what lies free of the part is returned as it was.
   /// @param changed  if given, whether anything was taken away
@@ -49,6 +49,11 @@ class Room {
   /// Cost: the corners of the part beside.
   bool stands_free(const Regions& area, const geometry::SegmentIndex& edge, const Stack::Level& level) const;
 
+  /// Whether the part in that height comes as near to an area.
+  /// @param edge  the area's
+  /// Cost: the corners of the part beside.
+  bool comes_near(Um low, Um high, const Regions& area, const geometry::SegmentIndex& edge, Um within) const;
+
   const SupportSettings& settings() const { return s_; }
   const Object& object() const { return o_; }
 
@@ -58,8 +63,16 @@ class Room {
     std::vector<Box> boxes;
   };
   Regions within_bounds(const Region& region, const Box& box, bool& cut) const;
-  bool comes_near(Um low, Um high, const Regions& area, const geometry::SegmentIndex& edge, Um within) const;
-  Regions barred(const Stack::Level& level, const Box& near, const Regions& contacts) const;
+  /// An area that something may be kept out of.
+  struct Place {
+    Box box;
+    const Regions& area;
+    geometry::SegmentIndex edge;
+  };
+  /// The part in that height, as far as it comes as near to a place.
+  Regions part_near(Um low, Um high, const Place& place, Um within) const;
+  KeepOut keep_out(const Stack::Level& level, const Place& place) const;
+  Regions barred(const Stack::Level& level, const Place& place, const Regions& contacts) const;
   Regions stair(const Stack::Level& level, const Box& near) const;
 
   const SupportSettings& s_;

@@ -20,11 +20,18 @@ Regions obstacles_of(const TravelSettings& settings, const LayerInput& input) {
   constexpr Um coarse = 50;  // support is kept off by much more
   Regions out;
   const auto add = [&](const Regions& more) { out.insert(out.end(), more.begin(), more.end()); };
+  // Ring by ring: where chords meet, what is kept off both meets as well.
+  const auto add_coarse = [&](const Regions& more) {
+    for (const Region& region : more) {
+      Region& to = out.emplace_back(Region{geometry::simplified(region.outer, coarse), {}});
+      for (const Ring& hole : region.holes) to.holes.push_back(geometry::simplified(hole, coarse));
+    }
+  };
   for (const auto& object : input.objects) {
     if (!object.support && settings.travel_avoid_other_parts) add(object.outline);
-    if (object.support && settings.travel_avoid_supports) add(geometry::simplified(object.outline, coarse));
+    if (object.support && settings.travel_avoid_supports) add_coarse(object.outline);
   }
-  if (settings.travel_avoid_supports) add(geometry::simplified(input.support, coarse));
+  if (settings.travel_avoid_supports) add_coarse(input.support);
   return out;
 }
 
@@ -114,7 +121,7 @@ const Regions& Obstacles::kept_off(const Cluster& cluster) const {
     Regions some;
     for (const std::size_t i : cluster.of) some.push_back(what_[i]);
     cluster.kept_off =
-        geometry::offset(some, {.by = settings_.travel_avoid_distance, .corner = geometry::Corner::round});
+        geometry::offset_apart(some, {.by = settings_.travel_avoid_distance, .corner = geometry::Corner::round});
   }
   return cluster.kept_off;
 }
@@ -144,6 +151,12 @@ std::optional<Polyline> Obstacles::way_round(Point p, Point q, const std::vector
   Box box;
   box.add(p), box.add(q);
   for (const auto i : between) box.add(clusters_[i].reach);
+  const Comb comb = round_clusters(box);
+  return comb.way(p, q, {comb.hole_around(p), comb.hole_around(q)});
+}
+
+/// What is kept off the clusters that a box meets, in a box around all of it.
+Comb Obstacles::round_clusters(const Box& box) const {
   std::vector<Ring> rings;
   Box all = box;
   for (const Cluster& cluster : clusters_)
@@ -154,11 +167,15 @@ std::optional<Polyline> Obstacles::way_round(Point p, Point q, const std::vector
     }
   all = all.grown(1000);
   rings.push_back({all.min, {all.max.x, all.min.y}, all.max, {all.min.x, all.max.y}});
-  const Comb comb(std::move(rings));
-  return comb.way(p, q, {comb.hole_around(p), comb.hole_around(q)});
+  return Comb(std::move(rings));
 }
 
 const Comb& Obstacles::around() const {
+  if (!around_ && open_) {
+    Box room = box_of(what_).grown(2 * settings_.travel_avoid_distance + 10000);
+    room.add(box_of(input_.room.reach));
+    around_ = round_clusters(room);
+  }
   if (!around_) around_.emplace(area_around(settings_, what_, input_.room));
   return *around_;
 }

@@ -34,6 +34,7 @@ class Obstacles {
   bool is_open() const;
   std::vector<std::uint32_t> between(Point p, Point q) const;
   std::optional<Polyline> way_round(Point p, Point q, const std::vector<std::uint32_t>& between) const;
+  Comb round_clusters(const Box& box) const;
   const Comb& around() const;
 
   const TravelSettings& settings_;

@@ -2,6 +2,7 @@
 #include "walls/stub.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -57,37 +58,64 @@ class Cut {
     double left = 0, right = 0;
   };
   Room beside(double x) const {
-    double left = 1e18, right = 1e18;
-    each_crossing(x, {-u_.y, u_.x}, [&](double t) { t < 0 ? right = std::min(right, -t) : left = std::min(left, t); });
-    return left > 1e17 || right > 1e17 ? Room{} : Room{left, right};
+    Gap gap;
+    each_crossing(x, {-u_.y, u_.x}, [&](double t) { gap.narrow(t); });
+    return gap.room();
   }
 
   /// The area that a bead of even sides covers.
   double covered() const {
+    const double length = to - from;
+    if (!(length > 0)) return 0;
+    std::array<Place, looks> places;
+    std::array<Gap, looks> gaps;
+    for (int i = 0; i < looks; ++i) places[index(i)] = at(from + (i + 0.5) * length / looks);
+    const auto look_of = [&](Place q) {
+      const double x = (q.x - o_.x) * u_.x + (q.y - o_.y) * u_.y;
+      return (x - from) / length * looks - 0.5;
+    };
+    const Place across{-u_.y, u_.x};
+    double a_look = look_of(ring_.back());
+    for (std::size_t k = 0; k < ring_.size(); ++k) {  // each edge is looked at where it may be met, and one further
+      const double b_look = look_of(ring_[k]);
+      const auto first = static_cast<int>(std::clamp(std::min(a_look, b_look) - 1, 0.0, double{looks})),
+                 end = static_cast<int>(std::clamp(std::max(a_look, b_look) + 2, 0.0, double{looks}));
+      for (int i = first; i < end; ++i)
+        edge_crossing(k, places[index(i)], across, [&](double t) { gaps[index(i)].narrow(t); });
+      a_look = b_look;
+    }
     double sum = 0;
-    for (int i = 0; i < looks; ++i) {
-      const Room room = beside(from + (i + 0.5) * (to - from) / looks);
+    for (const Gap& gap : gaps) {
+      const Room room = gap.room();
       sum += 2 * std::min(room.left, room.right);
     }
-    return sum * (to - from) / looks;
+    return sum * length / looks;
   }
 
   Place at(double x) const { return {o_.x + x * u_.x, o_.y + x * u_.y}; }
 
  private:
+  /// How far it is to what was crossed on either side.
+  struct Gap {
+    double left = 1e18, right = 1e18;
+    void narrow(double t) { t < 0 ? right = std::min(right, -t) : left = std::min(left, t); }
+    Room room() const { return left > 1e17 || right > 1e17 ? Room{} : Room{left, right}; }
+  };
+  static std::size_t index(int look) { return static_cast<std::size_t>(look); }
+
+  /// Where the edge that ends at a corner crosses the line through p in direction v.
+  template <class F>
+  void edge_crossing(std::size_t corner, Place p, Place v, F f) const {
+    const Place &before = ring_[corner > 0 ? corner - 1 : ring_.size() - 1], &after = ring_[corner];
+    const Place a{before.x - p.x, before.y - p.y}, b{after.x - p.x, after.y - p.y};
+    const double a_side = cross(v, a), b_side = cross(v, b);
+    if ((a_side < 0) != (b_side < 0)) f(meeting(v, a, a_side, b, b_side));
+  }
   /// Where the ring crosses the line through the place x on this one, in direction v.
   template <class F>
   void each_crossing(double x, Place v, F f) const {
     const Place p = at(x);
-    const auto seen = [&](Place q) { return Place{q.x - p.x, q.y - p.y}; };
-    Place a = seen(ring_.back());
-    double a_side = cross(v, a);
-    for (const Place& q : ring_) {
-      const Place b = seen(q);
-      const double b_side = cross(v, b);
-      if ((a_side < 0) != (b_side < 0)) f(meeting(v, a, a_side, b, b_side));
-      a = b, a_side = b_side;
-    }
+    for (std::size_t k = 0; k < ring_.size(); ++k) edge_crossing(k, p, v, f);
   }
 
   const std::vector<Place>& ring_;

@@ -26,6 +26,21 @@ Ring round_ring(int corners, double radius_x, double radius_y) {
 
 }  // namespace
 
+TEST_CASE("geometry: what runs round something convex runs once, counter-clockwise, and turns to the left only") {
+  CHECK(geometry::runs_round_convex({{0, 0}, {10, 0}, {10, 10}, {0, 10}}));
+  CHECK(geometry::runs_round_convex({{0, 0}, {5, 0}, {10, 0}, {10, 10}}));
+  for (const int corners : {3, 4, 5, 18, 72}) CHECK(geometry::runs_round_convex(round_ring(corners, 5000, 3000)));
+  CHECK_FALSE(geometry::runs_round_convex({{0, 0}, {0, 10}, {10, 10}, {10, 0}}));
+  CHECK_FALSE(geometry::runs_round_convex({{0, 0}, {10, 0}, {3, 3}, {0, 10}}));
+  CHECK_FALSE(geometry::runs_round_convex({{0, 0}, {10, 0}, {5, 0}}));
+  CHECK_FALSE(geometry::runs_round_convex({{0, 0}, {10, 0}, {10, 0}, {10, 10}}));
+  CHECK_FALSE(geometry::runs_round_convex({{0, 0}, {10, 0}, {10, 10}, {0, 10}, {0, 0}, {10, 0}, {10, 10}, {0, 10}}));
+  Ring star;  // turns to the left only, twice around
+  for (const int corner : {0, 2, 4, 1, 3}) star.push_back(round_ring(5, 5000, 5000)[static_cast<std::size_t>(corner)]);
+  CHECK_FALSE(geometry::runs_round_convex(star));
+  CHECK_FALSE(geometry::runs_round_convex({{0, 0}, {10, 0}}));
+}
+
 TEST_CASE("geometry: a convex ring is drawn in as an offset draws it in") {
   for (const int corners : {3, 4, 5, 18, 72})
     for (const double radius : {500.0, 1000.0, 7000.0})
