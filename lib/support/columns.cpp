@@ -166,31 +166,37 @@ void thicken(Regions& area, const Regions& fresh, Um line) {
   if (fresh.empty()) return;
   // What a disc inside of the area covers is told by what lies as near as its diameter.
   const Regions around = &area == &fresh ? area : geometry::intersect(area, boxes_around(fresh, 2 * line));
-  const Regions thin = geometry::subtract(fresh, opened(around, line, 20));
+  // Corners are not thin: what grew around them would reach further than what they hold.
+  const Regions wide = geometry::offset(geometry::offset(around, {.by = -line}), {.by = line + 20});
+  const Regions thin = geometry::subtract(fresh, wide);
   if (thin.empty()) return;
   append(area, grown(thin, line));
   area = geometry::unite(area);
 }
 
 Regions without_thin(const Regions& area, Um radius) {
-  return geometry::offset(geometry::offset(area, {.by = -radius}), {.by = radius, .miter_limit = 8});
+  const Regions wide = geometry::offset(geometry::offset(area, {.by = -radius}), {.by = radius, .miter_limit = 3});
+  return geometry::intersect(wide, area);  // where a corner was cut off, the whole one reaches further
 }
 
 namespace {
 
 /// What of a level hangs, but for slivers along edges: an area that was opened by 0.4 lines is none.
 Regions hanging(const Regions& here, const Regions& below) {
+  constexpr double least_mm2 = 0.05;
+  constexpr Um least_wide = 60;
   Regions out;
+  const auto add = [&](const Region& piece) {
+    const double mm2 = area_mm2(piece);
+    if (mm2 < least_mm2) return;
+    if (2e6 * mm2 >= least_wide * perimeter_of(piece.outer)) return out.push_back(piece);
+    append(out, geometry::opening({piece}, least_wide / 2));  // what is wide may hang on to a long sliver
+  };
   for (const Region& region : here) {
     const Regions under = geometry::trimmed(below, box_of(region.outer).grown(1));
     if (under.size() == 1 && under.front() == region) continue;
-    append(out, under.empty() ? Regions{region} : geometry::subtract({region}, under));
+    for (const Region& piece : under.empty() ? Regions{region} : geometry::subtract({region}, under)) add(piece);
   }
-  std::erase_if(out, [](const Region& piece) {
-    constexpr double least_mm2 = 0.05, least_wide_mm = 0.06;
-    const double mm2 = area_mm2(piece);
-    return mm2 < least_mm2 || 2000 * mm2 < least_wide_mm * perimeter_of(piece.outer);
-  });
   return out;
 }
 
@@ -216,7 +222,8 @@ void rest_on(const Room& room, const Stack::Level& level, const Regions& below, 
     else
       append(free, geometry::subtract({piece}, grown(base, reach)));
   }
-  if (!free.empty()) here = geometry::subtract(here, free);
+  // Nothing rests on a hair that stays beside what goes.
+  if (!free.empty()) here = without_thin(geometry::subtract(here, free), line_width(s, room.object().nozzle) * 4 / 10);
 }
 
 namespace {

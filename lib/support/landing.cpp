@@ -91,7 +91,6 @@ std::vector<Landing> landings_of(const Room& room, std::span<const SupportLayer>
         if (here.empty()) continue;
         standing = geometry::subtract(standing, here);
         Regions wide = free > 1 && !s.support_synchronize_layers ? without_thin(here, line) : Regions{};
-        if (!wide.empty()) wide = geometry::intersect(wide, here);  // its corners may reach further
         out.push_back({std::move(wide), layer.height + free, area_mm2(here), {}, 0});
         if (!s.support_bottom_enable) stand_on_feet(room, region, kind, layers.subspan(2), here, out.back());
       }

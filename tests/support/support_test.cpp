@@ -431,6 +431,20 @@ TEST_CASE("support: under a slope every layer is held its gap below, and levels 
     }
 }
 
+TEST_CASE("support: columns reach no further than what they hold, also at its corners") {
+  Body body = tee();
+  const auto s = on();
+  const auto plan = planned(s, body);
+  REQUIRE(!plan.layers.empty());
+  for (std::size_t k = 1; k < plan.layers.size(); ++k) {  // the first spreads on the bed
+    const Box box = box_of(all_of(plan.layers[k]));
+    CHECK(box.min.x >= -20030);
+    CHECK(box.min.y >= -10030);
+    CHECK(box.max.x <= 20030);
+    CHECK(box.max.y <= 10030);
+  }
+}
+
 TEST_CASE("support: random bodies keep the laws") {
   const char* const many = std::getenv("WEFT_SUPPORT_BODIES");  // bash: WEFT_SUPPORT_BODIES=200 test_support
   const int bodies = many != nullptr ? std::atoi(many) : 20;
