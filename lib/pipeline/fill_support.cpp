@@ -11,14 +11,17 @@
 #include "infill/solid.h"
 #include "infill/sparse.h"
 #include "model/flow.h"
+#include "pipeline/beneath.h"
 #include "pipeline/feet.h"
 #include "support/lengths.h"
 #include "tasks/parallel.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -49,6 +52,7 @@ class Filler {
  public:
   Filler(const Settings& settings, const support::SupportLayer& layer, Point origin)
       : s_(settings.support),
+        span_(support::roof_span(settings.machine.nozzle_diameter)),
         layer_(layer),
         origin_(origin),
         line_(length_or(s_.support_line_width, settings.machine.nozzle_diameter, settings.machine.nozzle_diameter)),
@@ -57,8 +61,9 @@ class Filler {
         usual_band_(std::max<Um>(flow::band(line_, settings.layers.layer_height), 1)) {}
 
   /// @param columns  what `column` made of the layer's
-  Beads beads(Beads columns) && {
-    beads_ = std::move(columns);
+  /// @param below    what the layer lies on
+  Beads beads(Beads columns, const Beneath& below) && {
+    beads_ = std::move(columns), below_ = &below;
     branches();
     for (const Regions* areas : {&layer_.bottom, &layer_.roof}) interface(*areas);
     joists();
@@ -135,20 +140,44 @@ class Filler {
       sparse(inner, share, s_.support_interface_pattern, s_.support_infill_angle + 90, Role::support_interface);
       return;
     }
-    // Strands from rim to rim of what is that narrow would lie on little; beads along it cross what is below.
-    constexpr Um half = 1500;
+    constexpr Um half = 1500;  // of what is narrow
     for (const Region& area : inner) {
       const Box box = box_of(area.outer);
       const Regions wide = std::min(box.size().x, box.size().y) > 2 * half ? wider({area}, half) : Regions{};
       if (wide.empty()) {
-        loops({area}, most_loops, Role::support_interface);
+        narrow({area});
         continue;
       }
       const Regions reached = coarsely(wide, half / 2);
       solid(geometry::intersect({area}, reached), s_.support_infill_angle + 90, Role::support_interface,
             row_of(pattern_rows, s_.support_interface_pattern).connect);
-      loops(geometry::opening(geometry::subtract({area}, reached), band_ / 4), most_loops, Role::support_interface);
+      narrow(geometry::opening(geometry::subtract({area}, reached), band_ / 4));
     }
+  }
+  /// Strands from rim to rim of what is that narrow lie on little, beads along it cross what is below; but where many
+  /// of these hang, as between two lines of a column, strands across lie on it every so often.
+  void narrow(const Regions& areas) {
+    constexpr double many = 0.3;
+    for (const Region& area : areas) {
+      stop_if_asked();
+      const auto from = static_cast<std::ptrdiff_t>(beads_.size());
+      const auto laid = [&] { return std::span(beads_).subspan(static_cast<std::size_t>(from)); };
+      loops({area}, most_loops, Role::support_interface);
+      if (below_->empty()) continue;
+      const double hangs_um = below_->hanging_um(laid(), span_);
+      if (hangs_um < span_ || hangs_um < many * length_um(laid())) continue;
+      Beads along(std::make_move_iterator(beads_.begin() + from), std::make_move_iterator(beads_.end()));
+      beads_.erase(beads_.begin() + from, beads_.end());
+      solid({area}, s_.support_infill_angle + 90, Role::support_interface);
+      if (2 * below_->hanging_um(laid(), span_) < hangs_um) continue;
+      beads_.erase(beads_.begin() + from, beads_.end());
+      std::move(along.begin(), along.end(), std::back_inserter(beads_));
+    }
+  }
+  static double length_um(std::span<const Bead> beads) {
+    double mm = 0;
+    for (const Bead& bead : beads) mm += length_mm(bead);
+    return mm * 1000;
   }
 
   /// Rims, and lines from branch to branch.
@@ -245,7 +274,9 @@ class Filler {
   }
 
   const SupportSettings& s_;
+  Um span_;  ///< what a bead crosses without sagging
   const support::SupportLayer& layer_;
+  const Beneath* below_ = nullptr;
   Point origin_;
   Um line_, between_feet_, band_;
   Um usual_band_;  ///< at layer_height: what shares are of, so that lines of layers of any height lie on each other
@@ -311,10 +342,37 @@ class Columns {
   std::vector<std::vector<std::size_t>> like_;  ///< of each layer: which of firsts_ its columns are like
 };
 
-PrintedLayer printed(const Settings& settings, const support::SupportLayer& layer, Point origin, Beads columns) {
+/// What a layer lies on that has a roof, but where that is the same as below.
+/// @param columns_of  the beads of a layer's columns
+template <class ColumnsOf>
+Beneath beneath(const Settings& settings, const std::vector<support::SupportLayer>& layers, std::size_t k,
+                const ColumnsOf& columns_of) {
+  const support::SupportLayer& layer = layers[k];
+  const Um bottom = layer.z - layer.height, low = bottom - layer.height / 2;  // what sags so far lies, too
+  if (layer.roof.empty() && layer.bottom.empty()) return {};
+  Regions areas;
+  Beads beads;
+  for (std::size_t j = k; j-- > 0 && layers[j].z >= low;) {
+    const support::SupportLayer& below = layers[j];
+    if (below.z > bottom) continue;
+    if (below.roof == layer.roof && below.bottom == layer.bottom) return {};
+    for (const Regions* some : {&below.roof, &below.bottom, &below.branches, &below.joists.area}) append(areas, *some);
+    Beads more = columns_of(j);
+    std::move(more.begin(), more.end(), std::back_inserter(beads));
+    for (const Polyline& line : below.joists.lines) {
+      Bead& bead = beads.emplace_back();
+      for (const Point p : line) bead.path.push_back({p, 0, 1.F});
+    }
+  }
+  const Um nozzle = settings.machine.nozzle_diameter;
+  return {areas, beads, support::line_width(settings.support, nozzle)};
+}
+
+PrintedLayer printed(const Settings& settings, const support::SupportLayer& layer, Point origin, Beads columns,
+                     const Beneath& below) {
   PrintedLayer out;
   out.z = layer.z, out.height = layer.height;
-  out.beads = Filler(settings, layer, origin).beads(std::move(columns));
+  out.beads = Filler(settings, layer, origin).beads(std::move(columns), below);
   Regions all = layer.columns;
   append(all, layer.branches), append(all, layer.roof), append(all, layer.bottom);
   append(all, layer.joists.area);
@@ -333,9 +391,11 @@ std::vector<PrintedLayer> fill_support(const Settings& settings, const std::vect
                                        Point origin) {
   std::optional<Columns> columns;
   if (settings.support.support_wall_count.value_or(0) == 0) columns.emplace(settings, layers, origin);
+  const auto columns_of = [&](std::size_t k) {
+    return columns ? columns->of(k) : Filler(settings, layers[k], origin).walled();
+  };
   return tasks::parallel_map(layers.size(), [&](std::size_t k) {
-    return printed(settings, layers[k], origin,
-                   columns ? columns->of(k) : Filler(settings, layers[k], origin).walled());
+    return printed(settings, layers[k], origin, columns_of(k), beneath(settings, layers, k, columns_of));
   });
 }
 
