@@ -119,15 +119,15 @@ Regions Lean::narrower(const Regions& falling, Um by) const {
                          const Point size = box_of(hole).size();
                          return std::max(size.x, size.y) < least_;
                        }) > 0;
-  const Regions wide = geometry::offset(geometry::offset(solid, with(-least_ / 2)), with(least_ / 2));
+  const Regions wide = geometry::offset(solid, with(-least_ / 2));
   if (wide.empty()) return falling;
-  const Regions kept = geometry::subtract(solid, geometry::offset(wide, with(20)));
+  const Regions kept = geometry::subtract(solid, geometry::offset(wide, with(least_ / 2 + 20)));
   Regions out = of_lines(s_) ? shortened(solid, by, s_.support_infill_angle * std::numbers::pi / 180)
                              : geometry::offset(solid, with(-by));
   append(out, kept);
   if (!kept.empty()) out = geometry::unite(out);
   if (round_something) out = geometry::intersect(out, falling);
-  return geometry::opening(out, line_ / 4);
+  return geometry::simplified(without_thin(out, line_ * 4 / 10), coarse_outline);
 }
 
 bool Lean::narrow(Um height, Regions& falling) {
@@ -136,7 +136,14 @@ bool Lean::narrow(Um height, Regions& falling) {
   if (left_ >= 0 && left_ < most) return false;  // levels that are alike are done once
   const Um by = std::clamp(rounded(left_), -8 * most, most);
   left_ -= by;
-  falling = narrower(falling, by);
+  if (by > 0 && std::all_of(falling.begin(), falling.end(), [&](const Region& region) {
+        const Point size = box_of(region.outer).size();
+        return std::min(size.x, size.y) <= least_;
+      }))
+    return false;
+  Regions narrow = narrower(falling, by);
+  if (narrow == falling) return false;
+  falling = std::move(narrow);
   return true;
 }
 
@@ -266,7 +273,8 @@ class Falling {
   /// What begins on that level, and what comes down from above.
   void begin(std::size_t k, const Regions& contacts, const Regions& given) {
     const auto& level = stack_.levels[k];
-    if (s_.support_conical_enabled && !falling_.empty() && lean_.narrow(level.height, falling_)) edge_.reset();
+    if (s_.support_conical_enabled && !falling_.empty() && lean_.narrow(level.height, falling_))
+      edge_.reset(), less_[k] = 1;
     towers_.begin(contacts, level.z);
     if (towers_.add(level.z, falling_) || !contacts.empty() || !given.empty()) edge_.reset();
     if (!contacts.empty()) {

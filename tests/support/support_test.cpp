@@ -471,5 +471,11 @@ TEST_CASE("support: random bodies keep the laws") {
       if (structure == SupportStructure::normal) by_columns = plan.figures.left_mm2;
       CHECK(plan.figures.left_mm2 <= by_columns + 0.02 * plan.figures.needed_mm2 + 0.5);
     }
+    auto leaning = on(SupportStructure::normal);
+    leaning.support_conical_enabled = true;
+    const auto plan = planned(leaning, body);
+    INFO("body " << n << ", columns that get narrower downwards");
+    CHECK(too_near(plan, body, 195) == 0);
+    CHECK(floating(plan, body, 300) < 0.05);
   }
 }
