@@ -200,6 +200,24 @@ TEST_CASE("support: what stands on the part begins the gap above it that is set,
     }
 }
 
+TEST_CASE("support: a column as thin as a bead begins the gap above the part, too") {
+  const Region left = rectangle(-10000, -15000, -1000, 15000), right = rectangle(1000, -15000, 10000, 15000);
+  for (const int walls : {40, 41, 42}) {  // levels end below their top
+    Body body;
+    body.add(10, {rectangle(-10000, -15000, 10000, 15000)});
+    body.add(walls, {left, right});
+    body.add(5, {rectangle(-10000, -15000, 10000, 15000)});
+    auto s = on();
+    s.support_bridges = true;
+    const auto plan = planned(s, body);
+    REQUIRE_FALSE(plan.layers.empty());
+    Um lowest = 1'000'000;
+    for (const auto& layer : plan.layers)
+      if (!all_of(layer).empty()) lowest = std::min(lowest, layer.z - layer.height);
+    CHECK(lowest == 2200);
+  }
+}
+
 TEST_CASE("support: columns on the part stand on feet as high as a bead may sag, not so floors or what is slender") {
   const auto feet_under = [](const SupportSettings& s, Um half_wide, int high) {
     Body body;
