@@ -5,6 +5,9 @@
 
 namespace weft::pipeline {
 
+/// Every segment of beads.
+geometry::SegmentIndex segments_of(const Beads& beads);
+
 /// What beads of support come to lie on: areas without gaps, and beads with gaps between them.
 class Beneath {
  public:
@@ -17,10 +20,12 @@ class Beneath {
   /// How much of beads has nothing below, µm: no quarter of their width lies on anything. What crosses from one rest to
   /// another within a span does not count: a bead that is held at both ends sags little.
   double hanging_um(std::span<const Bead> beads, Um span) const;
+  /// Places where beads hang, no further from each other than a span; of a small loop its middle.
+  std::vector<Point> hanging_at(std::span<const Bead> beads, Um span) const;
 
  private:
   bool lies(Point p) const;
-  double hanging_um(const Bead& bead, Um span) const;
+  std::vector<Polyline> hanging(const Bead& bead, Um span) const;
 
   geometry::SegmentIndex areas_, beads_;
   double line_ = 0;

@@ -120,3 +120,26 @@ TEST_CASE("support: a narrow roof crosses the lines of a column where beads alon
       s, {of_column, roof(2200, row - 100, row + apart + 100), roof(2400, row - 100, row + apart + 100)}, {});
   CHECK(loops(on_roof[2]));
 }
+
+TEST_CASE("support: a dab under a tip between two lines of a column lies on a rung, one on a line needs none") {
+  const auto s = fine_lines();
+  const auto of_column = level(2000, 200, &support::SupportLayer::columns, {rectangle(0, 0, 40000, 40000)});
+  const auto alone = pipeline::fill_support(s, {of_column}, {});
+  std::set<Um> rows;
+  for (const Bead& bead : alone.front().beads) rows.insert(bead.path[0].at.y);
+  REQUIRE(rows.size() > 10);
+  const Um row = *std::next(rows.begin(), 5), next = *std::next(rows.begin(), 6);
+  const auto rungs = [&](Um y) {
+    const auto dab = level(2200, 200, &support::SupportLayer::roof, {rectangle(19500, y - 500, 20500, y + 500)});
+    return pipeline::fill_support(s, {of_column, dab}, {})[0].beads.size() - alone.front().beads.size();
+  };
+  CHECK(rungs(row) == 0);
+  REQUIRE(rungs((row + next) / 2) == 1);
+  const auto dab = level(2200, 200, &support::SupportLayer::roof,
+                         {rectangle(19500, (row + next) / 2 - 500, 20500, (row + next) / 2 + 500)});
+  const Bead rung = pipeline::fill_support(s, {of_column, dab}, {})[0].beads.back();
+  std::set<Um> ends{rung.path.front().at.y, rung.path.back().at.y};
+  CHECK(std::abs(*ends.begin() - row) <= 1);
+  CHECK(std::abs(*ends.rbegin() - next) <= 1);
+  CHECK(std::abs(rung.path.front().at.x - 20000) <= 1);
+}
