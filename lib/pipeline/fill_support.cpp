@@ -11,14 +11,18 @@
 #include "infill/solid.h"
 #include "infill/sparse.h"
 #include "model/flow.h"
+#include "pipeline/beneath.h"
 #include "pipeline/feet.h"
+#include "pipeline/rungs_below.h"
 #include "support/lengths.h"
 #include "tasks/parallel.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -44,11 +48,18 @@ void append(Regions& to, const Regions& more) {
   to.insert(to.end(), more.begin(), more.end());
 }
 
+/// The beads of a layer.
+struct Filled {
+  Beads beads;
+  std::vector<Point> hang_at;  ///< places where narrow roofs have nothing below
+};
+
 /// Lays the beads of one layer.
 class Filler {
  public:
   Filler(const Settings& settings, const support::SupportLayer& layer, Point origin)
       : s_(settings.support),
+        span_(support::roof_span(settings.machine.nozzle_diameter)),
         layer_(layer),
         origin_(origin),
         line_(length_or(s_.support_line_width, settings.machine.nozzle_diameter, settings.machine.nozzle_diameter)),
@@ -57,8 +68,9 @@ class Filler {
         usual_band_(std::max<Um>(flow::band(line_, settings.layers.layer_height), 1)) {}
 
   /// @param columns  what `column` made of the layer's
-  Beads beads(Beads columns) && {
-    beads_ = std::move(columns);
+  /// @param below    what the layer lies on
+  Filled filled(Beads columns, const Beneath& below) && {
+    beads_ = std::move(columns), below_ = &below;
     branches();
     for (const Regions* areas : {&layer_.bottom, &layer_.roof}) interface(*areas);
     joists();
@@ -67,7 +79,7 @@ class Filler {
       const auto tool = bead.role == Role::support ? s_.support_infill_extruder_nr : s_.support_interface_extruder_nr;
       if (tool) bead.tool = static_cast<ToolId>(*tool);
     }
-    return std::move(beads_);
+    return {std::move(beads_), std::move(hang_at_)};
   }
 
   /// Columns with walls.
@@ -162,20 +174,51 @@ class Filler {
       sparse(inner, share, s_.support_interface_pattern, s_.support_infill_angle + 90, Role::support_interface);
       return;
     }
-    // Strands from rim to rim of what is that narrow would lie on little; beads along it cross what is below.
-    constexpr Um half = 1500;
+    constexpr Um half = 1500;  // of what is narrow
     for (const Region& area : inner) {
       const Box box = box_of(area.outer);
       const Regions wide = std::min(box.size().x, box.size().y) > 2 * half ? wider({area}, half) : Regions{};
       if (wide.empty()) {
-        loops({area}, most_loops, Role::support_interface);
+        narrow({area});
         continue;
       }
       const Regions reached = coarsely(wide, half / 2);
       solid(geometry::intersect({area}, reached), s_.support_infill_angle + 90, Role::support_interface,
             row_of(pattern_rows, s_.support_interface_pattern).connect);
-      loops(geometry::opening(geometry::subtract({area}, reached), band_ / 4), most_loops, Role::support_interface);
+      narrow(geometry::opening(geometry::subtract({area}, reached), band_ / 4));
     }
+  }
+  /// Strands from rim to rim of what is that narrow lie on little, beads along it cross what is below; but where many
+  /// of these hang, as between two lines of a column, strands across lie on it every so often.
+  void narrow(const Regions& areas) {
+    for (const Region& area : areas) {
+      stop_if_asked();
+      const std::size_t from = beads_.size();
+      loops({area}, most_loops, Role::support_interface);
+      if (below_->empty()) continue;
+      cross_if_better(area, from);
+      const auto at = below_->hanging_at(laid(from), span_);
+      hang_at_.insert(hang_at_.end(), at.begin(), at.end());
+    }
+  }
+  std::span<const Bead> laid(std::size_t from) const { return std::span(beads_).subspan(from); }
+  /// @param from  the first of the beads along it
+  void cross_if_better(const Region& area, std::size_t from) {
+    constexpr double many = 0.3;
+    const auto begin = static_cast<std::ptrdiff_t>(from);
+    const double hangs_um = below_->hanging_um(laid(from), span_);
+    if (hangs_um < span_ || hangs_um < many * length_um(laid(from))) return;
+    Beads along(std::make_move_iterator(beads_.begin() + begin), std::make_move_iterator(beads_.end()));
+    beads_.erase(beads_.begin() + begin, beads_.end());
+    solid({area}, s_.support_infill_angle + 90, Role::support_interface);
+    if (2 * below_->hanging_um(laid(from), span_) < hangs_um) return;
+    beads_.erase(beads_.begin() + begin, beads_.end());
+    std::move(along.begin(), along.end(), std::back_inserter(beads_));
+  }
+  static double length_um(std::span<const Bead> beads) {
+    double mm = 0;
+    for (const Bead& bead : beads) mm += length_mm(bead);
+    return mm * 1000;
   }
 
   /// Rims, and lines from branch to branch.
@@ -273,11 +316,14 @@ class Filler {
   }
 
   const SupportSettings& s_;
+  Um span_;  ///< what a bead crosses without sagging
   const support::SupportLayer& layer_;
+  const Beneath* below_ = nullptr;
   Point origin_;
   Um line_, between_feet_, band_;
   Um usual_band_;  ///< at layer_height: what shares are of, so that lines of layers of any height lie on each other
   Beads beads_;
+  std::vector<Point> hang_at_;
 };
 
 /// Columns of all layers. Mostly they stand straight: of those that are the same on layers of one height, the first one
@@ -339,32 +385,102 @@ class Columns {
   std::vector<std::vector<std::size_t>> like_;  ///< of each layer: which of firsts_ its columns are like
 };
 
-PrintedLayer printed(const Settings& settings, const support::SupportLayer& layer, Point origin, Beads columns) {
-  PrintedLayer out;
-  out.z = layer.z, out.height = layer.height;
-  out.beads = Filler(settings, layer, origin).beads(std::move(columns));
-  Regions all = layer.columns;
-  append(all, layer.branches), append(all, layer.roof), append(all, layer.bottom);
-  append(all, layer.joists.area);
-  out.outline = geometry::joined(all);
-  if (out.outline.size() > 1) {
-    const geometry::SegmentIndex index(out.outline);
-    for (auto& bead : out.beads)
-      bead.part = static_cast<std::uint32_t>(index.region_at(bead.path.front().at).value_or(0));
+/// Fills layers that know what they lie on.
+class Layers {
+ public:
+  Layers(const Settings& settings, const std::vector<support::SupportLayer>& layers, Point origin)
+      : settings_(settings),
+        layers_(layers),
+        origin_(origin),
+        line_(support::line_width(settings.support, settings.machine.nozzle_diameter)) {
+    if (settings.support.support_wall_count.value_or(0) == 0) columns_.emplace(settings, layers, origin);
   }
-  return out;
-}
+
+  std::vector<PrintedLayer> filled() && {
+    auto filled = tasks::parallel_map(layers_.size(), [&](std::size_t k) {
+      return Filler(settings_, layers_[k], origin_).filled(columns_of(k), beneath(k));
+    });
+    std::vector<std::vector<Point>> hang_above(layers_.size());
+    for (std::size_t k = 0; k < layers_.size(); ++k)
+      if (const auto& at = filled[k].hang_at; !at.empty())
+        for (const std::size_t j : below(k)) hang_above[j].insert(hang_above[j].end(), at.begin(), at.end());
+    return tasks::parallel_map(layers_.size(), [&](std::size_t k) {
+      if (!hang_above[k].empty()) add_rungs(k, hang_above[k], filled[k].beads);
+      return printed(layers_[k], std::move(filled[k].beads));
+    });
+  }
+
+ private:
+  Beads columns_of(std::size_t k) const {
+    return columns_ ? columns_->of(k) : Filler(settings_, layers_[k], origin_).walled();
+  }
+  /// The layers that one lies on, also where it must sag by half its height for that.
+  std::vector<std::size_t> below(std::size_t k) const {
+    const Um bottom = layers_[k].z - layers_[k].height, low = bottom - layers_[k].height / 2;
+    std::vector<std::size_t> out;
+    for (std::size_t j = k; j-- > 0 && layers_[j].z >= low;)
+      if (layers_[j].z <= bottom) out.push_back(j);
+    return out;
+  }
+  /// What a layer lies on that has a roof, but where that is the same as below.
+  Beneath beneath(std::size_t k) const {
+    const support::SupportLayer& layer = layers_[k];
+    if (layer.roof.empty() && layer.bottom.empty()) return {};
+    Regions areas;
+    Beads beads;
+    for (const std::size_t j : below(k)) {
+      const support::SupportLayer& under = layers_[j];
+      if (under.roof == layer.roof && under.bottom == layer.bottom) return {};
+      for (const Regions* some : {&under.roof, &under.bottom, &under.branches, &under.joists.area})
+        append(areas, *some);
+      Beads more = columns_of(j);
+      std::move(more.begin(), more.end(), std::back_inserter(beads));
+      for (const Polyline& line : under.joists.lines) {
+        Bead& bead = beads.emplace_back();
+        for (const Point p : line) bead.path.push_back({p, 0, 1.F});
+      }
+    }
+    return {areas, beads, line_};
+  }
+  void add_rungs(std::size_t k, std::span<const Point> hang, Beads& beads) const {
+    const auto& s = settings_.support;
+    auto rungs = rungs_below(hang, beads, layers_[k].columns,
+                             {.direction_rad = (s.support_infill_angle + 90) * std::numbers::pi / 180,
+                              .span = support::roof_span(settings_.machine.nozzle_diameter),
+                              .line = line_,
+                              .band = flow::band(line_, layers_[k].height)});
+    for (Bead& rung : rungs) {
+      if (s.support_infill_extruder_nr) rung.tool = static_cast<ToolId>(*s.support_infill_extruder_nr);
+      beads.push_back(std::move(rung));
+    }
+  }
+  static PrintedLayer printed(const support::SupportLayer& layer, Beads beads) {
+    PrintedLayer out;
+    out.z = layer.z, out.height = layer.height, out.beads = std::move(beads);
+    Regions all = layer.columns;
+    append(all, layer.branches), append(all, layer.roof), append(all, layer.bottom);
+    append(all, layer.joists.area);
+    out.outline = geometry::joined(all);
+    if (out.outline.size() > 1) {
+      const geometry::SegmentIndex index(out.outline);
+      for (auto& bead : out.beads)
+        bead.part = static_cast<std::uint32_t>(index.region_at(bead.path.front().at).value_or(0));
+    }
+    return out;
+  }
+
+  const Settings& settings_;
+  const std::vector<support::SupportLayer>& layers_;
+  Point origin_;
+  Um line_;
+  std::optional<Columns> columns_;
+};
 
 }  // namespace
 
 std::vector<PrintedLayer> fill_support(const Settings& settings, const std::vector<support::SupportLayer>& layers,
                                        Point origin) {
-  std::optional<Columns> columns;
-  if (settings.support.support_wall_count.value_or(0) == 0) columns.emplace(settings, layers, origin);
-  return tasks::parallel_map(layers.size(), [&](std::size_t k) {
-    return printed(settings, layers[k], origin,
-                   columns ? columns->of(k) : Filler(settings, layers[k], origin).walled());
-  });
+  return Layers(settings, layers, origin).filled();
 }
 
 }  // namespace weft::pipeline

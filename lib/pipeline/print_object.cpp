@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/boolean.h"
 #include "geometry/offset.h"
+#include "geometry/outline_length.h"
 #include "infill/infill.h"
 #include "infill/shells.h"
 #include "model/flow.h"
@@ -161,7 +162,7 @@ LayerMeasure measure_of(const SlicedLayer& layer, const Regions& inside, const i
     const double mm2 = area_mm2(regions);
     out[to].length += mm2, out[to].volume += mm2 * height_mm * layers;
   };
-  out[Growth::walls] = {outline_mm(layer.regions), (area_mm2(layer.regions) - area_mm2(inside)) * height_mm};
+  out[Growth::walls] = {geometry::outline_mm(layer.regions), (area_mm2(layer.regions) - area_mm2(inside)) * height_mm};
   out[Growth::layers] = {1, 1};
   for (const auto& part : areas) {
     add(Growth::solid, part.solid);

@@ -153,13 +153,4 @@ Statistics extrapolated(const Statistics& bottom, const Statistics& above, const
   return out;
 }
 
-double outline_mm(const Regions& regions) {
-  double out = 0;
-  for (const auto& region : regions) {
-    out += perimeter_of(region.outer);
-    for (const auto& hole : region.holes) out += perimeter_of(hole);
-  }
-  return out / 1000;
-}
-
 }  // namespace weft::pipeline

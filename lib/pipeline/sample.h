@@ -40,9 +40,6 @@ struct SampleMeasure {
   LayerMeasure planned, left_out;
 };
 
-/// Length of all rings of the regions.
-double outline_mm(const Regions& regions);
-
 /// Has it beads of models?
 bool has_beads(const Statistics& layer);
 

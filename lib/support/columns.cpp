@@ -119,15 +119,15 @@ Regions Lean::narrower(const Regions& falling, Um by) const {
                          const Point size = box_of(hole).size();
                          return std::max(size.x, size.y) < least_;
                        }) > 0;
-  const Regions wide = geometry::offset(geometry::offset(solid, with(-least_ / 2)), with(least_ / 2));
+  const Regions wide = geometry::offset(solid, with(-least_ / 2));
   if (wide.empty()) return falling;
-  const Regions kept = geometry::subtract(solid, geometry::offset(wide, with(20)));
+  const Regions kept = geometry::subtract(solid, geometry::offset(wide, with(least_ / 2 + 20)));
   Regions out = of_lines(s_) ? shortened(solid, by, s_.support_infill_angle * std::numbers::pi / 180)
                              : geometry::offset(solid, with(-by));
   append(out, kept);
   if (!kept.empty()) out = geometry::unite(out);
   if (round_something) out = geometry::intersect(out, falling);
-  return geometry::opening(out, line_ / 4);
+  return geometry::simplified(without_thin(out, line_ * 4 / 10), coarse_outline);
 }
 
 bool Lean::narrow(Um height, Regions& falling) {
@@ -136,7 +136,14 @@ bool Lean::narrow(Um height, Regions& falling) {
   if (left_ >= 0 && left_ < most) return false;  // levels that are alike are done once
   const Um by = std::clamp(rounded(left_), -8 * most, most);
   left_ -= by;
-  falling = narrower(falling, by);
+  if (by > 0 && std::all_of(falling.begin(), falling.end(), [&](const Region& region) {
+        const Point size = box_of(region.outer).size();
+        return std::min(size.x, size.y) <= least_;
+      }))
+    return false;
+  Regions narrow = narrower(falling, by);
+  if (narrow == falling) return false;
+  falling = std::move(narrow);
   return true;
 }
 
@@ -166,31 +173,37 @@ void thicken(Regions& area, const Regions& fresh, Um line) {
   if (fresh.empty()) return;
   // What a disc inside of the area covers is told by what lies as near as its diameter.
   const Regions around = &area == &fresh ? area : geometry::intersect(area, boxes_around(fresh, 2 * line));
-  const Regions thin = geometry::subtract(fresh, opened(around, line, 20));
+  // Corners are not thin: what grew around them would reach further than what they hold.
+  const Regions wide = geometry::offset(geometry::offset(around, {.by = -line}), {.by = line + 20});
+  const Regions thin = geometry::subtract(fresh, wide);
   if (thin.empty()) return;
   append(area, grown(thin, line));
   area = geometry::unite(area);
 }
 
 Regions without_thin(const Regions& area, Um radius) {
-  return geometry::offset(geometry::offset(area, {.by = -radius}), {.by = radius, .miter_limit = 8});
+  const Regions wide = geometry::offset(geometry::offset(area, {.by = -radius}), {.by = radius, .miter_limit = 3});
+  return geometry::intersect(wide, area);  // where a corner was cut off, the whole one reaches further
 }
 
 namespace {
 
 /// What of a level hangs, but for slivers along edges: an area that was opened by 0.4 lines is none.
 Regions hanging(const Regions& here, const Regions& below) {
+  constexpr double least_mm2 = 0.05;
+  constexpr Um least_wide = 60;
   Regions out;
+  const auto add = [&](const Region& piece) {
+    const double mm2 = area_mm2(piece);
+    if (mm2 < least_mm2) return;
+    if (2e6 * mm2 >= least_wide * perimeter_of(piece.outer)) return out.push_back(piece);
+    append(out, geometry::opening({piece}, least_wide / 2));  // what is wide may hang on to a long sliver
+  };
   for (const Region& region : here) {
     const Regions under = geometry::trimmed(below, box_of(region.outer).grown(1));
     if (under.size() == 1 && under.front() == region) continue;
-    append(out, under.empty() ? Regions{region} : geometry::subtract({region}, under));
+    for (const Region& piece : under.empty() ? Regions{region} : geometry::subtract({region}, under)) add(piece);
   }
-  std::erase_if(out, [](const Region& piece) {
-    constexpr double least_mm2 = 0.05, least_wide_mm = 0.06;
-    const double mm2 = area_mm2(piece);
-    return mm2 < least_mm2 || 2000 * mm2 < least_wide_mm * perimeter_of(piece.outer);
-  });
   return out;
 }
 
@@ -216,7 +229,8 @@ void rest_on(const Room& room, const Stack::Level& level, const Regions& below, 
     else
       append(free, geometry::subtract({piece}, grown(base, reach)));
   }
-  if (!free.empty()) here = geometry::subtract(here, free);
+  // Nothing rests on a hair that stays beside what goes.
+  if (!free.empty()) here = without_thin(geometry::subtract(here, free), line_width(s, room.object().nozzle) * 4 / 10);
 }
 
 namespace {
@@ -259,7 +273,8 @@ class Falling {
   /// What begins on that level, and what comes down from above.
   void begin(std::size_t k, const Regions& contacts, const Regions& given) {
     const auto& level = stack_.levels[k];
-    if (s_.support_conical_enabled && !falling_.empty() && lean_.narrow(level.height, falling_)) edge_.reset();
+    if (s_.support_conical_enabled && !falling_.empty() && lean_.narrow(level.height, falling_))
+      edge_.reset(), less_[k] = 1;
     towers_.begin(contacts, level.z);
     if (towers_.add(level.z, falling_) || !contacts.empty() || !given.empty()) edge_.reset();
     if (!contacts.empty()) {

@@ -176,9 +176,9 @@ void lay_rims(const JoistPlace& place, const JoistStyle& style, Joists& out) {
 }
 
 /// Where lines may be: within the area, and on their way from it to branches beyond.
-Regions ways(const std::vector<Polyline>& lines, const Regions& area, const JoistPlace& place, Um line) {
-  Regions inside = geometry::offset(area, {.by = -line * 8 / 10});  // their ends lie on the rim
-  if (!place.beside.empty()) return inside;                         // which is a loop
+/// @param inside  the area but for its rim
+Regions ways(const std::vector<Polyline>& lines, const Regions& area, Regions inside, const JoistPlace& place) {
+  if (!place.beside.empty()) return inside;  // which is a loop
   const geometry::SegmentIndex of_area(area), within(inside);
   std::vector<Ring> bands;
   for (const Polyline& all : lines)
@@ -203,6 +203,40 @@ Regions ways(const std::vector<Polyline>& lines, const Regions& area, const Jois
   return geometry::unite(inside);
 }
 
+/// From branches near the rim beads run out to it, across the strands along it, which would have nothing below. So
+/// little of them is free that they stay straight.
+void run_out_to_rim(std::vector<Polyline>& lines, const Regions& inside, const JoistStyle& style) {
+  const double reach = 5.0 * style.line;
+  const geometry::SegmentIndex rim(inside);
+  const Point across{rounded(-reach * std::sin(style.strands_rad)), rounded(reach * std::cos(style.strands_rad))};
+  std::set<std::pair<Point, bool>> done;  // tips, and whether on the far side
+  const auto leaves = [&](Point tip, Point to) {
+    const double ahead =
+        (static_cast<double>(to.x - tip.x) * across.x + static_cast<double>(to.y - tip.y) * across.y) / reach;
+    if (!rim.region_at(to) && 2 * std::abs(ahead) > distance(tip, to)) done.insert({tip, ahead > 0});
+  };
+  for (const Polyline& line : lines)
+    for (std::size_t i = 1; i < line.size(); ++i) leaves(line[i - 1], line[i]), leaves(line[i], line[i - 1]);
+  std::vector<Polyline> more;
+  const auto run_out = [&](Polyline& line, Point tip, bool far) {
+    if (!rim.region_at(tip) || !done.insert({tip, far}).second) return;
+    const Point way = far ? across : -across;
+    std::vector<geometry::SegmentIndex::Crossing> found;
+    rim.crossings(tip, tip + way, found);
+    if (found.empty()) return;
+    const Point at = lerp(tip, tip + way, found.front().along);
+    if (tip == line.front() && !far)
+      line.insert(line.begin(), at);
+    else if (tip == line.back() && far)
+      line.push_back(at);
+    else
+      more.push_back({tip, at});
+  };
+  for (Polyline& line : lines)
+    for (const Point tip : Polyline(line)) run_out(line, tip, false), run_out(line, tip, true);
+  std::move(more.begin(), more.end(), std::back_inserter(lines));
+}
+
 }  // namespace
 
 Joists joists_between(Regions area, const JoistPlace& place, const JoistStyle& style) {
@@ -210,8 +244,10 @@ Joists joists_between(Regions area, const JoistPlace& place, const JoistStyle& s
   if (out.area.empty()) return out;
   Chosen chosen(place.tips, style);
   for (const auto& triangle : geometry::delaunay(place.tips)) chosen.take(triangle);
-  const auto lines = chosen.lines();
-  auto pieces = geometry::clip_lines(lines, ways(lines, out.area, place, style.line));
+  auto lines = chosen.lines();
+  Regions inside = geometry::offset(out.area, {.by = -style.line * 8 / 10});  // their ends lie on the rim
+  if (style.one_way && place.beside.empty()) run_out_to_rim(lines, inside, style);
+  auto pieces = geometry::clip_lines(lines, ways(lines, out.area, std::move(inside), place));
   std::erase_if(pieces, [&](const auto& piece) { return length_of(piece.line) < style.line; });
   lay_rims(place, style, out);
   if (place.beside.empty()) {

@@ -74,6 +74,7 @@ std::vector<Landing> landings_of(const Room& room, std::span<const SupportLayer>
   const auto& object = room.object();
   const Um gap = bottom_gap(s), line = line_width(s, object.nozzle), bottom = layer.z - layer.height;
   const auto run = layers_between(object, bottom - gap - below.height, bottom - gap);
+  constexpr double all_of_it = 0.98;  // nothing would be left that is thin
   std::vector<Landing> out;
   const Regions under = all_areas(below);
   for (const auto kind : kinds)
@@ -93,9 +94,11 @@ std::vector<Landing> landings_of(const Room& room, std::span<const SupportLayer>
         const Regions here = geometry::intersect(standing, room.part(z - 1, z, near));
         if (here.empty()) continue;
         standing = geometry::subtract(standing, here);
-        Regions wide = free > 1 && !s.support_synchronize_layers ? without_thin(here, line) : Regions{};
-        if (!wide.empty()) wide = geometry::intersect(wide, here);  // its corners may reach further
-        out.push_back({std::move(wide), layer.height + free, area_mm2(here), {}, 0});
+        const double mm2 = area_mm2(here);
+        Regions apart;
+        if (free > 1 && !s.support_synchronize_layers)
+          apart = mm2 > all_of_it * area_mm2(region) ? here : without_thin(here, line);
+        out.push_back({std::move(apart), layer.height + free, mm2, {}, 0});
         if (!s.support_bottom_enable) stand_on_feet(room, region, kind, layers.subspan(2), here, out.back());
       }
     }

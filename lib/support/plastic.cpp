@@ -2,6 +2,7 @@
 #include "support/plastic.h"
 
 #include "geometry/offset.h"
+#include "geometry/outline_length.h"
 #include "support/lengths.h"
 
 #include <algorithm>
@@ -9,23 +10,17 @@
 namespace weft::support {
 namespace {
 
-double perimeter_mm(const Region& region) {
-  double um = perimeter_of(region.outer);
-  for (const Ring& hole : region.holes) um += perimeter_of(hole);
-  return um / 1000;
-}
-
 /// Loops along rims, as far as there is room for them.
 double loops_mm2(const Regions& regions, Um line) {
   double mm2 = 0;
-  for (const Region& region : regions) mm2 += std::min(area_mm2(region), perimeter_mm(region) * to_mm(line));
+  for (const Region& region : regions) mm2 += std::min(area_mm2(region), geometry::outline_mm(region) * to_mm(line));
   return mm2;
 }
 
 }  // namespace
 
 double column_mm3(const SupportSettings& settings, Um line, const Region& area, Um height) {
-  const double mm2 = area_mm2(area), loop = perimeter_mm(area) * to_mm(line),
+  const double mm2 = area_mm2(area), loop = geometry::outline_mm(area) * to_mm(line),
                share = settings.support_infill_rate / 100;
   const Um half = hollow_column(line, share);
   const Point size = box_of(area.outer).size();

@@ -73,7 +73,7 @@ struct Figures {
   Point3 left_at{};             ///< the first place of it
   double left_to_part_mm2 = 0;  ///< of it, what could be held if support might stand on the part
   double contact_mm2 = 0;       ///< right below the part, a gap away
-  double on_part_mm2 = 0;       ///< what stands on the part
+  double on_part_mm2 = 0;       ///< of what stands on the part; feet touch less of it
   std::size_t islands = 0;      ///< places that begin in the air
   std::size_t tips = 0, trunks = 0;
   double trapped_mm3 = 0;  ///< plastic that no tool gets to; whoever makes the beads knows it

@@ -135,14 +135,13 @@ class Placer {
 }  // namespace
 
 std::vector<Point> tips_under(const Regions& contact, const Regions& around, const std::vector<Point>& standing,
-                              TipSpacing spacing, const Field& field, std::size_t slab, Um radius) {
-  Placer placer(contact, spacing, field, slab, radius);
+                              TipSpacing spacing, const Field& field, std::size_t slab, TipShape shape) {
+  Placer placer(contact, spacing, field, slab, shape.radius);
   const Box near = box_of(contact).grown(spacing.inside);
   // What stands beside a strip does not carry it, however near.
-  constexpr double half_a_bead = 200;
   const geometry::SegmentIndex edge(contact);
   for (const Point p : standing)
-    if (near.contains(p) && (edge.region_at(p) || edge.nearest(p, radius + half_a_bead))) placer.hold(p);
+    if (near.contains(p) && (edge.region_at(p) || edge.nearest(p, shape.radius + shape.line / 2.0))) placer.hold(p);
   // The rim first, so that what runs along it lies on tips and not beside them; at last where branches find no way.
   const Rim rim(contact, around, std::max(200.0, spacing.rim / 4.0));
   placer.along(rim, true);

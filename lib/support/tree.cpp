@@ -121,7 +121,8 @@ class Grower {
     if (contact.empty()) return;
     const Um z = stack_.levels[k].z;
     const auto before = standing();
-    for (const Point p : tips_under(contact, around, before, spacing, field_, slab, rounded(tip_))) {
+    const TipShape shape{rounded(tip_), line_width(s_, o_.nozzle)};
+    for (const Point p : tips_under(contact, around, before, spacing, field_, slab, shape)) {
       Node node{p, tip_, z, z};
       if (slab > 0 && !finds_way(slab, node)) {
         node.plate = false;

@@ -2,9 +2,12 @@
 #include "pipeline/fill_support.h"
 
 #include "geometry/spatial_index.h"
+#include "pipeline/beneath.h"
 #include "rectangle.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <set>
 
@@ -26,6 +29,12 @@ Settings fine_lines() {
 support::SupportLayer level(Um z, Um height, Regions support::SupportLayer::*kind, const Regions& area) {
   support::SupportLayer out;
   out.z = z, out.height = height, out.*kind = area;
+  return out;
+}
+
+Bead straight(Point a, Point b) {
+  Bead out;
+  out.path = {{a, 400, 1.F}, {b, 400, 1.F}};
   return out;
 }
 
@@ -112,4 +121,67 @@ TEST_CASE("support: no line of a column stands alone") {
           CHECK(leaves_its_chord(bead) > 400);
         }
       }
+}
+
+TEST_CASE("support: what crosses from rest to rest hangs no more than what lies, loose ends do") {
+  const Bead line = straight({0, 0}, {0, 10000});  // along Y
+  const Bead next = straight({3000, 0}, {3000, 10000});
+  const pipeline::Beneath below({rectangle(20000, 0, 30000, 10000)}, {line, next}, 400);
+  const auto hangs = [&](Point a, Point b) {
+    const Bead bead = straight(a, b);
+    return below.hanging_um({&bead, 1}, 4000);
+  };
+  CHECK(hangs({100, 1000}, {100, 9000}) == 0);                             // on one
+  CHECK(hangs({0, 5000}, {3000, 5000}) == 0);                              // from one to the other
+  CHECK(hangs({1500, 1000}, {1500, 9000}) == Approx(8000));                // between them
+  CHECK(hangs({3000, 5000}, {8000, 5000}) == Approx(4700).margin(300));    // a loose end
+  CHECK(hangs({3000, 5000}, {20000, 5000}) == Approx(16500).margin(600));  // too far
+  CHECK(hangs({21000, 1000}, {29000, 9000}) == 0);
+}
+
+TEST_CASE("support: a narrow roof crosses the lines of a column where beads along it would hang between two of them") {
+  const auto s = fine_lines();
+  const Regions column{rectangle(0, 0, 40000, 40000)};
+  const auto of_column = level(2000, 200, &support::SupportLayer::columns, column);
+  const auto alone = pipeline::fill_support(s, {of_column}, {});
+  std::set<Um> rows;
+  for (const Bead& bead : alone.front().beads) rows.insert(bead.path[0].at.y);
+  REQUIRE(rows.size() > 10);
+  const Um row = *std::next(rows.begin(), 5), apart = *std::next(rows.begin(), 6) - row;
+  const auto roof = [&](Um z, Um low, Um high) {
+    return level(z, 200, &support::SupportLayer::roof, {rectangle(5000, low, 25000, high)});
+  };
+  const auto loops = [](const pipeline::PrintedLayer& layer) {
+    return std::any_of(layer.beads.begin(), layer.beads.end(), [](const Bead& bead) { return bead.closed; });
+  };
+  // From line to line, with both ends of strands on one: loops lie on nothing but for the outer one.
+  const auto between = pipeline::fill_support(s, {of_column, roof(2200, row - 100, row + apart + 100)}, {});
+  CHECK_FALSE(loops(between[1]));
+  // On another roof there is nothing to cross.
+  const auto on_roof = pipeline::fill_support(
+      s, {of_column, roof(2200, row - 100, row + apart + 100), roof(2400, row - 100, row + apart + 100)}, {});
+  CHECK(loops(on_roof[2]));
+}
+
+TEST_CASE("support: a dab under a tip between two lines of a column lies on a rung, one on a line needs none") {
+  const auto s = fine_lines();
+  const auto of_column = level(2000, 200, &support::SupportLayer::columns, {rectangle(0, 0, 40000, 40000)});
+  const auto alone = pipeline::fill_support(s, {of_column}, {});
+  std::set<Um> rows;
+  for (const Bead& bead : alone.front().beads) rows.insert(bead.path[0].at.y);
+  REQUIRE(rows.size() > 10);
+  const Um row = *std::next(rows.begin(), 5), next = *std::next(rows.begin(), 6);
+  const auto rungs = [&](Um y) {
+    const auto dab = level(2200, 200, &support::SupportLayer::roof, {rectangle(19500, y - 500, 20500, y + 500)});
+    return pipeline::fill_support(s, {of_column, dab}, {})[0].beads.size() - alone.front().beads.size();
+  };
+  CHECK(rungs(row) == 0);
+  REQUIRE(rungs((row + next) / 2) == 1);
+  const auto dab = level(2200, 200, &support::SupportLayer::roof,
+                         {rectangle(19500, (row + next) / 2 - 500, 20500, (row + next) / 2 + 500)});
+  const Bead rung = pipeline::fill_support(s, {of_column, dab}, {})[0].beads.back();
+  std::set<Um> ends{rung.path.front().at.y, rung.path.back().at.y};
+  CHECK(std::abs(*ends.begin() - row) <= 1);
+  CHECK(std::abs(*ends.rbegin() - next) <= 1);
+  CHECK(std::abs(rung.path.front().at.x - 20000) <= 1);
 }

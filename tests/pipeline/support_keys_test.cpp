@@ -168,7 +168,7 @@ std::vector<Row> rows() {
       {"support_roof_wall_count", "2", On::tee, any, other, c},
       {"support_conical_enabled", "true", On::tee, columns, less, c},
       {"support_conical_angle", "5", On::tee, columns, more, with(c, {{"support_conical_enabled", "true"}})},
-      {"support_conical_min_width", "7", On::tee, columns, more, with(c, {{"support_conical_enabled", "true"}})},
+      {"support_conical_min_width", "15", On::tee, columns, more, with(c, {{"support_conical_enabled", "true"}})},
       {"support_use_towers", "true", On::tiny, columns, more, with(c, {{"support_roof_enable", "false"}})},
       {"support_tower_diameter", "5", On::tiny, columns, more, with(c, {{"support_use_towers", "true"}})},
       {"support_tower_maximum_supported_diameter", "1", On::tiny, columns, less,

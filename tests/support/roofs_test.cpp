@@ -3,6 +3,8 @@
 #include "geometry/clip_lines.h"
 #include "geometry/spatial_index.h"
 
+#include <utility>
+
 #include <catch2/catch.hpp>
 
 using namespace weft;
@@ -31,9 +33,13 @@ TEST_CASE("support: every strand of a roof over branches lies on joists, and eve
   // Of joists 6.05 from branch to branch, of strands two triangles of tips one behind the other.
   constexpr double longest_mm = 7.5;
   constexpr double hangs_on_others_mm = 1;  // a strand no longer than that, by its neighbours in the zigzag
-  for (const auto& outline : {rectangle(-20000, -10000, 20000, 10000), rectangle(-14000, -14000, 14000, 14000)}) {
+  const Region post = rectangle(-2000, -2000, 2000, 2000), wall = rectangle(10300, -10000, 16000, 10000);
+  // Beside a wall no branch stands, and strands run along it.
+  for (const auto& [stem, outline] : {std::pair{post, rectangle(-20000, -10000, 20000, 10000)},
+                                      std::pair{post, rectangle(-14000, -14000, 14000, 14000)},
+                                      std::pair{wall, rectangle(-20000, -10000, 16000, 10000)}}) {
     Body body;
-    body.add(50, {rectangle(-2000, -2000, 2000, 2000)});
+    body.add(50, {stem});
     body.add(10, {outline});
     const auto plan = planned(on(SupportStructure::tree), body);
     std::size_t roofs = 0;

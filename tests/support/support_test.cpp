@@ -200,6 +200,24 @@ TEST_CASE("support: what stands on the part begins the gap above it that is set,
     }
 }
 
+TEST_CASE("support: a column as thin as a bead begins the gap above the part, too") {
+  const Region left = rectangle(-10000, -15000, -1000, 15000), right = rectangle(1000, -15000, 10000, 15000);
+  for (const int walls : {40, 41, 42}) {  // levels end below their top
+    Body body;
+    body.add(10, {rectangle(-10000, -15000, 10000, 15000)});
+    body.add(walls, {left, right});
+    body.add(5, {rectangle(-10000, -15000, 10000, 15000)});
+    auto s = on();
+    s.support_bridges = true;
+    const auto plan = planned(s, body);
+    REQUIRE_FALSE(plan.layers.empty());
+    Um lowest = 1'000'000;
+    for (const auto& layer : plan.layers)
+      if (!all_of(layer).empty()) lowest = std::min(lowest, layer.z - layer.height);
+    CHECK(lowest == 2200);
+  }
+}
+
 TEST_CASE("support: columns on the part stand on feet as high as a bead may sag, not so floors or what is slender") {
   const auto feet_under = [](const SupportSettings& s, Um half_wide, int high) {
     Body body;
@@ -431,6 +449,20 @@ TEST_CASE("support: under a slope every layer is held its gap below, and levels 
     }
 }
 
+TEST_CASE("support: columns reach no further than what they hold, also at its corners") {
+  Body body = tee();
+  const auto s = on();
+  const auto plan = planned(s, body);
+  REQUIRE(!plan.layers.empty());
+  for (std::size_t k = 1; k < plan.layers.size(); ++k) {  // the first spreads on the bed
+    const Box box = box_of(all_of(plan.layers[k]));
+    CHECK(box.min.x >= -20030);
+    CHECK(box.min.y >= -10030);
+    CHECK(box.max.x <= 20030);
+    CHECK(box.max.y <= 10030);
+  }
+}
+
 TEST_CASE("support: random bodies keep the laws") {
   const char* const many = std::getenv("WEFT_SUPPORT_BODIES");  // bash: WEFT_SUPPORT_BODIES=200 test_support
   const int bodies = many != nullptr ? std::atoi(many) : 20;
@@ -457,5 +489,11 @@ TEST_CASE("support: random bodies keep the laws") {
       if (structure == SupportStructure::normal) by_columns = plan.figures.left_mm2;
       CHECK(plan.figures.left_mm2 <= by_columns + 0.02 * plan.figures.needed_mm2 + 0.5);
     }
+    auto leaning = on(SupportStructure::normal);
+    leaning.support_conical_enabled = true;
+    const auto plan = planned(leaning, body);
+    INFO("body " << n << ", columns that get narrower downwards");
+    CHECK(too_near(plan, body, 195) == 0);
+    CHECK(floating(plan, body, 300) < 0.05);
   }
 }

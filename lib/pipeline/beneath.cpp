@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/beneath.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace weft::pipeline {
+
+geometry::SegmentIndex segments_of(const Beads& beads) {
+  std::vector<geometry::Segment> segments;
+  for (const Bead& bead : beads) {
+    const auto& path = bead.path;
+    for (std::size_t i = 1; i < path.size(); ++i) segments.push_back({path[i - 1].at, path[i].at});
+    if (bead.closed) segments.push_back({path.back().at, path.front().at});
+  }
+  return geometry::SegmentIndex(std::move(segments));
+}
+
+Beneath::Beneath(const Regions& areas, const Beads& beads, Um line)
+    : areas_(areas), beads_(segments_of(beads)), line_(line) {}
+
+bool Beneath::lies(Point p) const {
+  return areas_.region_at(p) || areas_.nearest(p, line_ / 4) || beads_.nearest(p, line_ * 3 / 4);
+}
+
+/// Walked in steps, each of which lies or does not.
+std::vector<Polyline> Beneath::hanging(const Bead& bead, Um span) const {
+  constexpr double step = 300;
+  const auto& path = bead.path;
+  std::vector<Polyline> out;
+  Polyline since;  // the last rest
+  bool rested = false, begins_in_air = false;
+  const auto add = [&](Point a, Point b) {
+    if (!lies(lerp(a, b, 0.5))) {
+      if (since.empty()) since.push_back(a);
+      since.push_back(b);
+      return;
+    }
+    const bool first = !std::exchange(rested, true);
+    if (since.empty()) return;
+    begins_in_air |= first;
+    if (first || length_of(since) > span) out.push_back(std::move(since));
+    since.clear();
+  };
+  for (std::size_t i = 0, n = path.size(); i + (bead.closed ? 0 : 1) < n; ++i) {
+    const Point a = path[i].at, b = path[i + 1 < n ? i + 1 : 0].at;
+    const int pieces = std::max(1, static_cast<int>(distance(a, b) / step));
+    for (int k = 0; k < pieces; ++k) add(lerp(a, b, k * 1.0 / pieces), lerp(a, b, (k + 1.0) / pieces));
+  }
+  if (bead.closed && begins_in_air) {  // it goes on over the begin
+    if (!since.empty()) out.front().insert(out.front().begin(), since.begin(), since.end() - 1);
+    if (length_of(out.front()) <= span) out.erase(out.begin());
+  } else if (!since.empty() && (!bead.closed || !rested || length_of(since) > span)) {
+    out.push_back(std::move(since));
+  }
+  return out;
+}
+
+double Beneath::hanging_um(std::span<const Bead> beads, Um span) const {
+  double um = 0;
+  for (const Bead& bead : beads)
+    for (const Polyline& piece : hanging(bead, span)) um += length_of(piece);
+  return um;
+}
+
+std::vector<Point> Beneath::hanging_at(std::span<const Bead> beads, Um span) const {
+  std::vector<Point> out;
+  for (const Bead& bead : beads)
+    for (const Polyline& piece : hanging(bead, span)) {
+      if (const Box box = box_of(bead); bead.closed && std::max(box.size().x, box.size().y) < span / 2) {
+        out.push_back(box.centre());
+        continue;
+      }
+      const double length = length_of(piece), apart = length / std::ceil(length / (span * 0.8));
+      double next = apart / 2, along = 0;
+      for (std::size_t i = 1; i < piece.size(); ++i) {
+        along += distance(piece[i - 1], piece[i]);
+        if (along < next) continue;
+        out.push_back(piece[i]);
+        next += apart;
+      }
+    }
+  return out;
+}
+
+}  // namespace weft::pipeline

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "geometry/spatial_index.h"
+#include "model/bead.h"
+
+namespace weft::pipeline {
+
+/// Every segment of beads.
+geometry::SegmentIndex segments_of(const Beads& beads);
+
+/// What beads of support come to lie on: areas without gaps, and beads with gaps between them.
+class Beneath {
+ public:
+  Beneath() = default;
+  /// @param line  width of a bead
+  Beneath(const Regions& areas, const Beads& beads, Um line);
+
+  bool empty() const { return areas_.segments().empty() && beads_.segments().empty(); }
+
+  /// How much of beads has nothing below, µm: no quarter of their width lies on anything. What crosses from one rest to
+  /// another within a span does not count: a bead that is held at both ends sags little.
+  double hanging_um(std::span<const Bead> beads, Um span) const;
+  /// Places where beads hang, no further from each other than a span; of a small loop its middle.
+  std::vector<Point> hanging_at(std::span<const Bead> beads, Um span) const;
+
+ private:
+  bool lies(Point p) const;
+  std::vector<Polyline> hanging(const Bead& bead, Um span) const;
+
+  geometry::SegmentIndex areas_, beads_;
+  double line_ = 0;
+};
+
+}  // namespace weft::pipeline
