@@ -240,6 +240,18 @@ void lay_belts(const Regions& inside, const Mask& thin, const LayersInReach& lay
   if (!belts.found.empty()) kinds.belts = std::move(belts);
 }
 
+/// Strips of solid too narrow to fill apart are top where they lie beside it, and where all of them is seen from above:
+/// between walls, where the top is no wider.
+void give_strips_to_top(const Mask& seen_above, double line, Kinds& kinds) {
+  if (!seen_above.any() || !kinds.solid.any()) return;
+  const int by = cells(line, kinds.solid.grid());
+  const Mask strips = kinds.solid - kinds.solid.opened(cells(0.5 * line, kinds.solid.grid()));
+  if (!strips.any()) return;
+  Mask to_top = strips - (kinds.solid - seen_above).grown(by);
+  if (kinds.top.any()) to_top |= strips & kinds.top.grown(by);
+  kinds.top |= to_top, kinds.solid -= to_top;
+}
+
 Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, const ShellObject& object,
                const Window& window, std::size_t index, Split split, const std::optional<Mask>& sparse_below) {
   const Grid& grid = window.grid();
@@ -263,12 +275,7 @@ Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, cons
     kinds.top = seen & kinds.solid;
     kinds.solid -= kinds.top;
   }
-  // strips between top and walls too narrow to fill apart go to the top
-  if (kinds.top.any() && kinds.solid.any()) {
-    Mask strips = kinds.solid - kinds.solid.opened(cells(0.5 * line, grid));
-    const Mask to_top = std::move(strips) & kinds.top.grown(cells(line, grid));
-    kinds.top |= to_top, kinds.solid -= to_top;
-  }
+  give_strips_to_top(split.seen_above, line, kinds);
   if (settings.bridges && index > 0) {
     const ShellLayer& below = object.layers[index - 1];
     const SparseStyle style = sparse_style(infill, {.index = index - 1,
