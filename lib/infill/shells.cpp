@@ -247,7 +247,8 @@ void give_strips_to_top(const Mask& seen_above, double line, Kinds& kinds) {
   const int by = cells(line, kinds.solid.grid());
   const Mask strips = kinds.solid - kinds.solid.opened(cells(0.5 * line, kinds.solid.grid()));
   if (!strips.any()) return;
-  Mask to_top = strips - (kinds.solid - seen_above).grown(by);
+  Mask to_top = strips & seen_above;
+  if (to_top.any()) to_top -= (kinds.solid - seen_above).grown(by);
   if (kinds.top.any()) to_top |= strips & kinds.top.grown(by);
   kinds.top |= to_top, kinds.solid -= to_top;
 }

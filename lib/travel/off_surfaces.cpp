@@ -29,8 +29,10 @@ Regions enclosed(const std::vector<Ring>& rings) {
   return geometry::regions_from_rings(rings, geometry::WindingRule::even_odd);
 }
 
+/// Half a nozzle more of it: what oozes lies beside it.
 Regions top_skin(const LayerInput& input) {
-  return gathered(input, &ObjectLayer::top);
+  const auto top = gathered(input, &ObjectLayer::top);
+  return top.empty() ? top : geometry::offset(top, {.by = input.nozzle / 2});
 }
 
 /// The centreline of an open bead, of three points or more.

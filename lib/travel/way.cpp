@@ -38,7 +38,9 @@ Way Router::way(Point p, Point q) const {
 std::optional<Router::Inside> Router::off_outer_walls(Point p, Point q) const {
   auto wide = combed(layer_.comb, p, q);
   if (layer_.narrows.empty()) return wide;
-  if (wide) wide->on_outer_walls = wide->to_gates_um > most_on_outer_walls_um() && lies_on_outer_walls(p, *wide, true);
+  if (wide)
+    wide->on_outer_walls =
+        wide->from_um + wide->to_um > most_on_outer_walls_um() && lies_on_outer_walls(p, *wide, true);
   if (wide ? !wide->on_outer_walls : apart(p, q)) return wide;
   auto narrow = combed(half_a_bead_in(), p, q);
   if (!narrow && !wide) narrow = combed(layer_.narrows, p, q);
@@ -53,11 +55,13 @@ double Router::most_on_outer_walls_um() const {
   return 1.5 * layer_.input.nozzle;
 }
 
-/// Whether more of a way than that lies on outer walls: what oozes there is a scar as long.
+/// Whether more of a way than that lies on outer walls: what oozes there is a scar as long. Short ways are not asked.
 bool Router::lies_on_outer_walls(Point p, const Inside& way, bool ends_alone) const {
+  if (length_from(p, way.points) < retraction_.retraction_min_travel) return false;
   double sum = 0;
   for (std::size_t i = 0; i < way.points.size() && sum <= most_on_outer_walls_um(); p = way.points[i++])
-    if (!ends_alone || i == 0 || i + 1 == way.points.size()) sum += on_outer_walls_um(p, way.points[i]);
+    if (!ends_alone || (i == 0 && way.from_um > 0) || (i + 1 == way.points.size() && way.to_um > 0))
+      sum += on_outer_walls_um(p, way.points[i]);
   return sum > most_on_outer_walls_um();
 }
 
@@ -150,14 +154,14 @@ std::optional<Router::Inside> Router::combed(const Comb& comb, Point p, Point q)
   if (!from) return std::nullopt;
   const auto to = gate(comb, q);
   if (!to) return std::nullopt;
-  const double to_gates = distance(p, from->at) + distance(to->at, q);
-  if (to_gates > 0 && distance(p, q) <= to_gates && outline_.sees(p, q)) return Inside{{q}, to_gates, false};
+  const double first = distance(p, from->at), last = distance(to->at, q);
+  if (first + last > 0 && distance(p, q) <= first + last && outline_.sees(p, q)) return Inside{{q}, first, last};
   if (from->part == Comb::outside || from->part != to->part) return std::nullopt;
   auto inside = comb.way(from->at, to->at);
   if (!inside) return std::nullopt;
   if (from->at != p) inside->insert(inside->begin(), from->at);
   if (to->at != q) inside->push_back(q);
-  return Inside{std::move(*inside), to_gates, false};
+  return Inside{std::move(*inside), first, last};
 }
 
 }  // namespace weft::travel

@@ -39,7 +39,7 @@ class Router {
   std::optional<Gate> gate(const Comb& comb, Point p) const;
   struct Inside {
     Polyline points;
-    double to_gates_um = 0;  ///< what of it lies, at both ends, between the beads and the comb area
+    double from_um = 0, to_um = 0;  ///< what of it lies, at both ends, between the beads and the comb area
     bool on_outer_walls = false;
   };
   std::optional<Inside> combed(const Comb& comb, Point p, Point q) const;

@@ -87,6 +87,9 @@ TEST_CASE(
   CHECK_FALSE(round.retract);
   CHECK_FALSE(round.crosses);
   CHECK(round.points.size() > 1);
+  // What oozes from the middle of the nozzle lies half its width to both sides.
+  if (c.mode == Combing::no_outer_surfaces)
+    CHECK_FALSE(enters(round, sample::rectangle({9850, 12850}, {30150, 27150}).outer));
 }
 
 TEST_CASE("travel: where the area of a combing mode is cut in two, travels between its halves are retracted",
