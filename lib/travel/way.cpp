@@ -46,7 +46,8 @@ std::optional<Router::Inside> Router::off_outer_walls(Point p, Point q) const {
   if (!narrow && !wide) narrow = combed(layer_.narrows, p, q);
   if (!narrow) return wide;
   narrow->on_outer_walls = lies_on_outer_walls(p, *narrow, false);
-  return wide && narrow->on_outer_walls ? wide : narrow;
+  const bool no_better = narrow->on_outer_walls || too_long(length_from(p, narrow->points), distance(p, q));
+  return wide && no_better ? wide : narrow;
 }
 
 /// How much of a way may lie on outer walls: leaving one squarely and coming to one takes half a bead each, and half as
