@@ -216,7 +216,12 @@ void find_internal_bridges(const ShellSettings& settings, const SparseStyle& bel
     std::optional<double> angle = internal_bridge_angle_rad(area, below, nozzle);
     if (!angle) continue;
     if (settings.bridge_angle) angle = *settings.bridge_angle * std::numbers::pi / 180;
-    add_bridge(kinds, {Mask(grid, {&area, 1}).grown(cells(settings.bridge_anchor, grid)) & kinds.solid, *angle});
+    Mask bridge = Mask(grid, {&area, 1}).grown(cells(settings.bridge_anchor, grid)) & kinds.solid;
+    // Strips that its anchors leave of the solid beside it would be slivers along their ends.
+    const Mask rest = kinds.solid - bridge;
+    if (rest.any())
+      bridge |= (rest - rest.opened(cells(narrowest / 2 * line, grid))) & bridge.grown(cells(narrowest * line, grid));
+    add_bridge(kinds, {std::move(bridge), *angle});
   }
 }
 

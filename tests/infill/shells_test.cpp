@@ -249,6 +249,24 @@ TEST_CASE("shells: solid over sparse infill is a bridge across the lines of the 
   for (const std::size_t other : {3U, 17U, 18U, 19U}) CHECK(bridged(areas[other]) == 0);
 }
 
+TEST_CASE("shells: a strip of solid that the anchors of a bridge over infill would leave is of the bridge",
+          "[infill]") {
+  InfillSettings infill;
+  infill.infill_sparse_density = 10;
+  const auto solid_beside_bridge = [&](Um beyond_anchors) {
+    Object block(std::vector<Regions>(20, {rectangle(0, 0, 30000, 30000)}));
+    const Um from = 1000 + 2000 + beyond_anchors;  // the wall, the anchor
+    const Regions open{rectangle(from, from, 30000 - from, 30000 - from)};
+    block.layers[15].open = &open;
+    const auto areas = block.areas(skin(4, 4, 0, 0), infill);
+    CHECK(bridged(areas[16]) > 400);
+    return sum(areas[16], &PartAreas::solid);
+  };
+  CHECK(solid_beside_bridge(300) == 0);
+  CHECK(solid_beside_bridge(500) == 0);
+  CHECK(solid_beside_bridge(1200) > 4 * 20);  // it has lines of its own
+}
+
 TEST_CASE("shells: dense infill carries ordinary lines, and bridges are laid only where they are asked for",
           "[infill]") {
   const Object block(std::vector<Regions>(20, {rectangle(0, 0, 30000, 30000)}));
