@@ -104,6 +104,7 @@ void Context::set_feature(std::string_view slicers_name) {
 
 void Context::next_layer(int number) {
   layer_ = number;
+  layer_height_mm_ = 0;
   began_ = true;
   ended_ = false;
   if (feature_ == custom_index) feature_ = 0;  // a layer's own moves come before its first feature is named
@@ -141,6 +142,7 @@ void Context::set_width(std::string_view length) {
 
 void Context::set_height(std::string_view length) {
   height_mm_ = length_from(length);
+  if (layer_height_mm_ == 0) layer_height_mm_ = height_mm_;
 }
 
 /// weft, below PrusaSlicer's "Skirt/Brim".

@@ -32,6 +32,8 @@ class Context {
   int layer() const { return layer_; }             ///< from 0; −1 before the first
   double width_mm() const { return width_mm_; }    ///< 0 when not said
   double height_mm() const { return height_mm_; }  ///< 0 when not said
+  /// What is said first of a layer: beads of some features are higher. 0 when nothing is.
+  double layer_height_mm() const { return layer_height_mm_; }
   std::string_view object() const { return object_; }
   /// The label of one copy of it: what tells owners of beads apart.
   std::string_view owner() const { return owner_; }
@@ -67,7 +69,7 @@ class Context {
   std::uint8_t feature_ = 0;
   bool began_ = false, ended_ = false;
   int layer_ = -1, layer_count_ = 0;
-  double width_mm_ = 0, height_mm_ = 0;
+  double width_mm_ = 0, height_mm_ = 0, layer_height_mm_ = 0;
   std::string object_, owner_;
   bool labels_meshes_ = false;
 };

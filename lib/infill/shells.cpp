@@ -216,7 +216,12 @@ void find_internal_bridges(const ShellSettings& settings, const SparseStyle& bel
     std::optional<double> angle = internal_bridge_angle_rad(area, below, nozzle);
     if (!angle) continue;
     if (settings.bridge_angle) angle = *settings.bridge_angle * std::numbers::pi / 180;
-    add_bridge(kinds, {Mask(grid, {&area, 1}).grown(cells(settings.bridge_anchor, grid)) & kinds.solid, *angle});
+    Mask bridge = Mask(grid, {&area, 1}).grown(cells(settings.bridge_anchor, grid)) & kinds.solid;
+    // Strips that its anchors leave of the solid beside it would be slivers along their ends.
+    const Mask rest = kinds.solid - bridge;
+    if (rest.any())
+      bridge |= (rest - rest.opened(cells(narrowest / 2 * line, grid))) & bridge.grown(cells(narrowest * line, grid));
+    add_bridge(kinds, {std::move(bridge), *angle});
   }
 }
 
@@ -238,6 +243,19 @@ void lay_belts(const Regions& inside, const Mask& thin, const LayersInReach& lay
     kinds.solid -= open, *kinds.sparse |= open;
   }
   if (!belts.found.empty()) kinds.belts = std::move(belts);
+}
+
+/// Strips of solid too narrow to fill apart are top where they lie beside it, and where all of them is seen from above:
+/// between walls, where the top is no wider.
+void give_strips_to_top(const Mask& seen_above, double line, Kinds& kinds) {
+  if (!seen_above.any() || !kinds.solid.any()) return;
+  const int by = cells(line, kinds.solid.grid());
+  const Mask strips = kinds.solid - kinds.solid.opened(cells(0.5 * line, kinds.solid.grid()));
+  if (!strips.any()) return;
+  Mask to_top = strips & seen_above;
+  if (to_top.any()) to_top -= (kinds.solid - seen_above).grown(by);
+  if (kinds.top.any()) to_top |= strips & kinds.top.grown(by);
+  kinds.top |= to_top, kinds.solid -= to_top;
 }
 
 Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, const ShellObject& object,
@@ -263,12 +281,7 @@ Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, cons
     kinds.top = seen & kinds.solid;
     kinds.solid -= kinds.top;
   }
-  // strips between top and walls too narrow to fill apart go to the top
-  if (kinds.top.any() && kinds.solid.any()) {
-    Mask strips = kinds.solid - kinds.solid.opened(cells(0.5 * line, grid));
-    const Mask to_top = std::move(strips) & kinds.top.grown(cells(line, grid));
-    kinds.top |= to_top, kinds.solid -= to_top;
-  }
+  give_strips_to_top(split.seen_above, line, kinds);
   if (settings.bridges && index > 0) {
     const ShellLayer& below = object.layers[index - 1];
     const SparseStyle style = sparse_style(infill, {.index = index - 1,

@@ -297,7 +297,7 @@ class Filler {
   /// Beads along a strip, side by side, together as wide as the strip is across.
   void emit_strip(std::span<const std::uint32_t> strip, int strands) {
     if (strands == 1 && !style_.gaps) return;
-    const Role role = strands == 1 ? Role::gap_fill : style_.role;
+    const Role role = strands == 1 && !style_.fixed_strand ? Role::gap_fill : style_.role;
     for (int k = 0; k < strands; ++k) {
       const double share = (k + 0.5) / strands;
       const auto at = [&](std::uint32_t i) { return Turned{all_[i].from + share * length(i), y(i)}; };
@@ -315,8 +315,26 @@ class Filler {
       const bool turned = started_ && std::hypot(path.back().x - at_.x, path.back().y - at_.y) <
                                           std::hypot(path.front().x - at_.x, path.front().y - at_.y);
       if (turned) std::reverse(vertices.begin(), vertices.end());
-      add(vertices, role);
+      add(without_thin_ends(vertices), role);
     }
+  }
+
+  /// A strip that runs out to nothing ends where a bead in it would be too thin to be laid.
+  std::vector<Vertex> without_thin_ends(const std::vector<Vertex>& path) const {
+    const Um least = rounded(narrowest_side * style_.band);
+    const auto thick = [least](const Vertex& v) { return v.width >= least; };
+    const auto from = std::find_if(path.begin(), path.end(), thick);
+    const auto to = std::find_if(path.rbegin(), path.rend(), thick).base();
+    if (from == path.end()) return {};
+    const auto between = [least](const Vertex& thin, const Vertex& wide) {
+      const double t = static_cast<double>(least - thin.width) / (wide.width - thin.width);
+      return Vertex{{std::lerp(thin.at.x, wide.at.x, t), std::lerp(thin.at.y, wide.at.y, t)}, least};
+    };
+    std::vector<Vertex> out;
+    if (from != path.begin()) out.push_back(between(from[-1], *from));
+    out.insert(out.end(), from, to);
+    if (to != path.end()) out.push_back(between(*to, to[-1]));
+    return out;
   }
 
   void add(const std::vector<Vertex>& path, Role role) {

@@ -113,7 +113,8 @@ class Gatherer {
   /// Z and height, from the first bead of the layer.
   void start(PathLayer& layer, const audit::Motion& motion) {
     layer.z = from_mm(motion.z_to);
-    const double said_mm = reader_.context().height_mm();
+    const audit::Context& context = reader_.context();
+    const double said_mm = context.layer_height_mm() > 0 ? context.layer_height_mm() : context.height_mm();
     const std::size_t index = static_cast<std::size_t>(&layer - out_.layers.data());
     const Um below = index > 0 ? out_.layers[index - 1].z : 0;
     layer.height = said_mm > 0 && said_mm < 10 ? from_mm(said_mm) : std::max(layer.z - below, 1);

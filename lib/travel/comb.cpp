@@ -235,9 +235,12 @@ std::optional<Point> Comb::nearest_on_boundary(Point p, Um within) const {
     if (dx * dx + dy * dy < best2) best2 = dx * dx + dy * dy, best = lerp(a, b, t);
     return false;
   };
-  for (std::int64_t y = std::int64_t{p.y} - within; y <= std::int64_t{p.y} + within + cell_; y += cell_) {
-    const auto row = static_cast<Um>(std::min<std::int64_t>(y, std::int64_t{p.y} + within));
-    visit_edges({p.x - within, row}, {p.x + within, row}, nearest_on);
+  // Row by row, each but once.
+  const std::int64_t low = std::max<std::int64_t>(0, (std::int64_t{p.y} - within - box_.min.y) / cell_);
+  const std::int64_t high = std::min<std::int64_t>(rows_ - 1, (std::int64_t{p.y} + within - box_.min.y) / cell_);
+  for (std::int64_t row = low; row <= high; ++row) {
+    const auto y = static_cast<Um>(box_.min.y + row * cell_ + cell_ / 2);
+    visit_edges({p.x - within, y}, {p.x + within, y}, nearest_on);
   }
   return best;
 }

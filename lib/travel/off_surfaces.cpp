@@ -29,8 +29,18 @@ Regions enclosed(const std::vector<Ring>& rings) {
   return geometry::regions_from_rings(rings, geometry::WindingRule::even_odd);
 }
 
+/// Half a nozzle more of it: what oozes lies beside it.
 Regions top_skin(const LayerInput& input) {
-  return gathered(input, &ObjectLayer::top);
+  const auto top = gathered(input, &ObjectLayer::top);
+  return top.empty() ? top : geometry::offset(top, {.by = input.nozzle / 2});
+}
+
+/// The centreline of an open bead, of three points or more.
+Ring there_and_back(const Bead& bead) {
+  Ring ring = ring_of(bead);
+  if (ring.size() == 2) ring.insert(ring.begin() + 1, lerp(ring[0], ring[1], 0.5));
+  for (std::size_t i = bead.path.size() - 1; i-- > 1;) ring.push_back(ring[i]);
+  return ring;
 }
 
 /// What rings enclose (even-odd), less an area.
@@ -80,6 +90,15 @@ Comb half_a_bead_within(const LayerInput& input) {
   const auto inside = geometry::offset(enclosed(outer_wall_rings(input)), {.by = -outer_wall_width(input) / 2});
   const auto top = top_skin(input);
   return Comb(top.empty() ? inside : geometry::subtract(inside, top));
+}
+
+Comb outer_walls(const LayerInput& input) {
+  auto rings = outer_wall_rings(input);
+  for (const auto& object : input.objects)
+    for (const auto& bead : object.beads)
+      if (!bead.closed && bead.inset == 0 && row_of(bead.role).outside && bead.path.size() > 1)
+        rings.push_back(there_and_back(bead));
+  return Comb(std::move(rings));
 }
 
 Comb within_outer_walls(const LayerInput& input) {

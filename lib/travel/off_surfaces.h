@@ -17,6 +17,9 @@ Comb half_a_bead_within(const LayerInput& input);
 /// Within the outer walls' centrelines: a neck of two beads.
 Comb within_outer_walls(const LayerInput& input);
 
+/// The centrelines of outer walls, open ones there and back: what lies near its boundary lies on such a bead.
+Comb outer_walls(const LayerInput& input);
+
 /// The centreline of a closed bead.
 Ring ring_of(const Bead& bead);
 /// Whether it is a closed outer wall, whose begin is seen.

@@ -3,6 +3,8 @@
 
 #include "travel/off_surfaces.h"
 
+#include <algorithm>
+
 namespace weft::travel {
 namespace {
 
@@ -18,23 +20,68 @@ double length_from(Point p, const Polyline& way) {
 }
 
 Way Router::way(Point p, Point q) const {
-  auto inside = combed(layer_.comb, p, q);
-  bool along_outer_walls = false;
-  if (!inside && !layer_.narrows.empty() && !apart(p, q)) {
-    inside = combed(half_a_bead_in(), p, q);
-    along_outer_walls = !inside;
-    if (!inside) inside = combed(layer_.narrows, p, q);
-  }
-  if (!inside || leaves_room(p, *inside)) return direct(p, q);
-  const double length = length_from(p, *inside);
+  auto inside = off_outer_walls(p, q);
+  if (!inside || leaves_room(p, inside->points)) return direct(p, q);
+  Polyline& points = inside->points;
+  const double length = length_from(p, points);
   if (too_long(length, distance(p, q))) return direct(p, q);
   const bool far = settings_.retraction_combing_max_distance && length > *settings_.retraction_combing_max_distance;
-  // What oozes on an outer wall is a scar as long as the way.
-  const bool strict =
-      (along_outer_walls || !retraction_.retract_only_when_crossing) && length >= retraction_.retraction_min_travel;
+  const bool strict = (inside->on_outer_walls || !retraction_.retract_only_when_crossing) &&
+                      length >= retraction_.retraction_min_travel;
   // Checked all the same: the boundary may be moved outwards, and an outer wall may leave the outline where it is thin.
-  const bool crosses = leaves_outline(p, *inside);
-  return {std::move(*inside), far || strict || crosses, crosses, false};
+  const bool crosses = leaves_outline(p, points);
+  return {std::move(points), far || strict || crosses, crosses, false};
+}
+
+/// A way inside, through necks where there is none in the comb area. One that leads over an outer wall to come to that
+/// area goes along the middle of such a neck, too, if that keeps off the wall.
+std::optional<Router::Inside> Router::off_outer_walls(Point p, Point q) const {
+  auto wide = combed(layer_.comb, p, q);
+  if (layer_.narrows.empty()) return wide;
+  if (wide)
+    wide->on_outer_walls =
+        wide->from_um + wide->to_um > most_on_outer_walls_um() && lies_on_outer_walls(p, *wide, true);
+  if (wide ? !wide->on_outer_walls : apart(p, q)) return wide;
+  auto narrow = combed(half_a_bead_in(), p, q);
+  if (!narrow && !wide) narrow = combed(layer_.narrows, p, q);
+  if (!narrow) return wide;
+  narrow->on_outer_walls = lies_on_outer_walls(p, *narrow, false);
+  const bool no_better = narrow->on_outer_walls || too_long(length_from(p, narrow->points), distance(p, q));
+  return wide && no_better ? wide : narrow;
+}
+
+/// How much of a way may lie on outer walls: leaving one squarely and coming to one takes half a bead each, and half as
+/// much again is for ways that slant.
+double Router::most_on_outer_walls_um() const {
+  return 1.5 * layer_.input.nozzle;
+}
+
+/// Whether more of a way than that lies on outer walls: what oozes there is a scar as long. Short ways are not asked.
+bool Router::lies_on_outer_walls(Point p, const Inside& way, bool ends_alone) const {
+  if (length_from(p, way.points) < retraction_.retraction_min_travel) return false;
+  double sum = 0;
+  for (std::size_t i = 0; i < way.points.size() && sum <= most_on_outer_walls_um(); p = way.points[i++])
+    if (!ends_alone || (i == 0 && way.from_um > 0) || (i + 1 == way.points.size() && way.to_um > 0))
+      sum += on_outer_walls_um(p, way.points[i]);
+  return sum > most_on_outer_walls_um();
+}
+
+/// How much of a segment lies within half a nozzle of the centreline of an outer wall, up to a quarter of it.
+double Router::on_outer_walls_um(Point p, Point q) const {
+  const Um nozzle = layer_.input.nozzle;
+  const double least_step_um = nozzle / 4.0;
+  if (!outer_walls_) outer_walls_ = outer_walls(layer_.input);
+  double sum = 0;
+  const double length = distance(p, q);
+  for (double at = 0; at < length;) {
+    const Point here = lerp(p, q, at / length);
+    const auto wall = outer_walls_->nearest_on_boundary(here, nozzle);
+    const double off = (wall ? distance(here, *wall) : nozzle) - nozzle / 2.0;  // nothing nearer within as far ahead
+    const double step = std::min(std::max(off, least_step_um), length - at);
+    if (off < 0) sum += step;
+    at += step;
+  }
+  return sum;
 }
 
 /// Whether the two lie in different parts of the layer: no way inside leads from one to the other.
@@ -102,20 +149,20 @@ std::optional<Router::Gate> Router::gate(const Comb& comb, Point p) const {
   return Gate{*gate, comb.part_of(*gate)};
 }
 
-std::optional<Polyline> Router::combed(const Comb& comb, Point p, Point q) const {
+std::optional<Router::Inside> Router::combed(const Comb& comb, Point p, Point q) const {
   if (comb.empty()) return std::nullopt;
   const auto from = gate(comb, p);
   if (!from) return std::nullopt;
   const auto to = gate(comb, q);
   if (!to) return std::nullopt;
-  const double to_gates = distance(p, from->at) + distance(to->at, q);
-  if (to_gates > 0 && distance(p, q) <= to_gates && outline_.sees(p, q)) return Polyline{q};
+  const double first = distance(p, from->at), last = distance(to->at, q);
+  if (first + last > 0 && distance(p, q) <= first + last && outline_.sees(p, q)) return Inside{{q}, first, last};
   if (from->part == Comb::outside || from->part != to->part) return std::nullopt;
   auto inside = comb.way(from->at, to->at);
   if (!inside) return std::nullopt;
   if (from->at != p) inside->insert(inside->begin(), from->at);
   if (to->at != q) inside->push_back(q);
-  return inside;
+  return Inside{std::move(*inside), first, last};
 }
 
 }  // namespace weft::travel

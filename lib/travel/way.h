@@ -37,7 +37,16 @@ class Router {
     std::uint32_t part;  ///< of the comb area
   };
   std::optional<Gate> gate(const Comb& comb, Point p) const;
-  std::optional<Polyline> combed(const Comb& comb, Point p, Point q) const;
+  struct Inside {
+    Polyline points;
+    double from_um = 0, to_um = 0;  ///< what of it lies, at both ends, between the beads and the comb area
+    bool on_outer_walls = false;
+  };
+  std::optional<Inside> combed(const Comb& comb, Point p, Point q) const;
+  std::optional<Inside> off_outer_walls(Point p, Point q) const;
+  double most_on_outer_walls_um() const;
+  bool lies_on_outer_walls(Point p, const Inside& way, bool ends_alone) const;
+  double on_outer_walls_um(Point p, Point q) const;
   bool apart(Point p, Point q) const;
   const Comb& half_a_bead_in() const;
   bool too_long(double combed_um, double straight_um) const;
@@ -48,7 +57,8 @@ class Router {
   const Prepared& layer_;
   const Comb& outline_;
   Obstacles obstacles_;
-  mutable std::optional<Comb> half_a_bead_in_;  ///< made when a way asks for it: in most layers none does
+  // Made when a way asks for them: in most layers none does.
+  mutable std::optional<Comb> half_a_bead_in_, outer_walls_;
 };
 
 double length_from(Point p, const Polyline& way);

@@ -99,9 +99,10 @@ void finish(Line line, const FinishOptions& o, std::vector<Line>& out, double& d
   }
   const double whole = length_of(line.path);
   double kept = 0;
+  const bool tip = o.has_walls && line.inset == 0;
   for (auto& stretch : thick_stretches(line.path, o.least_feature)) {
     const double length = length_of(stretch);
-    if (stretch.size() < 2 || !worth_a_bead(o, length, area_of(stretch))) continue;
+    if (stretch.size() < 2 || !worth_a_bead(o, tip, length, area_of(stretch))) continue;
     kept += length;
     bool first_meets = line.first_meets && distance(stretch.front().at, line.path.front().at) < 1;
     bool last_meets = line.last_meets && distance(stretch.back().at, line.path.back().at) < 1;

@@ -13,6 +13,7 @@ struct FinishOptions {
   double least_feature = 50;                      ///< thinner stretches are cut out, µm
   double least_length = 100;                      ///< shorter open beads are dropped, µm; 0: none
   double least_area = 0;                          ///< … and those that are too thin and lay less, µm²
+  bool has_walls = false;                         ///< the part has walls: single beads on its outline fill tips of it
   bool compensate = true;                         ///< flow compensation
   double stable_outer = 200, stable_inner = 200;  ///< narrowest planned width, µm
   double most_width = 1e9;                        ///< no bead is wider, µm
@@ -20,12 +21,13 @@ struct FinishOptions {
   double reach = 50;  ///< along a bead its width is the mean of what lies so near (model/simplify), µm
 };
 
-/// Whether an open bead of that length and area is worth its two travels: what is too short is not, nor what is thinner
-/// than 0.1 mm and lays less than oozes on the way.
-inline bool worth_a_bead(const FinishOptions& o, double length_um, double area_um2) {
+/// Whether an open bead of that length and area is worth its two travels: what is too short is not, nor what lays less
+/// than oozes on the way where it is thinner than 0.1 mm or the tip of a part that has walls. A part is not lost for
+/// that, and what is between walls closes them.
+inline bool worth_a_bead(const FinishOptions& o, bool tip, double length_um, double area_um2) {
   constexpr double thin_um = 100;
   if (length_um < o.least_length) return false;
-  return o.least_length == 0 || area_um2 >= o.least_area || area_um2 >= thin_um * length_um;
+  return o.least_length == 0 || area_um2 >= o.least_area || (!tip && area_um2 >= thin_um * length_um);
 }
 
 /// Appends what is laid of a line, in the direction in which it is; `dropped_mm` grows by the length that was left out.

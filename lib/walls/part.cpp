@@ -115,6 +115,7 @@ Part part_of(const WallSettings& settings, const Widths& widths, const Region& r
   finishing.most_flow = settings.max_flow_ratio / 100;
   auto pairs = trace_pairs(skeleton, laying), middles = trace_middles(skeleton, laying);
   fit_ends(middles, pairs);
+  finishing.has_walls = !pairs.empty();
   std::vector<Line> finished;
   for (auto* lines : {&pairs, &middles})
     for (Line& line : *lines) {

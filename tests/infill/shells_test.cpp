@@ -82,6 +82,20 @@ TEST_CASE("shells: a block has its solid layers below and above, and nothing els
   }
 }
 
+TEST_CASE("shells: what is seen from above between two walls is top, however narrow it gets", "[infill]") {
+  // From 0.1 to 0.9 mm between the walls above the hole, and 0.35 mm beside it.
+  Region frame = rectangle(0, 0, 40000, 20000);
+  frame.holes.push_back({{2350, 5000}, {2350, 17900}, {37000, 17100}, {37000, 5000}});
+  const auto areas = Object(std::vector<Regions>(12, {frame})).areas({});
+  CHECK(sum(areas[11], &PartAreas::solid) == 0);
+  CHECK(sum(areas[11], &PartAreas::top) == Approx(all(areas[11])));
+  // Steps of 0.3 mm along the wall of what stands on the layer are not: they would be lines beside others of their own.
+  std::vector<Regions> steps;
+  for (Um in = 0; in < 12 * 300; in += 300) steps.push_back({rectangle(in, 0, 40000, 20000)});
+  const auto stepped = Object(std::move(steps)).areas({});
+  for (std::size_t i = 0; i + 1 < 12; ++i) CHECK(sum(stepped[i], &PartAreas::top) == 0);
+}
+
 TEST_CASE("shells: infill_support_enabled keeps infill only below what does not carry itself", "[infill]") {
   InfillSettings below_tops;
   below_tops.infill_support_enabled = true;
@@ -233,6 +247,24 @@ TEST_CASE("shells: solid over sparse infill is a bridge across the lines of the 
   const double across = degrees(infill.infill_angle);
   CHECK(std::abs(std::sin(areas[16][0].bridges[0].angle_rad - across)) < std::sin(degrees(6)));
   for (const std::size_t other : {3U, 17U, 18U, 19U}) CHECK(bridged(areas[other]) == 0);
+}
+
+TEST_CASE("shells: a strip of solid that the anchors of a bridge over infill would leave is of the bridge",
+          "[infill]") {
+  InfillSettings infill;
+  infill.infill_sparse_density = 10;
+  const auto solid_beside_bridge = [&](Um beyond_anchors) {
+    Object block(std::vector<Regions>(20, {rectangle(0, 0, 30000, 30000)}));
+    const Um from = 1000 + 2000 + beyond_anchors;  // the wall, the anchor
+    const Regions open{rectangle(from, from, 30000 - from, 30000 - from)};
+    block.layers[15].open = &open;
+    const auto areas = block.areas(skin(4, 4, 0, 0), infill);
+    CHECK(bridged(areas[16]) > 400);
+    return sum(areas[16], &PartAreas::solid);
+  };
+  CHECK(solid_beside_bridge(300) == 0);
+  CHECK(solid_beside_bridge(500) == 0);
+  CHECK(solid_beside_bridge(1200) > 4 * 20);  // it has lines of its own
 }
 
 TEST_CASE("shells: dense infill carries ordinary lines, and bridges are laid only where they are asked for",

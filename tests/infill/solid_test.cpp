@@ -142,6 +142,32 @@ TEST_CASE("solid: without gap fill a strip narrower than a line stays open, and 
   CHECK(filled(square, {.band = 430, .gaps = false}).size() == filled(square, {.band = 430}).size());
 }
 
+TEST_CASE("solid: a strip that runs out to nothing has no bead where it is thinner than any that can be laid",
+          "[infill][law]") {
+  // A quarter of a line. Half a millimetre of such ends was 0.01 mm wide.
+  const double angle = GENERATE(range(0, 180, 15));
+  CAPTURE(angle);
+  int gaps = 0;
+  for (const Um wide : {150, 300, 500, 700}) {
+    CAPTURE(wide);
+    const Region wedge{{{0, 0}, {12000, 0}, {6000, wide}}, {}};
+    for (const Bead& bead : filled(wedge, {.band = 420, .angle_rad = degrees(angle)})) {
+      if (bead.role != Role::gap_fill) continue;
+      ++gaps;
+      for (const Junction& j : bead.path) CHECK(j.width >= 420 / 4);
+    }
+  }
+  if (angle > 30 && angle < 150) CHECK(gaps >= 3);
+}
+
+TEST_CASE("solid: a strand along a narrow strip of a bridge is a bridge", "[infill]") {
+  const SolidStyle bridge{
+      .role = Role::bridge, .band = 400, .angle_rad = degrees(60), .fixed_strand = true, .flow = 1.57};
+  const Beads beads = filled(rectangle(0, 0, 6000, 450), bridge);
+  REQUIRE(!beads.empty());
+  for (const Bead& bead : beads) CHECK(bead.role == Role::bridge);
+}
+
 TEST_CASE("solid: lines reach over the edge by the overlap and no further", "[infill][law]") {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     const Region region = star(seed, 9000, 13);

@@ -61,6 +61,19 @@ TEST_CASE("preview: a bead with less filament than its announced width takes is 
   CHECK(svg(paths, {.layer = 0}).find("flow reduced") == std::string::npos);
 }
 
+TEST_CASE("preview: a layer that begins with a bridge is as high as the file says of it, and not as its strands",
+          "[preview]") {
+  const auto paths = read(
+      fmt::format(
+          "M83\n;LAYER_CHANGE\n;Z:0.2\n;HEIGHT:0.2\nG1 Z0.2\n;TYPE:Perimeter\nG1 X0 Y0\nG1 X10 Y0 {}\n"
+          ";LAYER_CHANGE\n;Z:0.4\n;HEIGHT:0.2\nG1 Z0.4\n;TYPE:Bridge infill\n;HEIGHT:0.4\nG1 X0 Y0\nG1 X10 Y0 {}\n",
+          extrude(0.45, 10), extrude(0.45, 10)),
+      1750);
+  REQUIRE(paths.layers.size() == 2);
+  CHECK(paths.layers[1].height == 200);
+  CHECK(extruded(paths.layers[1], paths, "bridge").front().height == 400);
+}
+
 TEST_CASE("preview: without comments, layers are told by height", "[preview]") {
   const auto paths = read("G90\nM83\nG0 X0 Y0 Z0.2\nG1 X10 E1\nG1 Y10 E1\nG0 Z0.8\nG0 X0 Y0\nG0 Z0.4\nG1 X10 E1", 1750);
   REQUIRE(paths.layers.size() == 2);

@@ -87,6 +87,9 @@ TEST_CASE(
   CHECK_FALSE(round.retract);
   CHECK_FALSE(round.crosses);
   CHECK(round.points.size() > 1);
+  // What oozes from the middle of the nozzle lies half its width to both sides.
+  if (c.mode == Combing::no_outer_surfaces)
+    CHECK_FALSE(enters(round, sample::rectangle({9850, 12850}, {30150, 27150}).outer));
 }
 
 TEST_CASE("travel: where the area of a combing mode is cut in two, travels between its halves are retracted",
@@ -163,6 +166,72 @@ TEST_CASE("travel: with no_outer_surfaces a neck of three walls is gone through 
         CHECK(std::abs(at.y - 5000) <= wall - sample::width / 2 + static_cast<Um>(2 * Comb::slack_um));
     last = p;
   }
+}
+
+namespace {
+
+double distance_to(Point p, Point a, Point b) {
+  const double x = b.x - a.x, y = b.y - a.y, length2 = x * x + y * y;
+  const double t = length2 > 0 ? std::clamp(((p.x - a.x) * x + (p.y - a.y) * y) / length2, 0.0, 1.0) : 0.0;
+  return distance(p, lerp(a, b, t));
+}
+
+/// How much of a way lies within half a nozzle of the centrelines of outer walls, µm.
+double on_outer_walls_um(const LayerInput& layer, Point p, const Polyline& way) {
+  constexpr int parts = 400;
+  double sum = 0;
+  for (const Point q : way) {
+    for (int k = 0; k < parts; ++k) {
+      const Point at = lerp(p, q, (k + 0.5) / parts);
+      const bool near = std::any_of(layer.objects[0].beads.begin(), layer.objects[0].beads.end(), [&](const Bead& b) {
+        if (b.role != Role::outer_wall) return false;
+        for (std::size_t i = b.closed ? 0 : 1; i < b.path.size(); ++i)
+          if (distance_to(at, b.path[i == 0 ? b.path.size() - 1 : i - 1].at, b.path[i].at) < layer.nozzle / 2)
+            return true;
+        return false;
+      });
+      if (near) sum += distance(p, q) / parts;
+    }
+    p = q;
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("travel: with no_outer_surfaces no way that is not drawn back lies on outer walls for longer than it must",
+          "[travel]") {
+  // A room with a finger of two walls, which ends within reach of the second walls, and a tail of a single bead.
+  const Region room{
+      {{0, 0}, {10000, 0}, {10000, 4600}, {12000, 4600}, {12000, 5400}, {10000, 5400}, {10000, 10000}, {0, 10000}}, {}};
+  auto layer = sample::layer({room});
+  layer.objects[0].outline.push_back(sample::rectangle({-2400, 1800}, {0, 2200}));
+  layer.objects[0].outline = geometry::unite(layer.objects[0].outline, {});
+  Bead tail;
+  tail.path = {{{-2200, 2000}, sample::width, 1.F}, {{-100, 2000}, sample::width, 1.F}};
+  tail.role = Role::outer_wall;
+  layer.objects[0].beads.push_back(tail);
+  const auto settings = combing(Combing::no_outer_surfaces);
+  const auto prepared = prepare(settings, layer);
+  const RetractionSettings retraction;
+  const Router router(settings, retraction, prepared);
+  const Point tip{11800, 5200}, end{-2200, 2000}, middle{5000, 5000};
+  CHECK(router.way(tip, {9400, 5400}).retract);
+  CHECK(router.way(end, {400, 2400}).retract);
+  CHECK_FALSE(router.way({200, 5000}, middle).retract);  // off the wall squarely
+  std::vector<Point> places{middle};
+  for (const Bead& bead : layer.objects[0].beads)
+    for (const Junction& j : bead.path) places.push_back(j.at);
+  int unretracted = 0;
+  for (const Point p : places)
+    for (const Point q : places) {
+      if (p == q) continue;
+      const Way way = router.way(p, q);
+      if (way.retract || length_from(p, way.points) < retraction.retraction_min_travel) continue;
+      ++unretracted;
+      CHECK(on_outer_walls_um(layer, p, way.points) <= 1.5 * layer.nozzle + 100);
+    }
+  CHECK(unretracted > 100);
 }
 
 TEST_CASE("travel: the way to the next layer goes up before it goes anywhere", "[travel]") {
