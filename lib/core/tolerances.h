@@ -37,9 +37,12 @@ inline constexpr Um band_leap = 135_um;
 /// gcode/moves.
 inline constexpr Um least_move = 50_um;
 
-/// The last six, from `path` on, are so many times as large for lines of infill, which nobody sees and which lie
-/// against others on both sides: 25 µm of path, about a twentieth of a line, 50 µm of band, and ramps in pieces of
-/// 0.5 mm, as an orifice of 0.4 mm lays nothing that is finer. motion/resample.
-inline constexpr double times_inside = 2.5;
+/// `path` for lines of infill, which nobody sees and which are laid over the walls by more than that: a thirteenth of a
+/// line. least_move grows with it. motion/resample.
+inline constexpr Um path_inside = 35_um;
+
+/// `band` and band_step for them: a ninth of a line. shortest_piece grows with it to 0.5 mm, as an orifice of 0.4 mm
+/// lays nothing that is finer; so does band_leap. motion/resample.
+inline constexpr Um band_inside = 50_um;
 
 }  // namespace weft::tolerances

@@ -180,7 +180,7 @@ void set_wipe(const Rules& rules, double speed_mm_s, std::optional<Point3> at, R
 
 /// Moves, speed and acceleration.
 void set_bead(const Rules& rules, Extrude& bead) {
-  if (bead.below.empty()) resample(bead.path, tolerance_times(bead.role));
+  if (bead.below.empty()) resample(bead.path, coarseness(bead.role));
   set_bead_speed(rules, bead);
   bead.acceleration_mm_s2 = rules.speeds.acceleration_enabled ? bead_acceleration_mm_s2(rules, bead) : 0;
   if (rules.speeds.speed_curvature_even > 0 && bead.role == Role::outer_wall) even_curves(rules, bead);
