@@ -253,6 +253,16 @@ TEST_CASE(
   CHECK(told_as({wedge.path}, Role::top_skin).path.size() == 8);
 }
 
+TEST_CASE("motion: what lies on the bed is seen from below, and told as finely as walls") {
+  const auto told_at = [](Um z) {
+    LayerPlan layer = layer_of({line({{0, 150}, {1'500, 450}}, Role::solid_infill)});
+    layer.z = z;
+    return bead_in(plan_layer(plain_rules(), layer, Point3{0, 0, z}).plan).path.size();
+  };
+  CHECK(told_at(200) == 8);
+  CHECK(told_at(400) == 4);
+}
+
 TEST_CASE("motion: no bead turns by more than 60° beside a move shorter than 50 µm") {
   std::mt19937 random(5);
   for (int n = 0; n < 200; ++n) {
