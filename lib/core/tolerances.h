@@ -37,4 +37,12 @@ inline constexpr Um band_leap = 135_um;
 /// gcode/moves.
 inline constexpr Um least_move = 50_um;
 
+/// `path` for lines of infill, which nobody sees: a twentieth of a line, a third of what they are laid over walls by.
+/// least_move grows with it to 0.1 mm; with more, corners of narrow areas would be cut off. motion/resample.
+inline constexpr Um path_inside = 20_um;
+
+/// `band` and band_step for them: a ninth of a line. shortest_piece grows with it to 0.5 mm, as an orifice of 0.4 mm
+/// lays nothing that is finer; so does band_leap. motion/resample.
+inline constexpr Um band_inside = 50_um;
+
 }  // namespace weft::tolerances

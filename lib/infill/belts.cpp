@@ -4,8 +4,8 @@
 #include "core/stop.h"
 #include "geometry/boolean.h"
 #include "geometry/offset.h"
-#include "geometry/simplify.h"
 #include "infill/belt_ring.h"
+#include "infill/few_points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,9 +14,18 @@
 namespace weft::infill {
 namespace {
 
-constexpr Um wall_within = 25;  // of the wall: the edge that belts follow. Less than grids know of it
+constexpr Um wall_within = 25;  // of the wall, on both sides: the edge that belts follow. Less than grids know of it
 constexpr Um over_wall = 100;   // that an area is drawn over the wall beside it
 constexpr Um over_line = 10;    // and over the line beside it
+
+/// The edge that belts follow: pieces that stand for the wall, in the middle of it, so that their lines lack beside it
+/// as much as they have too much. Where it is narrower than they may lie off, rings may cross: no line is so near to
+/// it.
+Region in_few_points(const Region& inside) {
+  Region out{few_points(inside.outer, true, wall_within), {}};
+  for (const Ring& hole : inside.holes) out.holes.push_back(few_points(hole, true, wall_within));
+  return out;
+}
 
 /// What lies that far to the left and to the right of a line: rings, one a segment, which overlap at corners.
 void draw(const BeltLine& line, double left, double right, std::vector<Ring>& rings) {
@@ -89,8 +98,7 @@ Belts find_belts(const Regions& inside, const Mask& solid, const Mask& sparse, c
   if (!solid.any() || !sparse.any()) return belts;
   const BeltGround ground{solid, sparse, layers, static_cast<double>(band)};
   std::vector<Work> all;
-  for (std::size_t i = 0; i < inside.size(); ++i)
-    all.push_back({{i, {}, {}}, geometry::simplified(Regions{inside[i]}, wall_within), {}});
+  for (std::size_t i = 0; i < inside.size(); ++i) all.push_back({{i, {}, {}}, {in_few_points(inside[i])}, {}});
   const double half = band / 2.0;
   for (int k = 1; k <= most_belt_lines; ++k) {
     std::vector<RingOf> rings = rings_at((2 * k - 1) * half, all, ground);

@@ -28,8 +28,7 @@ constexpr double least_left = 0.3;        // bands of a line between its turns; 
 constexpr double most_lean = 4;           // bands that a narrow strip may lean from line to line and still be one strip
 constexpr double deepest_bump = 0.25;     // bands that the edge may stand into a turn
 constexpr double least_given_back = 0.9;  // of the width: a small area rather gets a little too much
-constexpr double shortest_bead =
-    1;  // in widths: less is a dab, and a stop of the nozzle for a thousandth of the volume
+constexpr double shortest_bead = 1;       // bands, however narrow: less is a dab, and the nozzle stops for nothing
 
 /// Lines of a region in chains: intervals that lie over each other with no fork between them.
 struct Chains {
@@ -344,7 +343,7 @@ class Filler {
     double total = 0;
     for (std::size_t i = 1; i < path.size(); ++i)
       total += std::hypot(path[i].at.x - path[i - 1].at.x, path[i].at.y - path[i - 1].at.y);
-    if (total - 2 * style_.overlap_um < shortest_bead * width_) return;
+    if (total - 2 * style_.overlap_um < shortest_bead * style_.band) return;
     Bead bead;
     bead.role = role, bead.part = style_.part, bead.sequence = style_.sequence;
     bead.path.reserve(path.size());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "motion/resample.h"
 
+#include "core/tolerances.h"
 #include "model/simplify.h"
 
 #include <algorithm>
@@ -8,13 +9,18 @@
 
 namespace weft::motion {
 
-void thin_out(std::vector<Junction>& path) {
+Coarseness coarseness(Role role) {
+  if (role != Role::solid_infill && row_of(role).kind != RoleKind::fill) return {};
+  return {static_cast<double>(tolerances::path_inside) / tolerances::path,
+          static_cast<double>(tolerances::band_inside) / tolerances::band};
+}
+
+void thin_out(std::vector<Junction>& path, Coarseness times) {
   if (path.size() < 3) return;
   VertexPath vertices;
   vertices.reserve(path.size());
   for (const Junction& j : path)
-    vertices.push_back(
-        {static_cast<double>(j.at.x), static_cast<double>(j.at.y), j.width * static_cast<double>(j.flow)});
+    vertices.push_back({j.at.x / times.path, j.at.y / times.path, j.width * static_cast<double>(j.flow) / times.band});
   const auto chosen = chosen_vertices(vertices);
   if (chosen.size() == path.size()) return;
   const auto simple = projected(vertices, chosen, false);
@@ -22,7 +28,7 @@ void thin_out(std::vector<Junction>& path) {
       std::all_of(path.begin(), path.end(), [&](const Junction& j) { return j.flow == path[0].flow; });
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     Junction j = path[chosen[k]];
-    const auto& [x, y, band] = simple[k];
+    const double x = times.path * simple[k].x, y = times.path * simple[k].y, band = times.band * simple[k].band;
     if (even_flow && j.flow > 0)
       j.width = rounded(band / static_cast<double>(j.flow));
     else if (j.width > 0)
@@ -33,10 +39,10 @@ void thin_out(std::vector<Junction>& path) {
   path.resize(chosen.size());
 }
 
-void cut_where_width_changes(std::vector<Junction>& path) {
-  const auto pieces_of = [](const Junction& a, const Junction& b) {
+void cut_where_width_changes(std::vector<Junction>& path, Coarseness times) {
+  const auto pieces_of = [times](const Junction& a, const Junction& b) {
     const double change_um = std::abs(a.width * static_cast<double>(a.flow) - b.width * static_cast<double>(b.flow));
-    return ramp_pieces(change_um, distance(a.at, b.at));
+    return ramp_pieces(change_um / times.band, distance(a.at, b.at) / times.band);
   };
   std::size_t count = path.empty() ? 0 : 1;
   for (std::size_t i = 1; i < path.size(); ++i) count += static_cast<std::size_t>(pieces_of(path[i - 1], path[i]));

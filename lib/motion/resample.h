@@ -8,18 +8,27 @@
 /// shape allows, and as many as their change of width needs.
 namespace weft::motion {
 
+/// How many times as large as for walls tolerances are.
+struct Coarseness {
+  double path = 1, band = 1;
+};
+/// For beads of a role: lines of infill are told coarsely.
+Coarseness coarseness(Role role);
+
 /// Drops junctions that tell nothing (model/simplify). Ends stay in place; flow gives way where it varies, else width.
-void thin_out(std::vector<Junction>& path);
+/// @param times as large tolerances are: what is simplified is the path made so many times as small
+void thin_out(std::vector<Junction>& path, Coarseness times = {});
 
 /// Cuts segments along which band times flow changes by more than tolerances::band_step, into pieces of at least
 /// tolerances::shortest_piece, or half of that where they would change by more than tolerances::band_leap. The volume
 /// stays.
-void cut_where_width_changes(std::vector<Junction>& path);
+/// @param times as large those tolerances are
+void cut_where_width_changes(std::vector<Junction>& path, Coarseness times = {});
 
 /// Both.
-inline void resample(std::vector<Junction>& path) {
-  thin_out(path);
-  cut_where_width_changes(path);
+inline void resample(std::vector<Junction>& path, Coarseness times = {}) {
+  thin_out(path, times);
+  cut_where_width_changes(path, times);
 }
 
 }  // namespace weft::motion

@@ -179,8 +179,10 @@ void set_wipe(const Rules& rules, double speed_mm_s, std::optional<Point3> at, R
 }
 
 /// Moves, speed and acceleration.
-void set_bead(const Rules& rules, Extrude& bead) {
-  if (bead.below.empty()) resample(bead.path);
+/// @param z of the layer's top
+void set_bead(const Rules& rules, Um z, Extrude& bead) {
+  const bool on_bed = z <= bead.height;  // seen from below
+  if (bead.below.empty()) resample(bead.path, on_bed ? Coarseness{} : coarseness(bead.role));
   set_bead_speed(rules, bead);
   bead.acceleration_mm_s2 = rules.speeds.acceleration_enabled ? bead_acceleration_mm_s2(rules, bead) : 0;
   if (rules.speeds.speed_curvature_even > 0 && bead.role == Role::outer_wall) even_curves(rules, bead);
@@ -210,7 +212,7 @@ void set_speeds(AllRules all, LayerPlan& layer, std::optional<Point3> start) {
           set_travel(travel);
           steps.emplace_back(std::move(travel));
         }
-        set_bead(of_scope(all, bead.scope), bead);
+        set_bead(of_scope(all, bead.scope), layer.z, bead);
         at = place_of(bead, bead.path.size() - 1, layer.z);
         return true;
       },

@@ -155,6 +155,38 @@ TEST_CASE("belts: under a slope lines run along the wall, side by side, all as w
   }
 }
 
+TEST_CASE("belts: few pieces stand for a round wall, and on the mean are as far from it as they should be",
+          "[infill][law]") {
+  const Um radius = GENERATE(8'000, 20'000, 45'000);
+  const Hill hill(circle({}, radius, 1440), 150, 24);  // two lines
+  const Um band = flow::band(450, 200);
+  for (std::size_t i = 6; i < 18; ++i) {
+    CAPTURE(radius, i);
+    const Beads beads = hill.solid_of(i);
+    REQUIRE(beads.size() >= 1);
+    const geometry::SegmentIndex edge(hill.insides[i]);
+    for (const Bead& bead : beads) {
+      REQUIRE(bead.closed);
+      double um = 0, depth = 0, least = 1e9, most = 0;
+      for (std::size_t j = 0; j < bead.path.size(); ++j) {
+        const Point a = bead.path[j].at, b = bead.path[(j + 1) % bead.path.size()].at;
+        constexpr int looks = 20;
+        for (int k = 0; k < looks; ++k) {
+          const double off = edge.nearest(lerp(a, b, (k + 0.5) / looks))->distance_um;
+          least = std::min(least, off), most = std::max(most, off);
+          um += distance(a, b) / looks, depth += off * distance(a, b) / looks;
+        }
+      }
+      const double line = std::floor(depth / um / band) + 0.5;
+      CHECK(depth / um == Approx(line * band).margin(10));  // the middle of an arc and its chord
+      CHECK(least >= line * band - 38);
+      CHECK(most <= line * band + 38);
+      // the longest piece of an arc that is within 25 µm on both sides is √(8 r · 50 µm)
+      CHECK(static_cast<double>(bead.path.size()) < 1.2 * um / std::sqrt(400 * um / (2 * std::numbers::pi)) + 2);
+    }
+  }
+}
+
 TEST_CASE("belts: one below half a line is left to the walls of the next layer", "[infill]") {
   const Hill hill(circle({}, 20000), 40, 24);  // four solid layers: 0.16 mm
   for (std::size_t i = 6; i < 18; ++i) CHECK(hill.solid_of(i).empty());

@@ -195,6 +195,14 @@ TEST_CASE("solid: slivers that lie between other areas are no beads", "[infill]"
   CHECK(beads.size() == 1);
 }
 
+TEST_CASE("solid: what is shorter than a line is wide is no bead, however narrow it is", "[infill]") {
+  const SolidStyle style{.band = 400, .angle_rad = 0, .overlap_um = 60};
+  for (const Um width : {110, 150, 300, 400}) {
+    CHECK(filled(rectangle(0, 0, 300, width), style).empty());
+    CHECK(filled(rectangle(0, 0, 600, width), style).size() == 1);
+  }
+}
+
 TEST_CASE("solid: nothing, specks and needles are borne", "[infill]") {
   const SolidStyle style{.band = 430, .angle_rad = degrees(45), .overlap_um = 45};
   CHECK(filled({}, style).empty());

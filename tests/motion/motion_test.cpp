@@ -223,18 +223,59 @@ TEST_CASE("motion: a path sampled finely is printed with few moves, in place, in
   }
 }
 
+TEST_CASE(
+    "motion: lines of infill are told more coarsely than walls, by a twentieth of a line, and lay what they laid") {
+  const auto told_as = [](const Bead& bead, Role role) {
+    Bead out{bead.path, role};
+    resample(out.path, coarseness(role));
+    return out;
+  };
+  std::size_t of_walls = 0, of_lines = 0;
+  for (int radius = 2'000; radius < 20'000; radius += 400) {
+    Bead arc{{}, Role::solid_infill};
+    for (double a = 0; a < 3; a += 0.005)
+      arc.path.push_back({{rounded(radius * std::cos(a)), rounded(radius * std::sin(a))}, 450, 1.F});
+    const Bead wall = told_as(arc, Role::inner_wall), line = told_as(arc, Role::solid_infill);
+    of_walls += wall.path.size(), of_lines += line.path.size();
+    CHECK(volume_mm3(line, 200) == Approx(volume_mm3(arc, 200)).epsilon(0.003));
+    for (std::size_t i = 1; i < line.path.size(); ++i) {  // on both sides of the arc
+      const Point a = line.path[i - 1].at, b = line.path[i].at;
+      for (const Point at : {a, lerp(a, b, 0.5)}) CHECK(std::abs(distance({0, 0}, at) - radius) <= 21);
+    }
+    CHECK(told_as(arc, Role::infill).path == line.path);
+    CHECK(told_as(arc, Role::gap_fill).path == line.path);
+    CHECK(told_as(arc, Role::top_skin).path == told_as(arc, Role::outer_wall).path);
+  }
+  CHECK(4 * of_lines < 3 * of_walls);
+
+  const auto wedge = line({{0, 150}, {1'500, 450}});  // of a line that an edge runs along
+  CHECK(told_as({wedge.path}, Role::solid_infill).path.size() == 4);
+  CHECK(told_as({wedge.path}, Role::top_skin).path.size() == 8);
+}
+
+TEST_CASE("motion: what lies on the bed is seen from below, and told as finely as walls") {
+  const auto told_at = [](Um z) {
+    LayerPlan layer = layer_of({line({{0, 150}, {1'500, 450}}, Role::solid_infill)});
+    layer.z = z;
+    return bead_in(plan_layer(plain_rules(), layer, Point3{0, 0, z}).plan).path.size();
+  };
+  CHECK(told_at(200) == 8);
+  CHECK(told_at(400) == 4);
+}
+
 TEST_CASE("motion: no bead turns by more than 60° beside a move shorter than 50 µm") {
   std::mt19937 random(5);
   for (int n = 0; n < 200; ++n) {
+    const Coarseness times = n % 2 == 0 ? Coarseness{} : coarseness(Role::solid_infill);
     std::vector<Junction> path{{{0, 0}, 400, 1.F}};
     double way = 0;
     for (int i = 0; i < 150; ++i) {
       way += (static_cast<double>(random() % 1000) / 500 - 1) * (i % 5 == 0 ? 3 : 0.3);
-      const double by = 1 + static_cast<double>(random() % 100);
+      const double by = times.path * (1 + static_cast<double>(random() % 100));
       path.push_back({path.back().at + Point{rounded(by * std::cos(way)), rounded(by * std::sin(way))},
                       350 + static_cast<Um>(random() % 100), 1.F});
     }
-    thin_out(path);
+    thin_out(path, times);
     for (std::size_t i = 1; i + 1 < path.size(); ++i) {
       const Point a = path[i].at - path[i - 1].at, b = path[i + 1].at - path[i].at;
       const double before = distance({0, 0}, a), after = distance({0, 0}, b);
