@@ -156,7 +156,7 @@ std::vector<Row> rows() {
       {"support_pattern", "gyroid", On::tee, any, other, c},
       {"support_infill_rate", "40", On::tee, columns, more, c},
       {"support_infill_angle", "45", On::tee, any, other, c},
-      {"support_join_distance", "8", On::fork, columns, less, c},
+      {"support_join_distance", "8", On::fork, columns, more, c},
       {"support_initial_layer_density", "30", On::tee, columns, less, c},
       {"support_brim_width", "0", On::tee, columns, less, c},
       {"support_roof_enable", "false", On::tee, interface, less, c},
