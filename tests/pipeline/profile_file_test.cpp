@@ -16,15 +16,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path written(const std::string& bytes) {
-  const auto path = fs::temp_directory_path() / ("weft-profile-file-" + std::to_string(::getpid()) + ".3mf");
-  std::ofstream(path, std::ios::binary) << bytes;
-  return path;
-}
+/// A file as long as it is looked at.
+struct Written {
+  explicit Written(const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
+  ~Written() { fs::remove(path); }
+  Written(const Written&) = delete;
+  Written& operator=(const Written&) = delete;
+  fs::path path = fs::temp_directory_path() / ("weft-profile-file-" + std::to_string(::getpid()) + ".3mf");
+};
 
 std::string refusal(const std::string& bytes) {
   Profile profile;
-  return test::settings_error([&] { apply_profile(profile, written(bytes)); });
+  return test::settings_error([&] { apply_profile(profile, Written(bytes).path); });
 }
 
 }  // namespace
@@ -35,7 +38,7 @@ TEST_CASE("profile file: a 3MF of PrusaSlicer's is a profile, by the configurati
     config += std::string("; ") + line + "\n";
   for (int i = 0; i < 20; ++i) config += "; made_up_" + std::to_string(i) + " = 1\n";
   Profile profile;
-  apply_profile(profile, written(fixtures::three_mf("<model/>", {{"Metadata/Slic3r_PE.config", config}})));
+  apply_profile(profile, Written(fixtures::three_mf("<model/>", {{"Metadata/Slic3r_PE.config", config}})).path);
   CHECK(profile.settings.layers.layer_height == 150);
   CHECK(profile.settings.walls.wall_line_count == 4);
   CHECK(profile.settings.material.material_print_temperature == 222);
