@@ -322,8 +322,20 @@ bool SegmentIndex::neighbours(std::uint32_t i, std::uint32_t j) const {
   return next_[i] == j || next_[j] == i;
 }
 
-std::vector<std::pair<std::uint32_t, std::uint32_t>> SegmentIndex::crossing_pairs() const {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
+namespace {
+
+/// Pairs that met in several cells, once.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> each_once(
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs) {
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
+
+}  // namespace
+
+template <class F>
+bool SegmentIndex::for_each_near_pair(F&& f) const {
   StopNowAndThen stop(256);
   for (std::size_t k = 0; k + 1 < starts_.size(); ++k) {
     const auto here = cell(k);
@@ -333,14 +345,24 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> SegmentIndex::crossing_pair
       const Box box = s.box();
       for (std::size_t y = x + 1; y < here.size(); ++y) {
         const Segment& t = segments_[here[y]];
-        if (!box.overlaps(t.box())) continue;
-        if (segments_cross(s.a, s.b, t.a, t.b)) out.emplace_back(here[x], here[y]);
+        if (box.overlaps(t.box()) && !f(here[x], s, here[y], t)) return false;
       }
     }
   }
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());  // they met in several cells
-  return out;
+  return true;
+}
+
+std::vector<std::pair<std::uint32_t, std::uint32_t>> SegmentIndex::crossing_pairs() const {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
+  for_each_near_pair([&](std::uint32_t i, const Segment& s, std::uint32_t j, const Segment& t) {
+    if (segments_cross(s.a, s.b, t.a, t.b)) out.emplace_back(i, j);
+    return true;
+  });
+  return each_once(std::move(out));
+}
+
+bool SegmentIndex::has_points() const {
+  return std::any_of(segments_.begin(), segments_.end(), [](const Segment& s) { return s.a == s.b; });
 }
 
 bool SegmentIndex::join(std::uint32_t i, std::uint32_t j) const {
@@ -350,75 +372,32 @@ bool SegmentIndex::join(std::uint32_t i, std::uint32_t j) const {
 }
 
 std::optional<std::vector<std::pair<std::uint32_t, std::uint32_t>>> SegmentIndex::clean_crossings() const {
+  if (has_points()) return std::nullopt;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
-  StopNowAndThen stop(256);
-  for (std::size_t k = 0; k + 1 < starts_.size(); ++k) {
-    const auto here = cell(k);
-    for (std::size_t x = 0; x < here.size(); ++x) {
-      stop.step();
-      const Segment s = segments_[here[x]];
-      if (s.a == s.b) return std::nullopt;
-      const Box box = s.box();
-      for (std::size_t y = x + 1; y < here.size(); ++y) {
-        const Segment& t = segments_[here[y]];
-        if (!box.overlaps(t.box())) continue;
-        if (neighbours(here[x], here[y])) {
-          if (!join(here[x], here[y])) return std::nullopt;
-          continue;
-        }
-        if (segments_cross(s.a, s.b, t.a, t.b))
-          out.emplace_back(here[x], here[y]);
-        else if (segments_touch(s.a, s.b, t.a, t.b))
-          return std::nullopt;
-      }
-    }
-  }
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());  // they met in several cells
-  return out;
+  const bool clean = for_each_near_pair([&](std::uint32_t i, const Segment& s, std::uint32_t j, const Segment& t) {
+    if (neighbours(i, j)) return join(i, j);
+    if (!segments_cross(s.a, s.b, t.a, t.b)) return !segments_touch(s.a, s.b, t.a, t.b);
+    out.emplace_back(i, j);
+    return true;
+  });
+  if (!clean) return std::nullopt;
+  return each_once(std::move(out));
 }
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> SegmentIndex::rings_that_meet() const {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
-  StopNowAndThen stop(256);
-  for (std::size_t k = 0; k + 1 < starts_.size(); ++k) {
-    const auto here = cell(k);
-    for (std::size_t x = 0; x + 1 < here.size(); ++x) {
-      stop.step();
-      const Segment s = segments_[here[x]];
-      const std::uint32_t ring = origins_[here[x]].region;
-      const Box box = s.box();
-      for (std::size_t y = x + 1; y < here.size(); ++y) {
-        const std::uint32_t other = origins_[here[y]].region;
-        const Segment& t = segments_[here[y]];
-        if (ring != other && box.overlaps(t.box()) && segments_touch(s.a, s.b, t.a, t.b))
-          out.push_back(std::minmax(ring, other));
-      }
-    }
-  }
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
-  return out;
+  for_each_near_pair([&](std::uint32_t i, const Segment& s, std::uint32_t j, const Segment& t) {
+    const std::uint32_t a = origins_[i].region, b = origins_[j].region;
+    if (a != b && segments_touch(s.a, s.b, t.a, t.b)) out.push_back(std::minmax(a, b));
+    return true;
+  });
+  return each_once(std::move(out));
 }
 
 bool SegmentIndex::simple() const {
-  StopNowAndThen stop(256);
-  for (std::size_t k = 0; k + 1 < starts_.size(); ++k) {
-    const auto here = cell(k);
-    for (std::size_t x = 0; x < here.size(); ++x) {
-      stop.step();
-      const Segment s = segments_[here[x]];
-      if (s.a == s.b) return false;
-      const Box box = s.box();
-      for (std::size_t y = x + 1; y < here.size(); ++y) {
-        const Segment& t = segments_[here[y]];
-        if (!box.overlaps(t.box())) continue;
-        const bool fits = neighbours(here[x], here[y]) ? join(here[x], here[y]) : !segments_touch(s.a, s.b, t.a, t.b);
-        if (!fits) return false;
-      }
-    }
-  }
-  return true;
+  return !has_points() && for_each_near_pair([&](std::uint32_t i, const Segment& s, std::uint32_t j, const Segment& t) {
+    return neighbours(i, j) ? join(i, j) : !segments_touch(s.a, s.b, t.a, t.b);
+  });
 }
 
 }  // namespace weft::geometry

@@ -131,6 +131,13 @@ class SegmentIndex {
   }
   template <class F>
   void for_each_near_line(Point a, Point b, F&& f) const;
+  /// f(i, s, j, t) of segments s and t whose boxes meet, i before j, once for each cell that both are in, until it
+  /// returns false.
+  /// @return whether it never did
+  template <class F>
+  bool for_each_near_pair(F&& f) const;
+  /// Whether a segment begins where it ends.
+  bool has_points() const;
 
   std::vector<Segment> segments_;
   std::vector<EdgeOfRegion> origins_;

@@ -14,8 +14,6 @@ namespace weft::geometry {
 namespace {
 using clipper::Operation;
 
-constexpr std::size_t most_rings = 2048;  // each is asked for what lies around it, by a look at all to its left
-
 /// Where an outline of a crosses one of b.
 struct Crossing {
   Point at;
@@ -172,7 +170,7 @@ std::size_t rings_in(const Regions& regions) {
 std::optional<std::vector<std::vector<Ring>>> traced(std::span<const Operation> operations, const Regions& a,
                                                      const Regions& b) {
   const std::size_t of_a = rings_in(a);
-  if (of_a + rings_in(b) > most_rings) return std::nullopt;
+  if (of_a + rings_in(b) > most_rings_followed) return std::nullopt;
   std::vector<Ring> rings = rings_of(a), more = rings_of(b);
   std::move(more.begin(), more.end(), std::back_inserter(rings));
   if (std::any_of(rings.begin(), rings.end(), [](const Ring& ring) { return ring.size() < 3; })) return std::nullopt;

@@ -2,12 +2,17 @@
 #pragma once
 #include "geometry/clipper_door.h"
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
 
 /// Booleans of outlines that cross cleanly, without a sweep; private to geometry/.
 namespace weft::geometry {
+
+/// Whoever follows outlines from crossing to crossing asks each ring for what lies around it, by a look at all to its
+/// left: above so many a sweep is left to do it.
+inline constexpr std::size_t most_rings_followed = 2048;
 
 /// What each of several operations leaves of two sets of regions: outers counter-clockwise, holes clockwise, crossings
 /// rounded to whole microns, collinear points left out. Nothing where an answer would need more than following

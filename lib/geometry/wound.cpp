@@ -5,6 +5,7 @@
 #include "geometry/nesting.h"
 #include "geometry/simplify.h"
 #include "geometry/spatial_index.h"
+#include "geometry/traced.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -12,8 +13,6 @@
 
 namespace weft::geometry {
 namespace {
-
-constexpr std::size_t most_rings = 2048;  // each is asked for what lies around it, by a look at all to its left
 
 using Crossing = std::pair<std::uint32_t, std::uint32_t>;
 
@@ -187,7 +186,7 @@ std::optional<Regions> wound(std::span<const Ring> rings, WindingRule rule, Poin
   const auto crossings = index.clean_crossings();
   if (!crossings) return std::nullopt;
   if (crossings->empty()) return nested(rings, index, rule);
-  if (rings.size() > most_rings || rule == WindingRule::even_odd) return std::nullopt;
+  if (rings.size() > most_rings_followed || rule == WindingRule::even_odd) return std::nullopt;
   const Pieces pieces(rings, index, *crossings);
   if (!pieces.clean() || (rule == WindingRule::nonzero && pieces.any_negative())) return std::nullopt;
   return clipper::tidied(pieces.outlines(), origin);

@@ -59,10 +59,10 @@ class Filler {
  public:
   Filler(const Settings& settings, const support::SupportLayer& layer, Point origin)
       : s_(settings.support),
-        span_(support::roof_span(settings.machine.nozzle_diameter)),
         layer_(layer),
         origin_(origin),
-        line_(length_or(s_.support_line_width, settings.machine.nozzle_diameter, settings.machine.nozzle_diameter)),
+        line_(support::line_width(s_, settings.machine.nozzle_diameter)),
+        span_(support::roof_span(settings.machine.nozzle_diameter)),
         between_feet_(support::between_feet(settings.machine.nozzle_diameter)),
         band_(flow::band(line_, layer.height)),
         usual_band_(std::max<Um>(flow::band(line_, settings.layers.layer_height), 1)) {}
@@ -316,12 +316,13 @@ class Filler {
   }
 
   const SupportSettings& s_;
-  Um span_;  ///< what a bead crosses without sagging
   const support::SupportLayer& layer_;
-  const Beneath* below_ = nullptr;
   Point origin_;
-  Um line_, between_feet_, band_;
+  Um line_;
+  Um span_;  ///< what a bead crosses without sagging
+  Um between_feet_, band_;
   Um usual_band_;  ///< at layer_height: what shares are of, so that lines of layers of any height lie on each other
+  const Beneath* below_ = nullptr;
   Beads beads_;
   std::vector<Point> hang_at_;
 };
@@ -393,7 +394,11 @@ class Layers {
         layers_(layers),
         origin_(origin),
         line_(support::line_width(settings.support, settings.machine.nozzle_diameter)) {
-    if (settings.support.support_wall_count.value_or(0) == 0) columns_.emplace(settings, layers, origin);
+    if (settings.support.support_wall_count.value_or(0) == 0)
+      columns_.emplace(settings, layers, origin);
+    else
+      walled_ = tasks::parallel_map(layers.size(),
+                                    [&](std::size_t k) { return Filler(settings, layers[k], origin).walled(); });
   }
 
   std::vector<PrintedLayer> filled() && {
@@ -411,9 +416,7 @@ class Layers {
   }
 
  private:
-  Beads columns_of(std::size_t k) const {
-    return columns_ ? columns_->of(k) : Filler(settings_, layers_[k], origin_).walled();
-  }
+  Beads columns_of(std::size_t k) const { return columns_ ? columns_->of(k) : walled_[k]; }
   /// The layers that one lies on, also where it must sag by half its height for that.
   std::vector<std::size_t> below(std::size_t k) const {
     const Um bottom = layers_[k].z - layers_[k].height, low = bottom - layers_[k].height / 2;
@@ -473,7 +476,8 @@ class Layers {
   const std::vector<support::SupportLayer>& layers_;
   Point origin_;
   Um line_;
-  std::optional<Columns> columns_;
+  std::optional<Columns> columns_;  ///< without walls
+  std::vector<Beads> walled_;       ///< columns with walls, by layer
 };
 
 }  // namespace

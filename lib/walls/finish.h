@@ -22,8 +22,8 @@ struct FinishOptions {
 };
 
 /// Whether an open bead of that length and area is worth its two travels: what is too short is not, nor what lays less
-/// than oozes on the way where it is thinner than 0.1 mm or the tip of a part that has walls. A part is not lost for
-/// that, and what is between walls closes them.
+/// than oozes on the way where it is thinner than 0.1 mm or the tip of a part that has walls. What a part without walls
+/// consists of stays, and so does what closes the gaps between walls.
 inline bool worth_a_bead(const FinishOptions& o, bool tip, double length_um, double area_um2) {
   constexpr double thin_um = 100;
   if (length_um < o.least_length) return false;

@@ -5,6 +5,7 @@
 #include "rectangle.h"
 
 #include <algorithm>
+#include <array>
 #include <random>
 
 #include <catch2/catch.hpp>
@@ -64,40 +65,31 @@ TEST_CASE("geometry: boxes meet by others, and each is in one set") {
   CHECK(geometry::touching(boxes) == std::vector<std::vector<std::size_t>>{{0, 1, 2}, {3}});
 }
 
-TEST_CASE("geometry: an offset cluster by cluster covers what an offset covers") {
-  std::mt19937 random(12);
-  for (int n = 0; n < 30; ++n) {
-    Regions some;
-    for (int i = 0; i < 30; ++i) {
-      const Um x = static_cast<Um>(random() % 60) * 500, y = static_cast<Um>(random() % 60) * 500;
-      some.push_back(rectangle(x, y, x + 700, y + 900));
-    }
-    some = geometry::unite(some);
-    for (const Um by : {-200, 300, 900})
-      for (const auto corner : {geometry::Corner::miter, geometry::Corner::round}) {
-        const geometry::OffsetOptions options{.by = by, .corner = corner};
-        const Regions apart = geometry::offset_apart(some, options), at_once = geometry::offset(some, options);
-        CHECK(apart.size() == at_once.size());
-        CHECK(area_mm2(apart) == Approx(area_mm2(at_once)));
-      }
+namespace {
+
+/// Rectangles strewn over so many places a side, offset by sets and all at once.
+void check_offset_apart(std::mt19937 random, int count, unsigned places, std::array<Um, 3> offsets) {
+  Regions some;
+  for (int i = 0; i < count; ++i) {
+    const Um x = static_cast<Um>(random() % places) * 500, y = static_cast<Um>(random() % places) * 500;
+    some.push_back(rectangle(x, y, x + 700, y + 900));
   }
+  some = geometry::unite(some);
+  for (const Um by : offsets)
+    for (const auto corner : {geometry::Corner::miter, geometry::Corner::round}) {
+      const geometry::OffsetOptions options{.by = by, .corner = corner};
+      const Regions apart = geometry::offset_apart(some, options), at_once = geometry::offset(some, options);
+      CHECK(apart.size() == at_once.size());
+      CHECK(area_mm2(apart) == Approx(area_mm2(at_once)));
+    }
+}
+
+}  // namespace
+
+TEST_CASE("geometry: an offset cluster by cluster covers what an offset covers") {
+  for (unsigned n = 0; n < 30; ++n) check_offset_apart(std::mt19937(1200 + n), 30, 60, {-200, 300, 900});
 }
 
 TEST_CASE("geometry: an offset of many that stand apart covers what an offset covers") {
-  std::mt19937 random(14);
-  for (int n = 0; n < 10; ++n) {
-    Regions some;
-    for (int i = 0; i < 600; ++i) {
-      const Um x = static_cast<Um>(random() % 120) * 500, y = static_cast<Um>(random() % 120) * 500;
-      some.push_back(rectangle(x, y, x + 700, y + 900));
-    }
-    some = geometry::unite(some);
-    for (const Um by : {-190, 310, 890})
-      for (const auto corner : {geometry::Corner::miter, geometry::Corner::round}) {
-        const geometry::OffsetOptions options{.by = by, .corner = corner};
-        const Regions apart = geometry::offset_apart(some, options), at_once = geometry::offset(some, options);
-        CHECK(apart.size() == at_once.size());
-        CHECK(area_mm2(apart) == Approx(area_mm2(at_once)));
-      }
-  }
+  for (unsigned n = 0; n < 10; ++n) check_offset_apart(std::mt19937(1400 + n), 600, 120, {-190, 310, 890});
 }

@@ -107,6 +107,22 @@ Region ellipse(double a, double b, double turn) {
 
 }  // namespace
 
+TEST_CASE("support: lines of a small column are joined, however much of its plastic that takes") {
+  Settings s;
+  s.layers.layer_height = 200;
+  const auto of = [&](Um across) {
+    const Regions column{rectangle(0, 0, 3600, across)};
+    return pipeline::fill_support(s, {level(2000, 200, &support::SupportLayer::columns, column)}, {}).front().beads;
+  };
+  for (const Um across : {5000, 7000, 9000, 12000}) {
+    const Beads beads = of(across);
+    INFO(across);
+    REQUIRE(beads.size() == 1);
+    CHECK(!beads.front().closed);
+    CHECK(leaves_its_chord(beads.front()) > 400);
+  }
+}
+
 TEST_CASE("support: no line of a column stands alone") {
   Settings s;
   s.layers.layer_height = 200;
