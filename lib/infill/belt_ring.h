@@ -33,7 +33,8 @@ class LengthLimit {
   std::vector<double> near_;
 };
 
-/// The lines one nearer to the wall: a line lies beside one of them, else there would be a slit between it and the wall.
+/// The lines one nearer to the wall: a line lies beside one of them, else there would be a slit between it and the
+/// wall.
 class LinesBefore {
  public:
   /// @param lines none: the next ones lie beside the wall itself
@@ -62,7 +63,7 @@ class BeltRing {
 
   // To be done in this order, and each step with a limit by what all rings of that depth add to it.
   void add_solid_runs(LengthLimit& limit) const;
-  void open_solid_runs(double longest_um);  ///< longer ones are no spike between belts: wider than any belt
+  void open_solid_runs(double longest_um);     ///< longer ones are no spike between belts: wider than any belt
   void find_lines(const LinesBefore& before);  ///< where the belt's mean width asks for one
   void add_pauses(LengthLimit& limit) const { add_runs(false, limit); }
   void close_pauses(double shortest_um) { turn_short(false, shortest_um); }
