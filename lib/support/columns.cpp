@@ -181,9 +181,27 @@ void thicken(Regions& area, const Regions& fresh, Um line) {
   area = geometry::unite(area);
 }
 
+namespace {
+
+/// Whether no corner of one is further from the other than offsets are rounded.
+bool within(const Regions& inner, const geometry::SegmentIndex& outer) {
+  constexpr double rounded_um = 2;
+  return std::all_of(inner.begin(), inner.end(), [&](const Region& region) {
+    const auto lies = [&](Point p) { return outer.nearest(p, rounded_um) || outer.region_at(p); };
+    return std::all_of(region.outer.begin(), region.outer.end(), lies) &&
+           std::all_of(region.holes.begin(), region.holes.end(),
+                       [&](const Ring& hole) { return std::all_of(hole.begin(), hole.end(), lies); });
+  });
+}
+
+}  // namespace
+
 Regions without_thin(const Regions& area, Um radius) {
   const Regions wide = geometry::offset(geometry::offset(area, {.by = -radius}), {.by = radius, .miter_limit = 3});
-  return geometry::intersect(wide, area);  // where a corner was cut off, the whole one reaches further
+  if (wide.empty()) return wide;
+  // Mostly nothing was thin. Where a corner was cut off, the whole one reaches further.
+  if (within(area, geometry::SegmentIndex(wide))) return area;
+  return within(wide, geometry::SegmentIndex(area)) ? wide : geometry::intersect(wide, area);
 }
 
 namespace {
