@@ -3,8 +3,8 @@
 
 #include "core/stop.h"
 #include "geometry/nesting.h"
+#include "geometry/ring_chains.h"
 #include "geometry/simplify.h"
-#include "geometry/spatial_index.h"
 #include "geometry/sweep.h"
 
 #include <algorithm>
@@ -193,17 +193,16 @@ Results swept(std::span<const Operation> operations, WindingRule rule, const Fin
 }
 
 /// The rings, with a corner at each crossing (to the nearest micron) on both edges that cross there.
-FineRings split(const SegmentIndex& index, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs,
-                Point origin) {
+FineRings split(std::span<const Ring> rings, const RingChains& chains,
+                const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs, Point origin) {
   struct Corner {
-    std::uint32_t segment;
+    std::uint32_t edge;
     double along;
     Point at;
   };
   std::vector<Corner> corners;
-  const auto segments = index.segments();
   for (const auto& [i, j] : pairs) {
-    const Segment &s = segments[i], &t = segments[j];
+    const Segment s = chains.edge(i), t = chains.edge(j);
     const auto share = [](const Segment& of, const Segment& by) {
       const auto a = static_cast<double>(orient(by.a, by.b, of.a)), b = static_cast<double>(orient(by.a, by.b, of.b));
       return a / (a - b);
@@ -212,18 +211,21 @@ FineRings split(const SegmentIndex& index, const std::vector<std::pair<std::uint
     corners.push_back({i, share(s, t), at});
     corners.push_back({j, share(t, s), at});
   }
-  std::sort(corners.begin(), corners.end(), [](const Corner& l, const Corner& r) {
-    return l.segment != r.segment ? l.segment < r.segment : l.along < r.along;
-  });
+  std::sort(corners.begin(), corners.end(),
+            [](const Corner& l, const Corner& r) { return l.edge != r.edge ? l.edge < r.edge : l.along < r.along; });
   const auto fine = [&](Point p) {
     return FinePoint{(std::int64_t{p.x} - origin.x) * steps, (std::int64_t{p.y} - origin.y) * steps};
   };
   FineRings out;
   auto next = corners.begin();
-  for (std::uint32_t i = 0; i < segments.size(); ++i) {
-    if (index.origin(i).edge == 0) out.emplace_back();
-    out.back().push_back(fine(segments[i].a));
-    for (; next != corners.end() && next->segment == i; ++next) out.back().push_back(fine(next->at));
+  std::uint32_t edge = 0;
+  for (const Ring& ring : rings) {
+    FineRing& to = out.emplace_back();
+    for (const Point p : ring) {
+      to.push_back(fine(p));
+      for (; next != corners.end() && next->edge == edge; ++next) to.push_back(fine(next->at));
+      ++edge;
+    }
   }
   return out;
 }
@@ -244,11 +246,11 @@ Regions tidied(std::vector<Ring> rings, Point origin) {
   // what that turned over is united away. Nearly always once is enough.
   constexpr int most_rounds = 4;
   for (int round = 0;; ++round) {
-    const SegmentIndex index(rings);
-    const auto pairs = index.crossing_pairs();
-    if (pairs.empty() || round == most_rounds) return nested_by_orientation(rings, index);
+    const RingChains chains(rings);
+    const auto pairs = chains.crossing_pairs();
+    if (pairs.empty() || round == most_rounds) return nested_by_orientation(rings, chains);
     constexpr Operation unite[] = {Operation::unite};
-    rings = std::move(swept(unite, WindingRule::positive, split(index, pairs, origin), {}, origin).front());
+    rings = std::move(swept(unite, WindingRule::positive, split(rings, chains, pairs, origin), {}, origin).front());
   }
 }
 std::vector<Regions> run(std::span<const Operation> operations, WindingRule rule, const FineRings& subject,

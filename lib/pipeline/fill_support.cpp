@@ -1,390 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/fill_support.h"
 
-#include "core/stop.h"
-#include "geometry/boolean.h"
-#include "geometry/convex.h"
-#include "geometry/offset.h"
-#include "geometry/simplify.h"
 #include "geometry/spatial_index.h"
 #include "geometry/touching.h"
-#include "infill/solid.h"
-#include "infill/sparse.h"
 #include "model/flow.h"
 #include "pipeline/beneath.h"
-#include "pipeline/feet.h"
 #include "pipeline/rungs_below.h"
+#include "pipeline/support_beads.h"
+#include "pipeline/support_columns.h"
 #include "support/lengths.h"
 #include "tasks/parallel.h"
 
-#include <algorithm>
 #include <iterator>
-#include <map>
 #include <numbers>
 #include <optional>
 #include <span>
-#include <tuple>
 #include <utility>
 
 namespace weft::pipeline {
 namespace {
 
-struct PatternRow {
-  SupportPattern pattern;
-  InfillPattern as;
-  bool connect;
-};
-constexpr std::array pattern_rows{
-    PatternRow{SupportPattern::lines, InfillPattern::lines, false},
-    PatternRow{SupportPattern::zigzag, InfillPattern::lines, true},
-    PatternRow{SupportPattern::grid, InfillPattern::grid, true},
-    PatternRow{SupportPattern::triangles, InfillPattern::triangles, true},
-    PatternRow{SupportPattern::concentric, InfillPattern::concentric, true},
-    PatternRow{SupportPattern::gyroid, InfillPattern::gyroid, true},
-};
-static_assert(in_order(pattern_rows, &PatternRow::pattern), "row i of pattern_rows is pattern i");
-
 void append(Regions& to, const Regions& more) {
   to.insert(to.end(), more.begin(), more.end());
 }
-
-/// The beads of a layer.
-struct Filled {
-  Beads beads;
-  std::vector<Point> hang_at;  ///< places where narrow roofs have nothing below
-};
-
-/// Lays the beads of one layer.
-class Filler {
- public:
-  Filler(const Settings& settings, const support::SupportLayer& layer, Point origin)
-      : s_(settings.support),
-        layer_(layer),
-        origin_(origin),
-        line_(support::line_width(s_, settings.machine.nozzle_diameter)),
-        span_(support::roof_span(settings.machine.nozzle_diameter)),
-        between_feet_(support::between_feet(settings.machine.nozzle_diameter)),
-        band_(flow::band(line_, layer.height)),
-        usual_band_(std::max<Um>(flow::band(line_, settings.layers.layer_height), 1)) {}
-
-  /// @param columns  what `column` made of the layer's
-  /// @param below    what the layer lies on
-  Filled filled(Beads columns, const Beneath& below) && {
-    beads_ = std::move(columns), below_ = &below;
-    branches();
-    for (const Regions* areas : {&layer_.bottom, &layer_.roof}) interface(*areas);
-    joists();
-    beads_ = on_feet(std::move(beads_), layer_.feet, {.foot = support::foot_length(line_), .apart = between_feet_});
-    for (Bead& bead : beads_) {
-      const auto tool = bead.role == Role::support ? s_.support_infill_extruder_nr : s_.support_interface_extruder_nr;
-      if (tool) bead.tool = static_cast<ToolId>(*tool);
-    }
-    return {std::move(beads_), std::move(hang_at_)};
-  }
-
-  /// Columns with walls.
-  Beads walled() && {
-    sparse(loops(layer_.columns, s_.support_wall_count.value_or(0), Role::support), share(), s_.support_pattern,
-           s_.support_infill_angle, Role::support);
-    return std::move(beads_);
-  }
-  /// A column without walls: hollow where it is narrow.
-  Beads column(const Region& column) && {
-    const Um half = support::hollow_column(usual_band_, share());
-    // Where narrow columns meet, two or three short lines would stand alone.
-    const double alone_mm = 2.5 * to_mm(half), least_mm2 = alone_mm * alone_mm;
-    const Box box = box_of(column.outer);
-    Regions wide = std::min(box.size().x, box.size().y) > 2 * half ? wider({column}, half) : Regions{};
-    std::erase_if(wide, [&](const Region& piece) { return area_mm2(piece) < least_mm2; });
-    if (wide.empty()) {
-      loops({column}, 1, Role::support, true);
-      return std::move(beads_);
-    }
-    sparse(wide, share(), s_.support_pattern, s_.support_infill_angle, Role::support);
-    if (s_.support_pattern == SupportPattern::zigzag) widen_lone_lines(column);
-    if (reaches_further(column, wide, half))
-      loops(geometry::opening(geometry::subtract({column}, coarsely(wide, half)), band_ / 4), 1, Role::support, true);
-    return std::move(beads_);
-  }
-
- private:
-  static constexpr double dense = 0.995;  // a share that leaves nothing between beads
-  static constexpr int most_loops = 1000;
-
-  /// What of an area is wider than twice that. Its corners may be as coarse as support is.
-  static Regions wider(const Regions& area, Um by) { return coarsely(coarsely(area, -by), by); }
-  static Regions coarsely(const Regions& from, Um by) {
-    constexpr Um coarse = 50;
-    return geometry::offset(from, {.by = by, .corner = geometry::Corner::round, .arc_tolerance = coarse});
-  }
-  static double radians(double degrees) { return degrees * std::numbers::pi / 180; }
-
-  /// A line of a zigzag that is joined to no other would stand there alone, as high as its column and as thin as a
-  /// bead, until the nozzle knocks it over: a loop around its share of the column is laid instead.
-  void widen_lone_lines(const Region& column) {
-    const double apart = usual_band_ / share();
-    if (apart < 2 * band_) return;  // lines that near lean on each other
-    const auto lone = std::stable_partition(beads_.begin(), beads_.end(), [&](const Bead& b) { return !straight(b); });
-    const Beads lines(std::make_move_iterator(lone), std::make_move_iterator(beads_.end()));
-    beads_.erase(lone, beads_.end());
-    for (const Bead& line : lines)
-      loops(geometry::intersect({column}, {{around(line, rounded(apart / 2)), {}}}), 1, Role::support, true);
-  }
-  /// Whether no bend of a bead leaves its chord by more than a bead: seen along it, it is as thin as one.
-  bool straight(const Bead& bead) const {
-    const Point a = bead.path.front().at, b = bead.path.back().at;
-    return !bead.closed && std::all_of(bead.path.begin(), bead.path.end(), [&](const auto& place) {
-      return geometry::foot_of(place.at, {a, b}).distance_um <= static_cast<double>(band_);
-    });
-  }
-  /// The rectangle of all that is no further from a bead's chord than that, along it or beside.
-  static Ring around(const Bead& bead, Um by) {
-    const Point a = bead.path.front().at, b = bead.path.back().at;
-    const double length = std::max(distance(a, b), 1.0);
-    const Point on{rounded((b.x - a.x) / length * by), rounded((b.y - a.y) / length * by)}, beside{-on.y, on.x};
-    return {a - on - beside, b + on - beside, b + on + beside, a - on + beside};
-  }
-
-  double share() const { return (layer_.first ? s_.support_initial_layer_density : s_.support_infill_rate) / 100; }
-  /// Whether any corner is further than that from what lies within.
-  static bool reaches_further(const Region& region, const Regions& within, Um by) {
-    const geometry::SegmentIndex edge(within);
-    const auto far = [&](Point p) { return !edge.nearest(p, by); };
-    return std::any_of(region.outer.begin(), region.outer.end(), far) ||
-           std::any_of(region.holes.begin(), region.holes.end(),
-                       [&](const Ring& hole) { return std::any_of(hole.begin(), hole.end(), far); });
-  }
-
-  /// Hollow, or nearly: loops, two around thick ones, and what support_tree_infill_rate puts inside.
-  void branches() {
-    const double double_mm = to_mm(s_.support_tree_branch_diameter_double_wall);
-    const double thick_mm2 = double_mm > 0 ? std::numbers::pi / 4 * double_mm * double_mm : 1e9;
-    for (const Region& branch : layer_.branches) {
-      const int usual = area_mm2(branch) > thick_mm2 ? 2 : 1;
-      const Regions inside =
-          loops({branch}, s_.support_wall_count.value_or(usual), Role::support, s_.support_tree_infill_rate <= 0);
-      sparse(inside, s_.support_tree_infill_rate / 100, s_.support_pattern, s_.support_infill_angle, Role::support);
-    }
-  }
-
-  void interface(const Regions& areas) {
-    const double share = s_.support_interface_density / 100;
-    const Regions inner = loops(areas, s_.support_roof_wall_count, Role::support_interface);
-    if (share < dense) {
-      sparse(inner, share, s_.support_interface_pattern, s_.support_infill_angle + 90, Role::support_interface);
-      return;
-    }
-    constexpr Um half = 1500;  // of what is narrow
-    for (const Region& area : inner) {
-      const Box box = box_of(area.outer);
-      const Regions wide = std::min(box.size().x, box.size().y) > 2 * half ? wider({area}, half) : Regions{};
-      if (wide.empty()) {
-        narrow({area});
-        continue;
-      }
-      const Regions reached = coarsely(wide, half / 2);
-      solid(geometry::intersect({area}, reached), s_.support_infill_angle + 90, Role::support_interface,
-            row_of(pattern_rows, s_.support_interface_pattern).connect);
-      narrow(geometry::opening(geometry::subtract({area}, reached), band_ / 4));
-    }
-  }
-  /// Strands from rim to rim of what is that narrow lie on little, beads along it cross what is below; but where many
-  /// of these hang, as between two lines of a column, strands across lie on it every so often.
-  void narrow(const Regions& areas) {
-    for (const Region& area : areas) {
-      stop_if_asked();
-      const std::size_t from = beads_.size();
-      loops({area}, most_loops, Role::support_interface);
-      if (below_->empty()) continue;
-      cross_if_better(area, from);
-      const auto at = below_->hanging_at(laid(from), span_);
-      hang_at_.insert(hang_at_.end(), at.begin(), at.end());
-    }
-  }
-  std::span<const Bead> laid(std::size_t from) const { return std::span(beads_).subspan(from); }
-  /// @param from  the first of the beads along it
-  void cross_if_better(const Region& area, std::size_t from) {
-    constexpr double many = 0.3;
-    const auto begin = static_cast<std::ptrdiff_t>(from);
-    const double hangs_um = below_->hanging_um(laid(from), span_);
-    if (hangs_um < span_ || hangs_um < many * length_um(laid(from))) return;
-    Beads along(std::make_move_iterator(beads_.begin() + begin), std::make_move_iterator(beads_.end()));
-    beads_.erase(beads_.begin() + begin, beads_.end());
-    solid({area}, s_.support_infill_angle + 90, Role::support_interface);
-    if (2 * below_->hanging_um(laid(from), span_) < hangs_um) return;
-    beads_.erase(beads_.begin() + begin, beads_.end());
-    std::move(along.begin(), along.end(), std::back_inserter(beads_));
-  }
-  static double length_um(std::span<const Bead> beads) {
-    double mm = 0;
-    for (const Bead& bead : beads) mm += length_mm(bead);
-    return mm * 1000;
-  }
-
-  /// Rims, and lines from branch to branch.
-  void joists() {
-    loops(layer_.joists.rimmed, 1, Role::support, true);
-    for (const Polyline& line : layer_.joists.lines) {
-      Bead bead;
-      bead.role = Role::support;
-      for (const Point p : line) bead.path.push_back({p, band_, 1.F});
-      beads_.push_back(std::move(bead));
-    }
-  }
-
-  /// Loops along the edge, from outside in; what is too thin for one gets a bead along its middle.
-  /// @param hollow  nobody asks for what is left inside
-  /// @return what is left inside
-  Regions loops(const Regions& areas, int count, Role role, bool hollow = false) {
-    Regions left = areas;
-    for (int n = 0; n < count && !left.empty(); ++n) {
-      stop_if_asked();
-      Regions next;
-      for (const Region& region : left)
-        for (Region& inside : loops_of(region, n, role, hollow && n + 1 == count)) next.push_back(std::move(inside));
-      left = std::move(next);
-    }
-    return left;
-  }
-  Regions loops_of(const Region& region, int inset, Role role, bool hollow) {
-    if (region.holes.empty())  // most branches: nothing of them is thin
-      if (auto middle = geometry::inset_of_convex(region.outer, band_ / 2)) {
-        loop(*middle, inset, role);
-        if (hollow) return {};
-        if (auto inside = geometry::inset_of_convex(region.outer, band_)) return {{*std::move(inside), {}}};
-        return geometry::offset({{*std::move(middle), {}}}, {.by = -band_ / 2});
-      }
-    const Regions middle = geometry::offset({region}, {.by = -band_ / 2});
-    for (const Region& part : middle) {
-      loop(part.outer, inset, role);
-      for (const Ring& hole : part.holes) loop(hole, inset, role);
-    }
-    if (reaches_further(region, middle, band_ * 8 / 10)) {  // than corners do
-      const Regions laid = geometry::offset(middle, {.by = band_ / 2 + 10});
-      solid(geometry::opening(geometry::subtract({region}, laid), band_ / 5), 0, role);
-    }
-    return hollow ? Regions{} : geometry::offset(middle, {.by = -band_ / 2});
-  }
-  void loop(const Ring& ring, int inset, Role role) {
-    Bead bead;
-    bead.role = role, bead.closed = true, bead.inset = static_cast<std::uint16_t>(inset);
-    for (const Point p : geometry::simplified(ring, support::outline_bound)) bead.path.push_back({p, band_, 1.F});
-    beads_.push_back(std::move(bead));
-  }
-
-  void sparse(const Regions& areas, double share, SupportPattern pattern, double angle, Role role) {
-    if (share <= 0 || areas.empty()) return;
-    const auto& row = row_of(pattern_rows, pattern);
-    if (share >= dense) return solid(areas, angle, role, row.connect);
-    const std::size_t from = beads_.size();
-    const infill::SparseStyle style{.pattern = row.as,
-                                    .density = share * band_ / usual_band_,
-                                    .band = band_,
-                                    .angle_rad = radians(angle),
-                                    .overlap_um = 0,
-                                    .connect = row.connect,
-                                    .z = layer_.z,
-                                    .origin = origin_,
-                                    .even = false,
-                                    .alone = true};
-    // A bead's end is round and reaches half its width further than its path.
-    for (const Region& region : geometry::offset(areas, {.by = -band_ / 2})) {
-      stop_if_asked();
-      infill::fill_sparse(region, style, beads_);
-    }
-    call(from, role);
-  }
-  void solid(const Regions& areas, double angle, Role role, bool connect = true) {
-    const std::size_t from = beads_.size();
-    for (const Region& region : areas) {
-      stop_if_asked();
-      infill::fill_solid(region,
-                         {.role = Role::solid_infill,
-                          .band = band_,
-                          .angle_rad = radians(angle),
-                          .overlap_um = 0,
-                          .connect = connect,
-                          .origin = origin_,
-                          .turned = false,
-                          .ordered = false},
-                         beads_);
-    }
-    call(from, role);
-  }
-  void call(std::size_t from, Role role) {
-    for (std::size_t i = from; i < beads_.size(); ++i) beads_[i].role = role;
-  }
-
-  const SupportSettings& s_;
-  const support::SupportLayer& layer_;
-  Point origin_;
-  Um line_;
-  Um span_;  ///< what a bead crosses without sagging
-  Um between_feet_, band_;
-  Um usual_band_;  ///< at layer_height: what shares are of, so that lines of layers of any height lie on each other
-  const Beneath* below_ = nullptr;
-  Beads beads_;
-  std::vector<Point> hang_at_;
-};
-
-/// Columns of all layers. Mostly they stand straight: of those that are the same on layers of one height, the first one
-/// is filled.
-class Columns {
- public:
-  Columns(const Settings& settings, const std::vector<support::SupportLayer>& layers, Point origin)
-      : settings_(settings), layers_(layers), origin_(origin) {
-    areas_ = tasks::parallel_map(
-        layers.size(), [&](std::size_t k) { return geometry::simplified(layers[k].columns, support::outline_bound); });
-    find_like();
-    filled_ = tasks::parallel_map(firsts_.size(), [&](std::size_t i) {
-      const auto [layer, region] = firsts_[i];
-      return Filler(settings_, layers_[layer], origin_).column(areas_[layer][region]);
-    });
-  }
-
-  Beads of(std::size_t layer) const {
-    Beads out;
-    for (const std::size_t i : like_[layer]) out.insert(out.end(), filled_[i].begin(), filled_[i].end());
-    return out;
-  }
-
- private:
-  struct Place {
-    std::size_t layer, region;
-  };
-  /// What tells columns from each other, roughly.
-  using Hint = std::tuple<Um, Um, bool, std::size_t, Point, Point>;
-  Hint hint_of(Place place) const {
-    const auto& layer = layers_[place.layer];
-    const Region& region = areas_[place.layer][place.region];
-    const Um at = settings_.support.support_pattern == SupportPattern::gyroid ? layer.z : 0;
-    const std::size_t n = region.outer.size();
-    return {layer.height, at, layer.first, n, region.outer.front(), region.outer[n / 2]};
-  }
-  void find_like() {
-    std::map<Hint, std::vector<std::size_t>> known;  // firsts_
-    like_.resize(layers_.size());
-    for (std::size_t k = 0; k < layers_.size(); ++k)
-      for (std::size_t r = 0; r < areas_[k].size(); ++r) {
-        auto& alike = known[hint_of({k, r})];
-        const auto same = std::find_if(alike.begin(), alike.end(), [&](std::size_t i) {
-          return areas_[firsts_[i].layer][firsts_[i].region] == areas_[k][r];
-        });
-        like_[k].push_back(same != alike.end() ? *same : firsts_.size());
-        if (same != alike.end()) continue;
-        alike.push_back(firsts_.size());
-        firsts_.push_back({k, r});
-      }
-  }
-
-  const Settings& settings_;
-  const std::vector<support::SupportLayer>& layers_;
-  Point origin_;
-  std::vector<Regions> areas_;
-  std::vector<Place> firsts_;
-  std::vector<Beads> filled_;                   ///< beside firsts_
-  std::vector<std::vector<std::size_t>> like_;  ///< of each layer: which of firsts_ its columns are like
-};
 
 /// Fills layers that know what they lie on.
 class Layers {
@@ -397,14 +35,12 @@ class Layers {
     if (settings.support.support_wall_count.value_or(0) == 0)
       columns_.emplace(settings, layers, origin);
     else
-      walled_ = tasks::parallel_map(layers.size(),
-                                    [&](std::size_t k) { return Filler(settings, layers[k], origin).walled(); });
+      walled_ = tasks::parallel_map(layers.size(), [&](std::size_t k) { return fill_walled_columns(to_fill(k)); });
   }
 
   std::vector<PrintedLayer> filled() && {
-    auto filled = tasks::parallel_map(layers_.size(), [&](std::size_t k) {
-      return Filler(settings_, layers_[k], origin_).filled(columns_of(k), beneath(k));
-    });
+    auto filled = tasks::parallel_map(
+        layers_.size(), [&](std::size_t k) { return fill_support_layer(to_fill(k), columns_of(k), beneath(k)); });
     std::vector<std::vector<Point>> hang_above(layers_.size());
     for (std::size_t k = 0; k < layers_.size(); ++k)
       if (const auto& at = filled[k].hang_at; !at.empty())
@@ -416,6 +52,7 @@ class Layers {
   }
 
  private:
+  SupportToFill to_fill(std::size_t k) const { return {settings_, layers_[k], origin_}; }
   Beads columns_of(std::size_t k) const { return columns_ ? columns_->of(k) : walled_[k]; }
   /// The layers that one lies on, also where it must sag by half its height for that.
   std::vector<std::size_t> below(std::size_t k) const {
@@ -476,8 +113,8 @@ class Layers {
   const std::vector<support::SupportLayer>& layers_;
   Point origin_;
   Um line_;
-  std::optional<Columns> columns_;  ///< without walls
-  std::vector<Beads> walled_;       ///< columns with walls, by layer
+  std::optional<SupportColumns> columns_;  ///< without walls
+  std::vector<Beads> walled_;              ///< columns with walls, by layer
 };
 
 }  // namespace

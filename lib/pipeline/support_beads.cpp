@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/support_beads.h"
+
+#include "core/stop.h"
+#include "geometry/boolean.h"
+#include "geometry/convex.h"
+#include "geometry/offset.h"
+#include "geometry/simplify.h"
+#include "geometry/spatial_index.h"
+#include "infill/solid.h"
+#include "infill/sparse.h"
+#include "model/flow.h"
+#include "pipeline/feet.h"
+#include "support/lengths.h"
+
+#include <algorithm>
+#include <iterator>
+#include <numbers>
+#include <span>
+#include <utility>
+
+namespace weft::pipeline {
+namespace {
+
+struct PatternRow {
+  SupportPattern pattern;
+  InfillPattern as;
+  bool connect;
+};
+constexpr std::array pattern_rows{
+    PatternRow{SupportPattern::lines, InfillPattern::lines, false},
+    PatternRow{SupportPattern::zigzag, InfillPattern::lines, true},
+    PatternRow{SupportPattern::grid, InfillPattern::grid, true},
+    PatternRow{SupportPattern::triangles, InfillPattern::triangles, true},
+    PatternRow{SupportPattern::concentric, InfillPattern::concentric, true},
+    PatternRow{SupportPattern::gyroid, InfillPattern::gyroid, true},
+};
+static_assert(in_order(pattern_rows, &PatternRow::pattern), "row i of pattern_rows is pattern i");
+
+/// Lays the beads of one layer.
+class Filler {
+ public:
+  explicit Filler(const SupportToFill& what)
+      : s_(what.settings.support),
+        layer_(what.layer),
+        origin_(what.origin),
+        line_(support::line_width(s_, what.settings.machine.nozzle_diameter)),
+        span_(support::roof_span(what.settings.machine.nozzle_diameter)),
+        between_feet_(support::between_feet(what.settings.machine.nozzle_diameter)),
+        band_(flow::band(line_, layer_.height)),
+        usual_band_(std::max<Um>(flow::band(line_, what.settings.layers.layer_height), 1)) {}
+
+  /// @param columns  what `column` made of the layer's
+  /// @param below    what the layer lies on
+  SupportBeads filled(Beads columns, const Beneath& below) && {
+    beads_ = std::move(columns), below_ = &below;
+    branches();
+    for (const Regions* areas : {&layer_.bottom, &layer_.roof}) interface(*areas);
+    joists();
+    beads_ = on_feet(std::move(beads_), layer_.feet, {.foot = support::foot_length(line_), .apart = between_feet_});
+    for (Bead& bead : beads_) {
+      const auto tool = bead.role == Role::support ? s_.support_infill_extruder_nr : s_.support_interface_extruder_nr;
+      if (tool) bead.tool = static_cast<ToolId>(*tool);
+    }
+    return {std::move(beads_), std::move(hang_at_)};
+  }
+
+  /// Columns with walls.
+  Beads walled() && {
+    sparse(loops(layer_.columns, s_.support_wall_count.value_or(0), Role::support), share(), s_.support_pattern,
+           s_.support_infill_angle, Role::support);
+    return std::move(beads_);
+  }
+  /// A column without walls: hollow where it is narrow.
+  Beads column(const Region& column) && {
+    const Um half = support::hollow_column(usual_band_, share());
+    // Where narrow columns meet, two or three short lines would stand alone.
+    const double alone_mm = 2.5 * to_mm(half), least_mm2 = alone_mm * alone_mm;
+    const Box box = box_of(column.outer);
+    Regions wide = std::min(box.size().x, box.size().y) > 2 * half ? wider({column}, half) : Regions{};
+    std::erase_if(wide, [&](const Region& piece) { return area_mm2(piece) < least_mm2; });
+    if (wide.empty()) {
+      loops({column}, 1, Role::support, true);
+      return std::move(beads_);
+    }
+    sparse(wide, share(), s_.support_pattern, s_.support_infill_angle, Role::support);
+    if (s_.support_pattern == SupportPattern::zigzag) widen_lone_lines(column);
+    if (reaches_further(column, wide, half))
+      loops(geometry::opening(geometry::subtract({column}, coarsely(wide, half)), band_ / 4), 1, Role::support, true);
+    return std::move(beads_);
+  }
+
+ private:
+  static constexpr double dense = 0.995;  // a share that leaves nothing between beads
+  static constexpr int most_loops = 1000;
+
+  /// What of an area is wider than twice that. Its corners may be as coarse as support is.
+  static Regions wider(const Regions& area, Um by) { return coarsely(coarsely(area, -by), by); }
+  static Regions coarsely(const Regions& from, Um by) {
+    constexpr Um coarse = 50;
+    return geometry::offset(from, {.by = by, .corner = geometry::Corner::round, .arc_tolerance = coarse});
+  }
+  static double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+  /// A line of a zigzag that is joined to no other would stand there alone, as high as its column and as thin as a
+  /// bead, until the nozzle knocks it over: a loop around its share of the column is laid instead.
+  void widen_lone_lines(const Region& column) {
+    const double apart = usual_band_ / share();
+    if (apart < 2 * band_) return;  // lines that near lean on each other
+    const auto lone = std::stable_partition(beads_.begin(), beads_.end(), [&](const Bead& b) { return !straight(b); });
+    const Beads lines(std::make_move_iterator(lone), std::make_move_iterator(beads_.end()));
+    beads_.erase(lone, beads_.end());
+    for (const Bead& line : lines)
+      loops(geometry::intersect({column}, {{around(line, rounded(apart / 2)), {}}}), 1, Role::support, true);
+  }
+  /// Whether no bend of a bead leaves its chord by more than a bead: seen along it, it is as thin as one.
+  bool straight(const Bead& bead) const {
+    const Point a = bead.path.front().at, b = bead.path.back().at;
+    return !bead.closed && std::all_of(bead.path.begin(), bead.path.end(), [&](const auto& place) {
+      return geometry::foot_of(place.at, {a, b}).distance_um <= static_cast<double>(band_);
+    });
+  }
+  /// The rectangle of all that is no further from a bead's chord than that, along it or beside.
+  static Ring around(const Bead& bead, Um by) {
+    const Point a = bead.path.front().at, b = bead.path.back().at;
+    const double length = std::max(distance(a, b), 1.0);
+    const Point on{rounded((b.x - a.x) / length * by), rounded((b.y - a.y) / length * by)}, beside{-on.y, on.x};
+    return {a - on - beside, b + on - beside, b + on + beside, a - on + beside};
+  }
+
+  double share() const { return (layer_.first ? s_.support_initial_layer_density : s_.support_infill_rate) / 100; }
+  /// Whether any corner is further than that from what lies within.
+  static bool reaches_further(const Region& region, const Regions& within, Um by) {
+    const geometry::SegmentIndex edge(within);
+    const auto far = [&](Point p) { return !edge.nearest(p, by); };
+    return std::any_of(region.outer.begin(), region.outer.end(), far) ||
+           std::any_of(region.holes.begin(), region.holes.end(),
+                       [&](const Ring& hole) { return std::any_of(hole.begin(), hole.end(), far); });
+  }
+
+  /// Hollow, or nearly: loops, two around thick ones, and what support_tree_infill_rate puts inside.
+  void branches() {
+    const double double_mm = to_mm(s_.support_tree_branch_diameter_double_wall);
+    const double thick_mm2 = double_mm > 0 ? std::numbers::pi / 4 * double_mm * double_mm : 1e9;
+    for (const Region& branch : layer_.branches) {
+      const int usual = area_mm2(branch) > thick_mm2 ? 2 : 1;
+      const Regions inside =
+          loops({branch}, s_.support_wall_count.value_or(usual), Role::support, s_.support_tree_infill_rate <= 0);
+      sparse(inside, s_.support_tree_infill_rate / 100, s_.support_pattern, s_.support_infill_angle, Role::support);
+    }
+  }
+
+  void interface(const Regions& areas) {
+    const double share = s_.support_interface_density / 100;
+    const Regions inner = loops(areas, s_.support_roof_wall_count, Role::support_interface);
+    if (share < dense) {
+      sparse(inner, share, s_.support_interface_pattern, s_.support_infill_angle + 90, Role::support_interface);
+      return;
+    }
+    constexpr Um half = 1500;  // of what is narrow
+    for (const Region& area : inner) {
+      const Box box = box_of(area.outer);
+      const Regions wide = std::min(box.size().x, box.size().y) > 2 * half ? wider({area}, half) : Regions{};
+      if (wide.empty()) {
+        narrow({area});
+        continue;
+      }
+      const Regions reached = coarsely(wide, half / 2);
+      solid(geometry::intersect({area}, reached), s_.support_infill_angle + 90, Role::support_interface,
+            row_of(pattern_rows, s_.support_interface_pattern).connect);
+      narrow(geometry::opening(geometry::subtract({area}, reached), band_ / 4));
+    }
+  }
+  /// Strands from rim to rim of what is that narrow lie on little, beads along it cross what is below; but where many
+  /// of these hang, as between two lines of a column, strands across lie on it every so often.
+  void narrow(const Regions& areas) {
+    for (const Region& area : areas) {
+      stop_if_asked();
+      const std::size_t from = beads_.size();
+      loops({area}, most_loops, Role::support_interface);
+      if (below_->empty()) continue;
+      cross_if_better(area, from);
+      const auto at = below_->hanging_at(laid(from), span_);
+      hang_at_.insert(hang_at_.end(), at.begin(), at.end());
+    }
+  }
+  std::span<const Bead> laid(std::size_t from) const { return std::span(beads_).subspan(from); }
+  /// @param from  the first of the beads along it
+  void cross_if_better(const Region& area, std::size_t from) {
+    constexpr double many = 0.3;
+    const auto begin = static_cast<std::ptrdiff_t>(from);
+    const double hangs_um = below_->hanging_um(laid(from), span_);
+    if (hangs_um < span_ || hangs_um < many * length_um(laid(from))) return;
+    Beads along(std::make_move_iterator(beads_.begin() + begin), std::make_move_iterator(beads_.end()));
+    beads_.erase(beads_.begin() + begin, beads_.end());
+    solid({area}, s_.support_infill_angle + 90, Role::support_interface);
+    if (2 * below_->hanging_um(laid(from), span_) < hangs_um) return;
+    beads_.erase(beads_.begin() + begin, beads_.end());
+    std::move(along.begin(), along.end(), std::back_inserter(beads_));
+  }
+  static double length_um(std::span<const Bead> beads) {
+    double mm = 0;
+    for (const Bead& bead : beads) mm += length_mm(bead);
+    return mm * 1000;
+  }
+
+  /// Rims, and lines from branch to branch.
+  void joists() {
+    loops(layer_.joists.rimmed, 1, Role::support, true);
+    for (const Polyline& line : layer_.joists.lines) {
+      Bead bead;
+      bead.role = Role::support;
+      for (const Point p : line) bead.path.push_back({p, band_, 1.F});
+      beads_.push_back(std::move(bead));
+    }
+  }
+
+  /// Loops along the edge, from outside in; what is too thin for one gets a bead along its middle.
+  /// @param hollow  nobody asks for what is left inside
+  /// @return what is left inside
+  Regions loops(const Regions& areas, int count, Role role, bool hollow = false) {
+    Regions left = areas;
+    for (int n = 0; n < count && !left.empty(); ++n) {
+      stop_if_asked();
+      Regions next;
+      for (const Region& region : left)
+        for (Region& inside : loops_of(region, n, role, hollow && n + 1 == count)) next.push_back(std::move(inside));
+      left = std::move(next);
+    }
+    return left;
+  }
+  Regions loops_of(const Region& region, int inset, Role role, bool hollow) {
+    if (region.holes.empty())  // most branches: nothing of them is thin
+      if (auto middle = geometry::inset_of_convex(region.outer, band_ / 2)) {
+        loop(*middle, inset, role);
+        if (hollow) return {};
+        if (auto inside = geometry::inset_of_convex(region.outer, band_)) return {{*std::move(inside), {}}};
+        return geometry::offset({{*std::move(middle), {}}}, {.by = -band_ / 2});
+      }
+    const Regions middle = geometry::offset({region}, {.by = -band_ / 2});
+    for (const Region& part : middle) {
+      loop(part.outer, inset, role);
+      for (const Ring& hole : part.holes) loop(hole, inset, role);
+    }
+    if (reaches_further(region, middle, band_ * 8 / 10)) {  // than corners do
+      const Regions laid = geometry::offset(middle, {.by = band_ / 2 + 10});
+      solid(geometry::opening(geometry::subtract({region}, laid), band_ / 5), 0, role);
+    }
+    return hollow ? Regions{} : geometry::offset(middle, {.by = -band_ / 2});
+  }
+  void loop(const Ring& ring, int inset, Role role) {
+    Bead bead;
+    bead.role = role, bead.closed = true, bead.inset = static_cast<std::uint16_t>(inset);
+    for (const Point p : geometry::simplified(ring, support::outline_bound)) bead.path.push_back({p, band_, 1.F});
+    beads_.push_back(std::move(bead));
+  }
+
+  void sparse(const Regions& areas, double share, SupportPattern pattern, double angle, Role role) {
+    if (share <= 0 || areas.empty()) return;
+    const auto& row = row_of(pattern_rows, pattern);
+    if (share >= dense) return solid(areas, angle, role, row.connect);
+    const std::size_t from = beads_.size();
+    const infill::SparseStyle style{.pattern = row.as,
+                                    .density = share * band_ / usual_band_,
+                                    .band = band_,
+                                    .angle_rad = radians(angle),
+                                    .overlap_um = 0,
+                                    .connect = row.connect,
+                                    .z = layer_.z,
+                                    .origin = origin_,
+                                    .even = false,
+                                    .alone = true};
+    // A bead's end is round and reaches half its width further than its path.
+    for (const Region& region : geometry::offset(areas, {.by = -band_ / 2})) {
+      stop_if_asked();
+      infill::fill_sparse(region, style, beads_);
+    }
+    call(from, role);
+  }
+  void solid(const Regions& areas, double angle, Role role, bool connect = true) {
+    const std::size_t from = beads_.size();
+    for (const Region& region : areas) {
+      stop_if_asked();
+      infill::fill_solid(region,
+                         {.role = Role::solid_infill,
+                          .band = band_,
+                          .angle_rad = radians(angle),
+                          .overlap_um = 0,
+                          .connect = connect,
+                          .origin = origin_,
+                          .turned = false,
+                          .ordered = false},
+                         beads_);
+    }
+    call(from, role);
+  }
+  void call(std::size_t from, Role role) {
+    for (std::size_t i = from; i < beads_.size(); ++i) beads_[i].role = role;
+  }
+
+  const SupportSettings& s_;
+  const support::SupportLayer& layer_;
+  Point origin_;
+  Um line_;
+  Um span_;  ///< what a bead crosses without sagging
+  Um between_feet_, band_;
+  Um usual_band_;  ///< at layer_height: what shares are of, so that lines of layers of any height lie on each other
+  const Beneath* below_ = nullptr;
+  Beads beads_;
+  std::vector<Point> hang_at_;
+};
+
+}  // namespace
+
+Beads fill_column(const SupportToFill& what, const Region& column) {
+  return Filler(what).column(column);
+}
+
+Beads fill_walled_columns(const SupportToFill& what) {
+  return Filler(what).walled();
+}
+
+SupportBeads fill_support_layer(const SupportToFill& what, Beads columns, const Beneath& below) {
+  return Filler(what).filled(std::move(columns), below);
+}
+
+}  // namespace weft::pipeline

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "model/bead.h"
+#include "pipeline/beneath.h"
+#include "settings/settings.h"
+#include "support/support.h"
+
+#include <vector>
+
+namespace weft::pipeline {
+
+/// The beads of a layer of support.
+struct SupportBeads {
+  Beads beads;
+  std::vector<Point> hang_at;  ///< places where narrow roofs have nothing below
+};
+
+/// A layer of support that is to be filled.
+struct SupportToFill {
+  const Settings& settings;
+  const support::SupportLayer& layer;
+  Point origin;  ///< where patterns are anchored: one point for all layers
+};
+
+/// A column without walls: hollow where it is narrow.
+Beads fill_column(const SupportToFill& what, const Region& column);
+/// A layer's columns, which have walls.
+Beads fill_walled_columns(const SupportToFill& what);
+/// @param columns  what became of the layer's
+/// @param below    what the layer lies on
+SupportBeads fill_support_layer(const SupportToFill& what, Beads columns, const Beneath& below);
+
+}  // namespace weft::pipeline

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "model/bead.h"
+#include "settings/settings.h"
+#include "support/support.h"
+
+#include <vector>
+
+namespace weft::pipeline {
+
+/// Columns without walls, of all layers. Mostly they stand straight: of those that are the same on layers of one
+/// height, the first one is filled.
+class SupportColumns {
+ public:
+  /// @param origin where patterns are anchored: one point for all layers
+  SupportColumns(const Settings& settings, const std::vector<support::SupportLayer>& layers, Point origin);
+
+  Beads of(std::size_t layer) const;
+
+ private:
+  struct Place {
+    std::size_t layer, region;
+  };
+  void find_like(const Settings& settings, const std::vector<support::SupportLayer>& layers,
+                 const std::vector<Regions>& areas);
+
+  std::vector<Place> firsts_;
+  std::vector<Beads> filled_;                   ///< beside firsts_
+  std::vector<std::vector<std::size_t>> like_;  ///< of each layer: which of firsts_ its columns are like
+};
+
+}  // namespace weft::pipeline
