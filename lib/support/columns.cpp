@@ -5,10 +5,12 @@
 #include "geometry/boolean.h"
 #include "geometry/clip_lines.h"
 #include "geometry/simplify.h"
+#include "geometry/touching.h"
 #include "geometry/trimmed.h"
 #include "support/branch_areas.h"
 #include "support/lengths.h"
 #include "support/patches.h"
+#include "support/steady.h"
 #include "tasks/parallel.h"
 
 #include <algorithm>
@@ -241,13 +243,17 @@ constexpr Um corner_bound = 40_um;
 class Falling {
  public:
   /// @param height  of the highest of them
-  Falling(const Room& room, const Stack& stack, const std::vector<Regions>& shadow, Um height)
+  /// @param top     of that one, where they may get wider downwards so that they stand
+  Falling(const Room& room, const Stack& stack, const std::vector<Regions>& shadow, Um height,
+          std::optional<Um> top = {})
       : s_(room.settings()),
         room_(room),
         stack_(stack),
         shadow_(shadow),
         line_(line_width(s_, room.object().nozzle)),
         lean_(s_, line_, height),
+        steady_(line_),
+        top_(top),
         towers_(s_),
         levels_(stack.levels.size()),
         less_(stack.levels.size(), 0) {}
@@ -275,6 +281,7 @@ class Falling {
     const auto& level = stack_.levels[k];
     if (s_.support_conical_enabled && !falling_.empty() && lean_.narrow(level.height, falling_))
       edge_.reset(), less_[k] = 1;
+    if (top_ && steady_.widen(*top_ - level.z, falling_)) edge_.reset();
     towers_.begin(contacts, level.z);
     if (towers_.add(level.z, falling_) || !contacts.empty() || !given.empty()) edge_.reset();
     if (!contacts.empty()) {
@@ -344,6 +351,8 @@ class Falling {
   const std::vector<Regions>& shadow_;
   Um line_;
   Lean lean_;
+  Steady steady_;
+  std::optional<Um> top_;
   Towers towers_;
   Regions falling_, close_;
   std::vector<std::pair<std::size_t, Regions>> held_;  ///< the last contacts, by level
@@ -381,12 +390,16 @@ std::vector<Regions> columns(const Room& room, const Stack& stack, const std::ve
   const Patches patches(contacts, apart(s, room.object().nozzle));
   auto of_patch = tasks::parallel_map(patches.all().size(), [&](std::size_t i) {
     const Patch& patch = patches.all()[i];
-    return Falling(room, stack, shadow, height_of(patch)).under(patch, nullptr);
+    const std::optional<Um> top =
+        s.support_conical_enabled ? std::nullopt : std::optional(stack.levels[patch.contacts.back().first].z);
+    return Falling(room, stack, shadow, height_of(patch), top).under(patch, nullptr);
   });
   std::vector<Regions> out(stack.levels.size());
   for (auto& levels : of_patch)
     for (std::size_t k = 0; k < levels.size(); ++k)
       out[k].insert(out[k].end(), std::make_move_iterator(levels[k].begin()), std::make_move_iterator(levels[k].end()));
+  // What got wider may meet others.
+  tasks::for_each_index(out.size(), [&](std::size_t k) { out[k] = geometry::joined(out[k]); });
   return out;
 }
 
