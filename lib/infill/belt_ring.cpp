@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "infill/belt_ring.h"
 
-#include "geometry/spatial_index.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -163,12 +161,41 @@ void BeltRing::open_solid_runs(double longest_um) {
   }
 }
 
-void BeltRing::find_lines() {
+LinesBefore::LinesBefore(const std::vector<BeltLine>& lines, double band) : band_(band) {
+  std::vector<geometry::Segment> segments;
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const auto& [path, closed] = lines[k];
+    ends_.push_back({path.front(), path.back(), !closed});
+    for (std::size_t i = closed ? 0 : 1; i < path.size(); ++i) {
+      segments.push_back({path[i == 0 ? path.size() - 1 : i - 1], path[i]});
+      of_.push_back(static_cast<std::uint32_t>(k));
+    }
+  }
+  index_ = geometry::SegmentIndex(std::move(segments));
+}
+
+double LinesBefore::within(Point at) const {
+  if (ends_.empty()) return std::numeric_limits<double>::infinity();
+  const double farthest = 2 * band_;
+  const auto nearest = index_.nearest(at, farthest);
+  if (!nearest) return -farthest;
+  const Ends& ends = ends_[of_[nearest->segment]];
+  if (!ends.open) return std::numeric_limits<double>::infinity();
+  const double from_end = std::min(distance(nearest->at, ends.first), distance(nearest->at, ends.last));
+  if (from_end > 0) return from_end;
+  return -std::sqrt(std::max(0.0, nearest->distance_um * nearest->distance_um - band_ * band_));
+}
+
+void BeltRing::find_lines(const LinesBefore& before) {
   const auto too_narrow = [&](const Sample& s) { return s.width + cell_ < depth_; };
   if (std::all_of(samples_.begin(), samples_.end(), too_narrow)) return;
   find_means();
   measure_doubtful(1), measure_doubtful(-1);
-  for (Sample& s : samples_) s.line = s.free && s.over >= 0;
+  for (Sample& s : samples_) {
+    if (!s.free || s.over < 0) continue;
+    s.within = before.within(s.at), s.over = std::min(s.over, s.within);
+    s.line = s.over >= 0;
+  }
 }
 
 /// Means of the widths around each place, as far as a line may go on there.
@@ -237,7 +264,10 @@ std::vector<BeltRing::Run> BeltRing::turnable(bool line) const {
   std::vector<Run> out = runs([&](const Sample& s) { return s.line == line; });
   std::erase_if(out, [&](const Run& run) {
     bool may = run.count < samples_.size();
-    for (std::size_t k = 0; k < run.count && may; ++k) may = line || sample(run.first + k).free;
+    for (std::size_t k = 0; k < run.count && may; ++k) {
+      const Sample& s = sample(run.first + k);
+      may = line || (s.free && s.within >= 0);
+    }
     return !may;
   });
   return out;

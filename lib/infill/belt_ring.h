@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "core/polygon.h"
+#include "geometry/spatial_index.h"
 #include "infill/belts.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -31,6 +33,27 @@ class LengthLimit {
   std::vector<double> near_;
 };
 
+/// The lines one nearer to the wall: a line lies beside one of them, else there would be a slit between it and the
+/// wall.
+class LinesBefore {
+ public:
+  /// @param lines none: the next ones lie beside the wall itself
+  /// @param band  from a line to the next, µm
+  LinesBefore(const std::vector<BeltLine>& lines, double band);
+  /// How far that place of the next line is from where the line beside it ends, µm along it: negative beyond its end.
+  double within(Point at) const;
+
+ private:
+  struct Ends {
+    Point first, last;
+    bool open = false;
+  };
+  geometry::SegmentIndex index_;
+  std::vector<Ends> ends_;         // of each line
+  std::vector<std::uint32_t> of_;  // which line a segment is of
+  double band_;
+};
+
 /// A ring along the wall that a belt's line may run on, and how wide the belt is along it.
 class BeltRing {
  public:
@@ -40,8 +63,8 @@ class BeltRing {
 
   // To be done in this order, and each step with a limit by what all rings of that depth add to it.
   void add_solid_runs(LengthLimit& limit) const;
-  void open_solid_runs(double longest_um);  ///< longer ones are no spike between belts: wider than any belt
-  void find_lines();                        ///< where the belt's mean width asks for one
+  void open_solid_runs(double longest_um);     ///< longer ones are no spike between belts: wider than any belt
+  void find_lines(const LinesBefore& before);  ///< where the belt's mean width asks for one
   void add_pauses(LengthLimit& limit) const { add_runs(false, limit); }
   void close_pauses(double shortest_um) { turn_short(false, shortest_um); }
   void add_lines(LengthLimit& limit) const { add_runs(true, limit); }
@@ -59,6 +82,7 @@ class BeltRing {
     double length = 0;
     double width = 0;        // of the belt there, from the wall
     double over = 0;         // by how much its mean is within the limits between which there is a line
+    double within = beyond;  // the ends of the line beside it, of those one nearer to the wall
     bool free = false;       // solid or sparse: a line may go on there
     bool line = false;       // there is one
     bool all_solid = false;  // from wall to wall

@@ -78,7 +78,7 @@ std::vector<RingOf> rings_at(double depth, std::vector<Work>& all, const BeltGro
 }
 
 /// Decides where the rings of one depth have lines: a step for all, then the next.
-void decide(std::vector<RingOf>& rings) {
+void decide(std::vector<RingOf>& rings, const LinesBefore& before) {
   const auto by_limit = [&](auto add, auto apply) {
     LengthLimit limit;
     for (const RingOf& each : rings) (each.ring.*add)(limit);
@@ -86,7 +86,7 @@ void decide(std::vector<RingOf>& rings) {
     for (RingOf& each : rings) (each.ring.*apply)(um);
   };
   by_limit(&BeltRing::add_solid_runs, &BeltRing::open_solid_runs);
-  for (RingOf& each : rings) each.ring.find_lines();
+  for (RingOf& each : rings) each.ring.find_lines(before);
   by_limit(&BeltRing::add_pauses, &BeltRing::close_pauses);
   by_limit(&BeltRing::add_lines, &BeltRing::drop_lines);
 }
@@ -100,12 +100,14 @@ Belts find_belts(const Regions& inside, const Mask& solid, const Mask& sparse, c
   std::vector<Work> all;
   for (std::size_t i = 0; i < inside.size(); ++i) all.push_back({{i, {}, {}}, {in_few_points(inside[i])}, {}});
   const double half = band / 2.0;
+  std::vector<BeltLine> last;  // of the depth before
   for (int k = 1; k <= most_belt_lines; ++k) {
     std::vector<RingOf> rings = rings_at((2 * k - 1) * half, all, ground);
-    decide(rings);
+    decide(rings, LinesBefore(std::exchange(last, {}), ground.band));
     for (const auto& [work, ring] : rings)
       for (BeltLine& line : ring.lines()) {
         draw(line, half, half + (k == 1 ? over_wall : over_line), work->area);
+        last.push_back(line);
         work->of.lines.push_back(std::move(line));
         work->wide_enough = true;
       }

@@ -94,7 +94,9 @@ void lay(const BeltLine& line, const SolidStyle& style, std::uint32_t part, Bead
   if (bead.path.size() > (line.closed ? 2U : 1U)) beads.push_back(std::move(bead));
 }
 
-/// Across the bridge that most of an area lies on: its strands then carry each line at many places.
+/// Across the bridge that most of an area lies on: its strands then carry each line at many places. Lines that cross
+/// them at 60° and more are carried at about as many: those of a strip run along it.
+constexpr double nearly_across = 0.866;
 std::optional<double> angle_across_bridges(const Region& region, std::span<const BridgeArea> below) {
   const Box box = weft::box_of(region.outer);
   for (const BridgeArea& bridge : below) {
@@ -347,7 +349,9 @@ FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const 
   const auto solid_angle = [&](const SolidStyle& style, const Region& region) {
     const auto across =
         shells.skin_angle || !style.turned ? std::nullopt : angle_across_bridges(region, input.bridges_below);
-    return across ? *across : own_angle(style, region);
+    if (!across) return own_angle(style, region);
+    const auto along = angle_along_strip(region, style.band);
+    return along && std::abs(std::cos(*along - *across)) > nearly_across ? *along : *across;
   };
   for (const PartAreas& areas : input.areas) {
     for (const BridgeArea& area : areas.bridges)

@@ -10,6 +10,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 
 namespace weft::infill {
 namespace {
@@ -122,6 +123,7 @@ class Filler {
       for (const std::uint32_t waiting : chains.above[c])
         if (--chains.waits_for[waiting] == 0) ready.push_back(waiting);
     }
+    end_bead();
   }
 
   /// What the ends reach over the edge comes out of the lines' width: the wall there has its plastic already.
@@ -205,31 +207,60 @@ class Filler {
     return end - i < least ? std::pair<std::size_t, int>{0, 0} : std::pair{end - i, strands};
   }
 
-  /// There and back: each line a bead, or joined with the last one by a turn.
+  /// There and back: each line a bead, or joined with the last one by a turn, also with the last one of the chain that
+  /// was laid before where this one goes on from it.
   void emit_lines(std::span<const std::uint32_t> lines) {
-    const std::uint32_t first = lines.front();
-    bool rightwards = !started_ || std::abs(left_[first] - at_.x) <= std::abs(right_[first] - at_.x);
-    std::vector<Vertex> path;
-    double start = rightwards ? left_[first] : right_[first];
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const std::uint32_t here = lines[i];
-      double end = rightwards ? right_[here] : left_[here];
-      double next_start = 0;
-      const double turn = i + 1 < lines.size() && style_.connect ? turn_length(here, lines[i + 1], rightwards) : 0;
-      const double pull = rightwards ? -turn / 2 : turn / 2;
-      if (i + 1 < lines.size()) next_start = (rightwards ? right_ : left_)[lines[i + 1]];
-      const double least = least_left * lines_.spacing;
-      const bool joined =
-          turn > 0 && (end + pull - start) * (rightwards ? 1 : -1) > least && length(lines[i + 1]) > turn + least;
-      prolonged_ += all_[here].from - left_[here] + right_[here] - all_[here].to;
-      append_line(path, here, start, joined ? end + pull : end);
-      if (!joined) {
-        add(path, style_.role);
-        path.clear();
+      const std::optional<Joint> joint = open_ ? joint_to(here) : std::nullopt;
+      const bool rightwards = joint || i > 0 ? !open_->rightwards : nearer_to_left(here);
+      double start = rightwards ? left_[here] : right_[here];
+      const double end = rightwards ? right_[here] : left_[here];
+      if (joint) {
+        append_line(path_, open_->line, open_->start, open_->end - open_->along() * joint->before);
+        start -= open_->along() * joint->after;
+      } else {
+        end_bead();
       }
-      start = joined ? next_start + pull : next_start;
-      rightwards = !rightwards;
+      prolonged_ += all_[here].from - left_[here] + right_[here] - all_[here].to;
+      open_ = {here, rightwards, start, end};
+      at_ = {end, y(here)}, started_ = true;
     }
+  }
+
+  bool nearer_to_left(std::uint32_t i) const {
+    return !started_ || std::abs(left_[i] - at_.x) <= std::abs(right_[i] - at_.x);
+  }
+
+  void end_bead() {
+    if (!open_) return;
+    append_line(path_, open_->line, open_->start, open_->end);
+    open_.reset();
+    add(std::exchange(path_, {}), style_.role);
+  }
+
+  /// What a turn takes of the line before it and of the one after it: together as much as it is long.
+  struct Joint {
+    double before = 0, after = 0;
+  };
+
+  /// The turn from the line that is laid to one above it. As much is taken of both, but of one that is too short for it
+  /// less, so that no line of an acute corner is a dab of its own.
+  std::optional<Joint> joint_to(std::uint32_t next) const {
+    const auto& [line, rightwards, start, end] = *open_;
+    if (!style_.connect || all_[next].line != all_[line].line + 1) return std::nullopt;
+    const double turn = turn_length(line, next, rightwards);
+    if (turn == 0) return std::nullopt;
+    const double least = least_left * lines_.spacing, here = std::abs(end - start), there = length(next);
+    if (here - turn / 2 > least && there > turn + least) return Joint{turn / 2, turn / 2};
+    const double shorter_by = open_->along() * (end - (rightwards ? right_ : left_)[next]);
+    for (const double after : {(there - least) / 2, there - least}) {
+      const double back = shorter_by + 2 * after;  // √(spacing² + (back − taken)²) = taken
+      if (after < 0 || after > turn / 2 || back <= 0) continue;
+      const double taken = (lines_.spacing * lines_.spacing + back * back) / (2 * back), before = taken - after;
+      if (before >= 0 && before <= turn && here - before > least) return Joint{before, after};
+    }
+    return std::nullopt;
   }
 
   /// A line from x to x, as wide at each place as its sides reach.
@@ -295,6 +326,7 @@ class Filler {
 
   /// Beads along a strip, side by side, together as wide as the strip is across.
   void emit_strip(std::span<const std::uint32_t> strip, int strands) {
+    end_bead();
     if (strands == 1 && !style_.gaps) return;
     const Role role = strands == 1 && !style_.fixed_strand ? Role::gap_fill : style_.role;
     for (int k = 0; k < strands; ++k) {
@@ -365,6 +397,15 @@ class Filler {
   std::optional<SideFit> sides_;  // of lines that may be narrower and wider
   std::vector<Interval> all_;
   std::vector<double> left_, right_;  // ends of each interval, reaching over the edge
+  /// A line that is to be laid as soon as it is known how it ends.
+  struct OpenLine {
+    std::uint32_t line = 0;
+    bool rightwards = false;
+    double start = 0, end = 0;
+    double along() const { return rightwards ? 1 : -1; }
+  };
+  std::optional<OpenLine> open_;
+  std::vector<Vertex> path_;  // of the bead that it ends
   Turned at_;
   bool started_ = false;
   double prolonged_ = 0;  // length of lines beyond their edges

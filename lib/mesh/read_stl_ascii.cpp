@@ -12,7 +12,9 @@
 #include <fmt/format.h>
 
 // solid NAME / facet normal x y z / outer loop / vertex x y z (three times) / endloop / endfacet / endsolid NAME.
-// A file may hold several solids. Normals are not read: the order of the corners says the same and more exactly.
+// A file may hold several solids. Normals are not read: the order of the corners says the same and more exactly. Nor is
+// NAME: programs write their own there ("OpenSCAD_Model"), by which nobody would know a part among others; its file's
+// name does.
 namespace weft::mesh {
 namespace {
 
@@ -22,23 +24,21 @@ class AsciiStl {
   AsciiStl(const Source& source, std::string_view text, Weld& weld) : source_(source), words_(text), weld_(weld) {}
 
   /// @param inside whether the text begins within a solid
-  /// @param name   that of the first solid that has one, if it is still empty
   /// @return whether it ends within a solid
-  bool read(bool inside, std::vector<Triangle>& triangles, std::string& name) {
+  bool read(bool inside, std::vector<Triangle>& triangles) {
     StopNowAndThen stop(256);
     for (std::string_view word = words_.next(); !word.empty(); word = words_.next()) {
       stop.step();
       if (same_word(word, "facet") && inside) {
         facet(triangles);
       } else if (same_word(word, "solid") && !inside) {
-        const std::string_view rest = rest_of_line();
-        if (name.empty()) name = rest;
+        skip_line();
         inside = true;
       } else if (same_word(word, "endsolid") || same_word(word, "end")) {
-        rest_of_line();
+        skip_line();
         inside = false;
       } else if (same_word(word, "color") || !inside) {
-        rest_of_line();  // extensions of some programs, and remarks between solids
+        skip_line();  // extensions of some programs, and remarks between solids
       } else {
         if (words_.at_end()) break;  // cut off in the middle of the word
         refuse(fmt::format("expected 'facet' or 'endsolid', found {}", escape::message(word)));
@@ -56,10 +56,9 @@ class AsciiStl {
   }
 
  private:
-  std::string_view rest_of_line() {
-    const std::string_view rest = words_.rest_of_line();
+  void skip_line() {
+    words_.rest_of_line();
     ends_in_a_line_ = words_.at_end();
-    return rest;
   }
 
   void facet(std::vector<Triangle>& triangles) {
@@ -140,19 +139,16 @@ std::optional<Body> read_in_parts(const Source& source) {
   reader.most_triangles = text.size() / least_facet_bytes;
   reader.expected_vertices = text.size() / (2 * typical_facet_bytes) + 16;
   const auto begin_of = [&](std::size_t i) { return i == 0 ? 0 : facet_end(text, i * part_bytes); };
-  std::vector<std::string> names(reader.parts);
   reader.read = [&](std::size_t i, std::size_t, Part& part) {
     const bool last = i + 1 == reader.parts;
     const std::size_t begin = begin_of(i), end = last ? text.size() : begin_of(i + 1);
     AsciiStl facets(source, text.substr(begin, end - begin), part.weld);
-    const bool inside = facets.read(i > 0, part.triangles, names[i]);
+    const bool inside = facets.read(i > 0, part.triangles);
     if (inside == last || (!last && facets.ends_in_a_line())) facets.refuse_missing_end(part.triangles.size());
   };
   try {
     Body body;
     body.mesh = welded(reader);
-    const auto named = std::find_if(names.begin(), names.end(), [](const std::string& name) { return !name.empty(); });
-    if (named != names.end()) body.name = *named;
     return body;
   } catch (const Error&) {
     return std::nullopt;
@@ -163,7 +159,7 @@ Body read_as_a_whole(const Source& source) {
   Weld weld(source.bytes.size() / (2 * typical_facet_bytes) + 16);
   AsciiStl facets(source, source.bytes, weld);
   Body body;
-  if (facets.read(false, body.mesh.triangles, body.name)) facets.refuse_missing_end(body.mesh.triangles.size());
+  if (facets.read(false, body.mesh.triangles)) facets.refuse_missing_end(body.mesh.triangles.size());
   body.mesh.vertices = weld.take_vertices();
   return body;
 }

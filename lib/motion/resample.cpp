@@ -10,7 +10,7 @@
 namespace weft::motion {
 
 Coarseness coarseness(Role role) {
-  if (role != Role::solid_infill && row_of(role).kind != RoleKind::fill) return {};
+  if (role != Role::solid_infill && role != Role::overhang_skin && row_of(role).kind != RoleKind::fill) return {};
   return {static_cast<double>(tolerances::path_inside) / tolerances::path,
           static_cast<double>(tolerances::band_inside) / tolerances::band};
 }

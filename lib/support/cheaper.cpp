@@ -4,6 +4,7 @@
 #include "core/stop.h"
 #include "geometry/boolean.h"
 #include "geometry/offset.h"
+#include "geometry/outline_length.h"
 #include "geometry/simplify.h"
 #include "support/columns.h"
 #include "support/lengths.h"
@@ -97,26 +98,45 @@ class Guess {
   Um line_;
 };
 
+/// What is held is strips thinner than a tip, on the whole, as under slopes. Each strip would need a row of tips of its
+/// own, as those beside it do not carry it, and each tip as much as one that holds ten times more: columns never take
+/// more than they do, which need not be reckoned.
+bool of_strips(const SupportSettings& settings, const Patch& patch) {
+  double mm2 = 0, round_mm = 0;
+  for (const auto& [k, regions] : patch.contacts) mm2 += area_mm2(regions), round_mm += geometry::outline_mm(regions);
+  return 2 * mm2 < round_mm * to_mm(branch_style(settings).tip);
+}
+
 }  // namespace
 
-Split cheaper(const Room& room, const Stack& stack, const Field& field, const std::vector<Regions>& contacts) {
+Split cheaper(const Room& room, const Stack& stack, const std::vector<Regions>& contacts) {
   const Patches patches(contacts, apart(room.settings(), room.object().nozzle));
   const Guess guess(room, stack);
   const auto& all = patches.all();
+  Split out{std::vector<Regions>(contacts.size()), std::vector<Regions>(contacts.size()), std::nullopt};
+  std::vector<std::size_t> asked;
+  std::vector<Regions> wide(contacts.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool strips = of_strips(room.settings(), all[i]);
+    if (!strips) asked.push_back(i);
+    for (const auto& [k, regions] : all[i].contacts) append((strips ? out.for_columns : wide)[k], regions);
+  }
+  if (asked.empty()) return out;
+  out.field.emplace(room.settings(), room.object(), stack, wide);
   // Branches are reckoned level by level: columns are meanwhile.
   std::vector<double> columns_mm3, by_branches_mm3;
   tasks::for_each_index(2, [&](std::size_t structure) {
     if (structure == 0)
-      by_branches_mm3 = branches_mm3(room, stack, field, contacts, patches);
+      by_branches_mm3 = branches_mm3(room, stack, *out.field, wide, patches);
     else
-      columns_mm3 = tasks::parallel_map(all.size(), [&](std::size_t i) { return guess.columns_mm3(all[i]); });
+      columns_mm3 = tasks::parallel_map(asked.size(), [&](std::size_t i) { return guess.columns_mm3(all[asked[i]]); });
   });
   // Where both take about the same, columns are done sooner and stand firmer; neither is reckoned better than that.
   constexpr double about_the_same = 0.8;
-  Split out{std::vector<Regions>(contacts.size()), std::vector<Regions>(contacts.size())};
-  for (std::size_t i = 0; i < all.size(); ++i)
-    for (const auto& [k, regions] : all[i].contacts)
-      append((by_branches_mm3[i] < about_the_same * columns_mm3[i] ? out.for_branches : out.for_columns)[k], regions);
+  for (std::size_t i = 0; i < asked.size(); ++i)
+    for (const auto& [k, regions] : all[asked[i]].contacts)
+      append((by_branches_mm3[asked[i]] < about_the_same * columns_mm3[i] ? out.for_branches : out.for_columns)[k],
+             regions);
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include "support/field.h"
 #include "support/room.h"
 
+#include <optional>
 #include <vector>
 
 namespace weft::support {
@@ -10,10 +11,11 @@ namespace weft::support {
 /// Contacts, by level, that branches hold and that columns hold.
 struct Split {
   std::vector<Regions> for_branches, for_columns;
+  std::optional<Field> field;  ///< around what branches might hold: where there is no such thing, none
 };
 
 /// Of each patch of contacts what takes less plastic. Neither is planned for that: columns are looked at every two
-/// millimetres, branches as lines.
-Split cheaper(const Room& room, const Stack& stack, const Field& field, const std::vector<Regions>& contacts);
+/// millimetres, branches as lines; and where all is thin strips, columns are known to.
+Split cheaper(const Room& room, const Stack& stack, const std::vector<Regions>& contacts);
 
 }  // namespace weft::support

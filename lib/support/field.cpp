@@ -66,16 +66,9 @@ std::vector<std::uint8_t> Field::barred(const SupportSettings& settings, const O
 
 /// Distance of each cell to what is barred, less the distance that is kept and the doubt of the grid.
 std::vector<std::uint8_t> Field::clearance(const std::vector<std::uint8_t>& barred) const {
-  std::vector<double> squared(barred.size());
-  for (std::size_t i = 0; i < barred.size(); ++i) squared[i] = barred[i] != 0 ? 0 : far_away;
-  const auto columns = static_cast<std::size_t>(columns_), rows = static_cast<std::size_t>(rows_);
-  spread_squares(squared, {.count = rows, .stride = columns, .lines = columns, .between = 1});
-  spread_squares(squared, {.count = columns, .stride = 1, .lines = rows, .between = columns});
+  const auto squared = squared_distances(barred, static_cast<std::size_t>(columns_), farthest_);
   std::vector<std::uint8_t> out(barred.size());
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    const double um = std::sqrt(squared[i]) * cell_ - beside_ - 0.75 * cell_;
-    out[i] = static_cast<std::uint8_t>(std::clamp(um / unit, 0.0, 255.0));
-  }
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = clearances_[static_cast<std::size_t>(squared[i])];
   return out;
 }
 
@@ -106,6 +99,12 @@ Field::Field(const SupportSettings& settings, const Object& object, const Stack&
              const std::vector<Regions>& contacts) {
   beside_ = beside(settings, object);
   size_up(settings, object, stack, contacts);
+  const double most_um = settings.support_tree_max_diameter / 2.0 + beside_ + cell_;  // no branch asks for more
+  farthest_ = static_cast<int>(std::ceil(most_um / cell_)) + 1;
+  for (int squared = 0; squared <= farthest_ * farthest_; ++squared) {
+    const double um = std::sqrt(squared) * cell_ - beside_ - 0.75 * cell_;
+    clearances_.push_back(static_cast<std::uint8_t>(std::clamp(um / unit, 0.0, 255.0)));
+  }
   barred_ = tasks::parallel_map(slabs(), [&](std::size_t slab) { return barred(settings, object, stack, slab); });
   const auto clear = tasks::parallel_map(slabs(), [&](std::size_t slab) { return clearance(barred_[slab]); });
   const bool everywhere = settings.support_type == SupportType::everywhere;

@@ -54,6 +54,8 @@ class Field {
   std::vector<std::size_t> first_;  // level of each slab, and one more
   std::vector<Um> reach_;
   Um beside_ = 0;
+  int farthest_ = 0;                      // cells: how far from what is barred tells nothing more
+  std::vector<std::uint8_t> clearances_;  // by the square of how far a cell is from what is barred
   std::vector<std::vector<std::uint8_t>> barred_, plate_, any_;
 };
 

@@ -208,21 +208,33 @@ bool all_empty(const std::vector<Regions>& by_level) {
   return std::all_of(by_level.begin(), by_level.end(), [](const Regions& regions) { return regions.empty(); });
 }
 
+/// By what is asked for.
+Split split_of(const Room& room, const Stack& stack, const std::vector<Regions>& contacts) {
+  const std::vector<Regions> nothing(contacts.size());
+  if (all_empty(contacts)) return {nothing, nothing, std::nullopt};
+  switch (room.settings().support_structure) {
+    case SupportStructure::normal:
+      return {nothing, contacts, std::nullopt};
+    case SupportStructure::tree:
+      return {contacts, nothing, Field(room.settings(), room.object(), stack, contacts)};
+    case SupportStructure::hybrid:
+      break;
+  }
+  return cheaper(room, stack, contacts);
+}
+
 Standing stand(const Room& room, const Stack& stack, const std::vector<Regions>& contacts,
                const std::vector<Regions>& given) {
-  const auto& s = room.settings();
   const std::size_t count = contacts.size();
   Standing out;
-  auto [towers, others] = for_towers(s, contacts);
-  if (s.support_structure == SupportStructure::normal || all_empty(others)) {
+  auto [towers, others] = for_towers(room.settings(), contacts);
+  Split split = split_of(room, stack, others);
+  if (all_empty(split.for_branches)) {
     out.under_columns = contacts;
     out.columns = columns(room, stack, contacts, given);
     return out;
   }
-  const Field field(s, room.object(), stack, others);
-  Split split = s.support_structure == SupportStructure::hybrid ? cheaper(room, stack, field, others)
-                                                                : Split{others, std::vector<Regions>(count)};
-  out.branches = tree(room, stack, field, split.for_branches);
+  out.branches = tree(room, stack, *split.field, split.for_branches);
   out.under_columns = std::move(split.for_columns);
   auto left = left_by(out.branches, split.for_branches);
   hang_on(room, stack, split.for_branches, out.branches.areas, left);

@@ -16,20 +16,19 @@ struct Envelope {
       return list[static_cast<std::size_t>(i)];
     };
     from.resize(f.size() + 1), place.resize(f.size());
-    int k = 0;
-    at(place, 0) = 0, at(from, 0) = -far_away * 10, at(from, 1) = far_away * 10;
-    for (int q = 1; q < n; ++q) {
+    int k = -1;
+    for (int q = 0; q < n; ++q) {
+      if (at(f, q) >= far_away) continue;
       const auto meeting = [&](int p) {
         return (at(f, q) + double(q) * q - at(f, p) - double(p) * p) / (2.0 * (q - p));
       };
-      double s = meeting(at(place, k));
-      while (k > 0 && s <= at(from, k)) s = meeting(at(place, --k));
-      if (s <= at(from, k)) {
-        at(place, k) = q;
-        continue;
-      }
-      at(place, ++k) = q, at(from, k) = s, at(from, k + 1) = far_away * 10;
+      double s = -far_away;
+      while (k >= 0 && (s = meeting(at(place, k))) <= at(from, k)) --k;
+      if (k < 0) s = -far_away;
+      at(place, ++k) = q, at(from, k) = s;
     }
+    if (k < 0) return std::fill(out.begin(), out.end(), far_away);
+    at(from, k + 1) = far_away;
     k = 0;
     for (int q = 0; q < n; ++q) {
       while (at(from, k + 1) < q) ++k;
@@ -37,6 +36,15 @@ struct Envelope {
     }
   }
 };
+
+/// How far each cell of a column is from the nearest one that is not 0, but at most so far.
+std::vector<int> along_columns(const std::vector<std::uint8_t>& cells, std::size_t columns, int most) {
+  std::vector<int> out(cells.size(), most);
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    out[i] = cells[i] != 0 ? 0 : std::min(most, (i < columns ? most : out[i - columns]) + 1);
+  for (std::size_t i = cells.size(); i-- > columns;) out[i - columns] = std::min(out[i - columns], out[i] + 1);
+  return out;
+}
 
 }  // namespace
 
@@ -49,6 +57,19 @@ void spread_squares(std::vector<double>& squares, const GridLines& along) {
     envelope.of(line, result);
     for (std::size_t i = 0; i < along.count; ++i) first[i * along.stride] = result[i];
   }
+}
+
+std::vector<int> squared_distances(const std::vector<std::uint8_t>& cells, std::size_t columns, int most) {
+  std::vector<int> out = along_columns(cells, columns, most);
+  Envelope envelope;
+  std::vector<double> row(columns), result(columns);
+  for (std::size_t first = 0; first + columns <= out.size(); first += columns) {
+    int* const cell = out.data() + first;
+    for (std::size_t i = 0; i < columns; ++i) row[i] = cell[i] < most ? cell[i] * cell[i] : far_away;
+    envelope.of(row, result);
+    for (std::size_t i = 0; i < columns; ++i) cell[i] = static_cast<int>(std::min<double>(result[i], most * most));
+  }
+  return out;
 }
 
 }  // namespace weft::support

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 /// Outlines as cells of a grid, and how far cells are from each other.
@@ -21,6 +22,10 @@ struct GridLines {
 /// of how far they are. One pass along each axis makes distances of zeros.
 /// Source: Felzenszwalb & Huttenlocher 2012, "Distance transforms of sampled functions". Cost: O(n).
 void spread_squares(std::vector<double>& squares, const GridLines& along);
+
+/// Squared distance, in cells, of each cell of rows of so many to the nearest one that is not 0, but at most most²:
+/// what is further counts for nothing. Exact.
+std::vector<int> squared_distances(const std::vector<std::uint8_t>& cells, std::size_t columns, int most);
 
 /// Calls set(column, row) for the cells whose middle is inside of the regions.
 template <class Set>

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <unordered_map>
+#include <utility>
 
 namespace weft::support {
 namespace {
@@ -75,7 +76,9 @@ class Placer {
         slab_(slab),
         radius_(radius),
         held_(spacing.inside),
-        held_at_rim_(spacing.rim) {}
+        held_at_rim_(spacing.rim) {
+    for (const Region& region : contact) boxes_.push_back(box_of(region.outer));
+  }
 
   void hold(Point p) { held_.add(p), held_at_rim_.add(p); }
   const std::vector<Point>& tips() const { return out_; }
@@ -115,15 +118,33 @@ class Placer {
     const Box box = box_of(contact_);
     for (Um row = floor_div(box.min.y - from.y, up); row * up <= box.max.y - from.y; ++row) {
       stop_if_asked();
-      const Um shift = from.x + (row % 2 != 0 ? across / 2 : 0);
-      for (Um column = floor_div(box.min.x - shift, across); column * across + shift <= box.max.x; ++column) {
-        const Point p{column * across + shift, row * up + from.y};
-        if (!held_.any(p) && is_free(p) && inside.region_at(p)) put(p);
-      }
+      const Um y = row * up + from.y, shift = from.x + (row % 2 != 0 ? across / 2 : 0);
+      for (const auto& [begin, end] : boxes_at(y))
+        for (Um column = floor_div(begin - shift - 1, across) + 1; column * across + shift <= end; ++column) {
+          const Point p{column * across + shift, y};
+          if (!held_.any(p) && is_free(p) && inside.region_at(p)) put(p);
+        }
     }
+  }
+  /// From where to where regions' boxes reach at that height, ascending.
+  std::vector<std::pair<Um, Um>> boxes_at(Um y) const {
+    std::vector<std::pair<Um, Um>> out;
+    for (const Box& box : boxes_)
+      if (box.min.y <= y && y <= box.max.y) out.emplace_back(box.min.x, box.max.x);
+    std::sort(out.begin(), out.end());
+    std::size_t kept = 0;
+    for (const auto& [begin, end] : out) {
+      if (kept > 0 && begin <= out[kept - 1].second)
+        out[kept - 1].second = std::max(out[kept - 1].second, end);
+      else
+        out[kept++] = {begin, end};
+    }
+    out.resize(kept);
+    return out;
   }
 
   const Regions& contact_;
+  std::vector<Box> boxes_;  ///< of its regions
   TipSpacing spacing_;
   const Field& field_;
   std::size_t slab_;

@@ -39,9 +39,13 @@ struct Hill {
   std::vector<LayerAreas> areas;
   ShellSettings shells;
 
-  Hill(const Region& base, Um step, int count) {
+  Hill(const Region& base, Um step, int count)
+      : Hill(count, [&](int i) { return geometry::offset({base}, {.by = -i * step}); }) {}
+
+  template <class OutlineOf>
+  Hill(int count, const OutlineOf& outline_of) {
     for (int i = 0; i < count; ++i) {
-      outlines.push_back(geometry::offset({base}, {.by = -i * step}));
+      outlines.push_back(outline_of(i));
       insides.push_back(geometry::offset(outlines.back(), {.by = -wall}));
     }
     for (std::size_t i = 0; i < outlines.size(); ++i)
@@ -185,6 +189,46 @@ TEST_CASE("belts: few pieces stand for a round wall, and on the mean are as far 
       CHECK(static_cast<double>(bead.path.size()) < 1.2 * um / std::sqrt(400 * um / (2 * std::numbers::pi)) + 2);
     }
   }
+}
+
+TEST_CASE("belts: a line away from the wall lies beside another all along, without a slit between it and the wall",
+          "[infill][law]") {
+  const Um band = flow::band(450, 200);
+  double um = 0, alone = 0;
+  for (Um slow = 60; slow <= 300; slow += 80)
+    for (Um fast = 320; fast <= 440; fast += 20) {  // belts of 1.3 to 1.8 mm: about as wide as is filled across
+      const Hill hill(16, [&](int i) {
+        return Regions{
+            {{{i * fast, 0}, {26000, 0}, {26000, 20000 - i * slow}, {i * fast + 1700, 20000 - i * slow}}, {}}};
+      });
+      for (std::size_t i = 5; i < 11; ++i)
+        for (const PartAreas& part : hill.areas[i]) {
+          const geometry::SegmentIndex edge(hill.insides[i]);
+          std::vector<std::vector<geometry::Segment>> at_depth(4);
+          const auto depth_of = [&](const infill::BeltLine& line) {
+            double most = 0;
+            for (const Point p : line.path) most = std::max(most, edge.nearest(p)->distance_um);
+            return static_cast<std::size_t>(std::lround(most / band + 0.5));
+          };
+          for (const infill::BeltLine& line : part.belts)
+            for (std::size_t k = 1; k < line.path.size(); ++k)
+              at_depth.at(depth_of(line)).push_back({line.path[k - 1], line.path[k]});
+          for (std::size_t d = 2; d < at_depth.size(); ++d) {
+            if (at_depth[d].empty()) continue;
+            const geometry::SegmentIndex nearer(at_depth[d - 1]);
+            for (const auto& [a, b] : at_depth[d]) {
+              const int looks = 1 + static_cast<int>(distance(a, b) / 50);
+              for (int k = 0; k < looks; ++k) {
+                um += distance(a, b) / looks;
+                if (!nearer.nearest(lerp(a, b, (k + 0.5) / looks), 1.2 * band)) alone += distance(a, b) / looks;
+              }
+            }
+          }
+        }
+    }
+  CAPTURE(um, alone);
+  CHECK(um > 1e6);
+  CHECK(alone < 0.002 * um);
 }
 
 TEST_CASE("belts: one below half a line is left to the walls of the next layer", "[infill]") {

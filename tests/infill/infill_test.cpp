@@ -200,6 +200,20 @@ TEST_CASE("infill: solid lines cross the strands of the bridge below, unless a d
   CHECK(std::abs(std::sin(direction({}, beside) - direction({}, {}))) < 1e-6);
 }
 
+TEST_CASE("infill: on a bridge lines of a strip run along it, if that is not along the strands", "[infill]") {
+  const LayerAreas areas = solid_area(rectangle(0, 0, 20000, 1200));
+  const auto lines_over = [&](double angle) {
+    const std::vector<infill::BridgeArea> below{{{rectangle(0, 0, 20000, 15000)}, degrees(angle)}};
+    auto in = input(areas);
+    in.bridges_below = below;
+    std::size_t lines = 0;
+    for (const Bead& bead : infill::fill({}, {}, in).beads) lines += bead.path.size();
+    return lines;
+  };
+  for (const double strands : {65.0, 75.0, 90.0, 105.0, 115.0}) CHECK(lines_over(strands) <= 8);
+  for (const double strands : {0.0, 30.0, 50.0, 140.0}) CHECK(lines_over(strands) > 20);
+}
+
 TEST_CASE("infill: settings of widths and directions do something", "[infill]") {
   LayerAreas areas = solid_area(rectangle(0, 0, 20000, 20000));
   areas[0].top.push_back(rectangle(30000, 0, 50000, 20000));

@@ -126,6 +126,24 @@ TEST_CASE("solid: joined lines are fewer beads of the same volume", "[infill]") 
   CHECK(covered_mm2(joined) == Approx(covered_mm2(apart)).epsilon(0.003));
 }
 
+TEST_CASE("solid: lines that run out in an acute corner are one bead with those before them", "[infill]") {
+  for (Um height = 3500; height <= 6000; height += 250) {
+    const Region corner{{{0, 0}, {6000, 0}, {4000, height}}, {}};
+    const Beads beads = filled(corner, {.band = 430, .angle_rad = 0});
+    CAPTURE(height);
+    CHECK(beads.size() == 1);
+    CHECK(covered_mm2(beads) == Approx(area_mm2(corner)).epsilon(0.02));
+  }
+}
+
+TEST_CASE("solid: where an area forks its lines go on in one of the branches", "[infill]") {
+  const Region fork{
+      {{0, 0}, {15000, 0}, {15000, 9000}, {10000, 9000}, {10000, 4300}, {5000, 4300}, {5000, 9000}, {0, 9000}}, {}};
+  const Beads beads = filled(fork, {.band = 430, .angle_rad = 0});
+  CHECK(beads.size() == 2);
+  CHECK(covered_mm2(beads) == Approx(area_mm2(fork)).epsilon(0.005));
+}
+
 TEST_CASE("solid: a strip narrower than a line gets one bead as wide as the strip", "[infill]") {
   const Region strip{{{0, 0}, {20000, 0}, {20000, 300}, {0, 300}}, {}};
   const Beads beads = filled(strip, {.band = 430, .angle_rad = degrees(45)});

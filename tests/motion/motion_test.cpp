@@ -244,6 +244,7 @@ TEST_CASE(
     }
     CHECK(told_as(arc, Role::infill).path == line.path);
     CHECK(told_as(arc, Role::gap_fill).path == line.path);
+    CHECK(told_as(arc, Role::overhang_skin).path == line.path);
     CHECK(told_as(arc, Role::top_skin).path == told_as(arc, Role::outer_wall).path);
   }
   CHECK(4 * of_lines < 3 * of_walls);

@@ -18,8 +18,10 @@ WallSettings two_walls() {
   return settings;
 }
 
+constexpr Um box_width = 20_mm;
+
 /// Walls around the box of a layer above which the outline stands further in by so much on all sides.
-std::size_t beads_below(Um step, bool on_slopes, Um wide = 20_mm) {
+std::size_t beads_below(Um step, bool on_slopes, Um wide = box_width) {
   WallSettings settings = two_walls();
   settings.wall_extra_on_slopes = on_slopes;
   const Regions here{rectangle(0, 0, wide, wide)}, above{rectangle(step, step, wide - step, wide - step)};
