@@ -243,20 +243,18 @@ constexpr Um corner_bound = 40_um;
 class Falling {
  public:
   /// @param height  of the highest of them
-  /// @param top     of that one, where they may get wider downwards so that they stand
-  Falling(const Room& room, const Stack& stack, const std::vector<Regions>& shadow, Um height,
-          std::optional<Um> top = {})
+  Falling(const Room& room, const Stack& stack, const std::vector<Regions>& shadow, Um height)
       : s_(room.settings()),
         room_(room),
         stack_(stack),
         shadow_(shadow),
         line_(line_width(s_, room.object().nozzle)),
         lean_(s_, line_, height),
-        steady_(line_),
-        top_(top),
         towers_(s_),
         levels_(stack.levels.size()),
-        less_(stack.levels.size(), 0) {}
+        less_(stack.levels.size(), 0) {
+    if (!s_.support_conical_enabled && !s_.support_use_towers) steady_.emplace(line_);
+  }
 
   /// From the highest level down.
   std::vector<Regions> under(const Patch& patch, const std::vector<Regions>* given) && {
@@ -281,7 +279,8 @@ class Falling {
     const auto& level = stack_.levels[k];
     if (s_.support_conical_enabled && !falling_.empty() && lean_.narrow(level.height, falling_))
       edge_.reset(), less_[k] = 1;
-    if (top_ && steady_.widen(*top_ - level.z, falling_)) edge_.reset();
+    if (steady_ && steady_->widen(level.z, falling_)) edge_.reset();
+    if (steady_) steady_->begin(contacts, level.z);
     towers_.begin(contacts, level.z);
     if (towers_.add(level.z, falling_) || !contacts.empty() || !given.empty()) edge_.reset();
     if (!contacts.empty()) {
@@ -351,8 +350,7 @@ class Falling {
   const std::vector<Regions>& shadow_;
   Um line_;
   Lean lean_;
-  Steady steady_;
-  std::optional<Um> top_;
+  std::optional<Steady> steady_;  ///< where nothing else is set of how wide columns are
   Towers towers_;
   Regions falling_, close_;
   std::vector<std::pair<std::size_t, Regions>> held_;  ///< the last contacts, by level
@@ -390,9 +388,7 @@ std::vector<Regions> columns(const Room& room, const Stack& stack, const std::ve
   const Patches patches(contacts, apart(s, room.object().nozzle));
   auto of_patch = tasks::parallel_map(patches.all().size(), [&](std::size_t i) {
     const Patch& patch = patches.all()[i];
-    const std::optional<Um> top =
-        s.support_conical_enabled ? std::nullopt : std::optional(stack.levels[patch.contacts.back().first].z);
-    return Falling(room, stack, shadow, height_of(patch), top).under(patch, nullptr);
+    return Falling(room, stack, shadow, height_of(patch)).under(patch, nullptr);
   });
   std::vector<Regions> out(stack.levels.size());
   for (auto& levels : of_patch)

@@ -42,18 +42,25 @@ double stiff_width_um(const Region& region) {
   return std::sqrt(12 * std::max(least, 0.0));
 }
 
-bool Steady::widen(Um below_top, Regions& column) const {
+void Steady::begin(const Regions& contacts, Um z) {
+  const Um aside = 2 * line_;  // beside a wall columns lean, to what is nearer than they may stand
+  for (const Region& contact : contacts) tops_.push_back({box_of(contact.outer).grown(aside), z});
+}
+
+bool Steady::widen(Um z, Regions& columns) const {
   constexpr double steady = 10;  // height by width, at every height
   const Um step = line_ / 2;     // at each side
-  const double least = below_top / steady - step;
-  if (least <= line_) return false;
   bool wider = false;
-  for (Region& region : column) {
-    if (stiff_width_um(region) >= least) continue;
-    Regions more = grown({region}, step);
-    region = std::move(more.front()), wider = true;
+  for (Region& column : columns) {
+    const Box box = box_of(column.outer);
+    const auto top = std::find_if(tops_.begin(), tops_.end(), [&](const Top& t) { return t.box.overlaps(box); });
+    if (top == tops_.end()) continue;  // the first is the highest
+    const double least = (top->z - z) / steady - step;
+    if (least <= line_ || stiff_width_um(column) >= least) continue;
+    Regions more = grown({column}, step);
+    column = std::move(more.front()), wider = true;
   }
-  if (wider && column.size() > 1) column = geometry::unite(column);
+  if (wider && columns.size() > 1) columns = geometry::unite(columns);
   return wider;
 }
 

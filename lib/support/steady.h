@@ -2,6 +2,8 @@
 #pragma once
 #include "core/polygon.h"
 
+#include <vector>
+
 namespace weft::support {
 
 /// How wide a column is where it bends most easily, µm: the lesser side of a rectangle that is as stiff (√12 times the
@@ -15,11 +17,19 @@ class Steady {
   /// @param line  width of a bead
   explicit Steady(Um line) : line_(line) {}
 
-  /// That far below the top of a column. Steps are coarse, so that most levels are alike. @return whether it got wider
-  bool widen(Um below_top, Regions& column) const;
+  /// What columns hold at that height.
+  void begin(const Regions& contacts, Um z);
+  /// At that height, at or below all that they hold. Steps are coarse, so that most levels are alike.
+  /// @return whether any got wider
+  bool widen(Um z, Regions& columns) const;
 
  private:
+  struct Top {
+    Box box;
+    Um z;
+  };
   Um line_;
+  std::vector<Top> tops_;
 };
 
 }  // namespace weft::support

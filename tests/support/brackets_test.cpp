@@ -40,10 +40,10 @@ TEST_CASE("support: what no branch gets to hangs on to one nearby, and no rod st
   const auto between = [&](int low, int high) {
     return low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1));
   };
-  for (int n = 0; n < 30; ++n) {
+  for (int n = 0; n < 20; ++n) {
     Body body;  // treads up a mast
     const Region mast = rectangle(-2000, -2000, 2000, 2000);
-    body.add(60, {mast});
+    body.add(100, {mast});
     for (int tread = 0; tread < 4; ++tread) {
       const Um x = between(-15000, 3000), y = between(-15000, 3000);
       const Um w = between(500, 6000), h = between(500, 6000), grows = between(200, 900);
@@ -53,6 +53,6 @@ TEST_CASE("support: what no branch gets to hangs on to one nearby, and no rod st
       body.add(between(5, 20), {mast});
     }
     INFO("body " << n);
-    CHECK(highest_rod(planned(on(SupportStructure::tree), body)) < 10000);
+    CHECK(highest_rod(planned(on(SupportStructure::tree), body)) < 12000);
   }
 }
