@@ -93,6 +93,14 @@ class Overlapping {
   DisjointSets together_;
 };
 
+}  // namespace
+
+std::vector<std::vector<std::size_t>> overlapping(const Regions& regions) {
+  return Overlapping(regions).sets();
+}
+
+namespace {
+
 /// So few are done at once sooner than it is known which of them overlap.
 bool are_few(const Regions& regions) {
   constexpr std::size_t few = 64;
@@ -103,8 +111,7 @@ bool are_few(const Regions& regions) {
 Regions joined_where_met(const Regions& regions) {
   if (regions.size() < 2) return regions;
   if (are_few(regions)) return unite(regions);
-  return by_sets(regions, Overlapping(regions).sets(),
-                 [](Regions some) { return some.size() > 1 ? unite(some) : some; });
+  return by_sets(regions, overlapping(regions), [](Regions some) { return some.size() > 1 ? unite(some) : some; });
 }
 
 }  // namespace

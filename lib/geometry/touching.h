@@ -11,6 +11,10 @@ namespace weft::geometry {
 /// Cost: O(n log n + pairs that overlap in x).
 std::vector<std::vector<std::size_t>> touching(std::span<const Box> boxes);
 
+/// Regions that overlap or touch, directly or by others, together: by their numbers, ascending; sets by their least.
+/// Cost: O(n log n + pairs of edges that meet).
+std::vector<std::vector<std::size_t>> overlapping(const Regions& regions);
+
 /// What overlaps or touches becomes one region. Post and errors as for geometry::unite, whose cost regions that stand
 /// alone are spared.
 Regions joined(const Regions& regions);

@@ -21,7 +21,7 @@ Beneath::Beneath(const Regions& areas, const Beads& beads, Um line)
     : areas_(areas), beads_(segments_of(beads)), line_(line) {}
 
 bool Beneath::lies(Point p) const {
-  return areas_.region_at(p) || areas_.nearest(p, line_ / 4) || beads_.nearest(p, line_ * 3 / 4);
+  return beads_.nearest(p, line_ * 3 / 4) || areas_.nearest(p, line_ / 4) || areas_.region_at(p);
 }
 
 /// Walked in steps, each of which lies or does not.
@@ -57,27 +57,21 @@ std::vector<Polyline> Beneath::hanging(const Bead& bead, Um span) const {
   return out;
 }
 
-double Beneath::hanging_um(std::span<const Bead> beads, Um span) const {
-  double um = 0;
-  for (const Bead& bead : beads)
-    for (const Polyline& piece : hanging(bead, span)) um += length_of(piece);
-  return um;
-}
-
-std::vector<Point> Beneath::hanging_at(std::span<const Bead> beads, Um span) const {
-  std::vector<Point> out;
+Hanging Beneath::hanging(std::span<const Bead> beads, Um span) const {
+  Hanging out;
   for (const Bead& bead : beads)
     for (const Polyline& piece : hanging(bead, span)) {
+      const double length = length_of(piece), apart = length / std::ceil(length / (span * 0.8));
+      out.um += length;
       if (const Box box = box_of(bead); bead.closed && std::max(box.size().x, box.size().y) < span / 2) {
-        out.push_back(box.centre());
+        out.at.push_back(box.centre());
         continue;
       }
-      const double length = length_of(piece), apart = length / std::ceil(length / (span * 0.8));
       double next = apart / 2, along = 0;
       for (std::size_t i = 1; i < piece.size(); ++i) {
         along += distance(piece[i - 1], piece[i]);
         if (along < next) continue;
-        out.push_back(piece[i]);
+        out.at.push_back(piece[i]);
         next += apart;
       }
     }

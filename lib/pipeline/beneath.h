@@ -8,6 +8,12 @@ namespace weft::pipeline {
 /// Every segment of beads.
 geometry::SegmentIndex segments_of(const Beads& beads);
 
+/// What of beads has nothing below.
+struct Hanging {
+  double um = 0;          ///< how much of them
+  std::vector<Point> at;  ///< places no further from each other than a span, of a small loop its middle
+};
+
 /// What beads of support come to lie on: areas without gaps, and beads with gaps between them.
 class Beneath {
  public:
@@ -17,11 +23,9 @@ class Beneath {
 
   bool empty() const { return areas_.segments().empty() && beads_.segments().empty(); }
 
-  /// How much of beads has nothing below, µm: no quarter of their width lies on anything. What crosses from one rest to
-  /// another within a span does not count: a bead that is held at both ends sags little.
-  double hanging_um(std::span<const Bead> beads, Um span) const;
-  /// Places where beads hang, no further from each other than a span; of a small loop its middle.
-  std::vector<Point> hanging_at(std::span<const Bead> beads, Um span) const;
+  /// What of beads has nothing below: no quarter of their width lies on anything. What crosses from one rest to another
+  /// within a span does not count: a bead that is held at both ends sags little.
+  Hanging hanging(std::span<const Bead> beads, Um span) const;
 
  private:
   bool lies(Point p) const;

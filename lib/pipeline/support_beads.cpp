@@ -179,24 +179,25 @@ class Filler {
       const std::size_t from = beads_.size();
       loops({area}, most_loops, Role::support_interface);
       if (below_->empty()) continue;
-      cross_if_better(area, from);
-      const auto at = below_->hanging_at(laid(from), span_);
-      hang_at_.insert(hang_at_.end(), at.begin(), at.end());
+      const auto hanging = better_across(area, from, below_->hanging(laid(from), span_));
+      hang_at_.insert(hang_at_.end(), hanging.at.begin(), hanging.at.end());
     }
   }
   std::span<const Bead> laid(std::size_t from) const { return std::span(beads_).subspan(from); }
-  /// @param from  the first of the beads along it
-  void cross_if_better(const Region& area, std::size_t from) {
+  /// @param from  the first of the beads along it, of which so much hangs
+  /// @return what hangs of those that were chosen
+  Hanging better_across(const Region& area, std::size_t from, Hanging of_along) {
     constexpr double many = 0.3;
     const auto begin = static_cast<std::ptrdiff_t>(from);
-    const double hangs_um = below_->hanging_um(laid(from), span_);
-    if (hangs_um < span_ || hangs_um < many * length_um(laid(from))) return;
+    if (of_along.um < span_ || of_along.um < many * length_um(laid(from))) return of_along;
     Beads along(std::make_move_iterator(beads_.begin() + begin), std::make_move_iterator(beads_.end()));
     beads_.erase(beads_.begin() + begin, beads_.end());
     solid({area}, s_.support_infill_angle + 90, Role::support_interface);
-    if (2 * below_->hanging_um(laid(from), span_) < hangs_um) return;
+    Hanging across = below_->hanging(laid(from), span_);
+    if (2 * across.um < of_along.um) return across;
     beads_.erase(beads_.begin() + begin, beads_.end());
     std::move(along.begin(), along.end(), std::back_inserter(beads_));
+    return of_along;
   }
   static double length_um(std::span<const Bead> beads) {
     double mm = 0;

@@ -181,9 +181,30 @@ void thicken(Regions& area, const Regions& fresh, Um line) {
   area = geometry::unite(area);
 }
 
+namespace {
+
+/// Whether no corner of one, and no middle of an edge, is further from the other than offsets are rounded: a neck has
+/// its corners where it begins to be one.
+bool within(const Regions& inner, const geometry::SegmentIndex& outer) {
+  constexpr double rounded_um = 2;
+  const auto lies = [&](Point p) { return outer.nearest(p, rounded_um) || outer.region_at(p); };
+  const auto all_lie = [&](const Ring& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      if (!lies(ring[i]) || !lies(lerp(ring[i], ring[i + 1 < ring.size() ? i + 1 : 0], 0.5))) return false;
+    return true;
+  };
+  return std::all_of(inner.begin(), inner.end(), [&](const Region& region) {
+    return all_lie(region.outer) && std::all_of(region.holes.begin(), region.holes.end(), all_lie);
+  });
+}
+
+}  // namespace
+
 Regions without_thin(const Regions& area, Um radius) {
   const Regions wide = geometry::offset(geometry::offset(area, {.by = -radius}), {.by = radius, .miter_limit = 3});
-  return geometry::intersect(wide, area);  // where a corner was cut off, the whole one reaches further
+  if (wide.empty()) return wide;
+  // Only where a corner was cut off, the whole one reaches further.
+  return within(wide, geometry::SegmentIndex(area)) ? wide : geometry::intersect(wide, area);
 }
 
 namespace {

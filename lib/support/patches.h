@@ -20,10 +20,12 @@ class Patches {
   Patches(const std::vector<Regions>& contacts, Um apart);
 
   const std::vector<Patch>& all() const { return patches_; }
-  std::optional<std::size_t> at(Point p) const { return index_.region_at(p); }
+  /// The patch that a point lies in or right beside.
+  std::optional<std::size_t> at(Point p) const;
 
  private:
-  geometry::SegmentIndex index_;
+  geometry::SegmentIndex index_;       // of what is around each contact
+  std::vector<std::size_t> patch_of_;  // beside its regions
   std::vector<Patch> patches_;
 };
 

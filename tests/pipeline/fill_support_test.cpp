@@ -145,7 +145,7 @@ TEST_CASE("support: what crosses from rest to rest hangs no more than what lies,
   const pipeline::Beneath below({rectangle(20000, 0, 30000, 10000)}, {line, next}, 400);
   const auto hangs = [&](Point a, Point b) {
     const Bead bead = straight(a, b);
-    return below.hanging_um({&bead, 1}, 4000);
+    return below.hanging({&bead, 1}, 4000).um;
   };
   CHECK(hangs({100, 1000}, {100, 9000}) == 0);                             // on one
   CHECK(hangs({0, 5000}, {3000, 5000}) == 0);                              // from one to the other
