@@ -18,12 +18,24 @@ constexpr Um wall_within = 25;  // of the wall, on both sides: the edge that bel
 constexpr Um over_wall = 100;   // that an area is drawn over the wall beside it
 constexpr Um over_line = 10;    // and over the line beside it
 
+/// With places along long edges: a piece that stands for the wall may end at any of them.
+Ring with_places(const Ring& ring) {
+  constexpr double apart = 120;  // µm: a tenth of a piece that stands for a round wall
+  Ring out;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point a = ring[i], b = ring[(i + 1) % ring.size()];
+    const int pieces = std::max(1, static_cast<int>(distance(a, b) / apart));
+    for (int k = 0; k < pieces; ++k) out.push_back(lerp(a, b, static_cast<double>(k) / pieces));
+  }
+  return out;
+}
+
 /// The edge that belts follow: pieces that stand for the wall, in the middle of it, so that their lines lack beside it
 /// as much as they have too much. Where it is narrower than they may lie off, rings may cross: no line is so near to
 /// it.
 Region in_few_points(const Region& inside) {
-  Region out{few_points(inside.outer, true, wall_within), {}};
-  for (const Ring& hole : inside.holes) out.holes.push_back(few_points(hole, true, wall_within));
+  Region out{few_points(with_places(inside.outer), true, wall_within), {}};
+  for (const Ring& hole : inside.holes) out.holes.push_back(few_points(with_places(hole), true, wall_within));
   return out;
 }
 

@@ -110,16 +110,18 @@ template <class IsOnBridge>
 Regions fill_strips(const Regions& regions, const SolidStyle& style, const FillInput& input, std::uint32_t part,
                     const IsOnBridge& is_on_bridge, Beads& beads) {
   Regions rest;
+  const std::size_t from = beads.size();
   for (const Region& region : regions) {
     Beads along;
     if (is_strip(region, style.band) && !angle_along_strip(region, style.band) && !is_on_bridge(region))
-      along = input.along_edge(region);
+      along = input.along_edge(region, style.band);
     if (along.empty()) rest.push_back(region);
     for (Bead& line : along) {
       if (!line.closed && 1000 * length_mm(line) < style.band) continue;  // a dab
       beads.push_back({.path = std::move(line.path), .role = style.role, .closed = line.closed, .part = part});
     }
   }
+  spread_out(flow::spread(input.height, input.overlap_factor), from, beads);
   return rest;
 }
 
@@ -385,6 +387,12 @@ FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const 
   const auto is_on_bridge = [&](const Region& region) {
     return angle_across_bridges(region, input.bridges_below).has_value();
   };
+  const auto fill_skin = [&](const Regions& regions, const SolidStyle& style, std::optional<InfillPattern> winds,
+                             std::uint32_t part, const auto& angle_of, const auto& on_bridge) {
+    const bool strips = input.along_edge && style.turned && !shells.skin_angle && !winds;
+    fill_all(strips ? fill_strips(regions, style, input, part, on_bridge, layer.beads) : regions, style, winds, part,
+             angle_of);
+  };
   for (const PartAreas& areas : input.areas) {
     for (const BridgeArea& area : areas.bridges)
       fill_all(area.regions, area.ledge ? styles.solid : styles.bridge, std::nullopt, areas.part,
@@ -393,11 +401,8 @@ FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const 
     const std::size_t from = layer.beads.size();
     for (const BeltLine& line : areas.belts) lay(line, styles.solid, areas.part, layer.beads);
     spread_out(flow::spread(input.height, input.overlap_factor), from, layer.beads);
-    const bool strips = input.along_edge && styles.solid.turned && !shells.skin_angle && !styles.solid_winds;
-    fill_all(
-        strips ? fill_strips(areas.solid, styles.solid, input, areas.part, is_on_bridge, layer.beads) : areas.solid,
-        styles.solid, styles.solid_winds, areas.part, solid_angle);
-    fill_all(areas.top, styles.top, styles.top_winds, areas.part, own_angle);
+    fill_skin(areas.solid, styles.solid, styles.solid_winds, areas.part, solid_angle, is_on_bridge);
+    fill_skin(areas.top, styles.top, styles.top_winds, areas.part, own_angle, [](const Region&) { return false; });
     if (shells.ironing_enabled)
       iron(shells, input, areas, styles.ironing, sequence, layer.beads,
            [&](const Region& region) { return own_angle(styles.top, region) + radians(90); });

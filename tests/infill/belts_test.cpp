@@ -162,10 +162,11 @@ TEST_CASE("belts: under a slope lines run along the wall, side by side, all as w
 TEST_CASE("belts: few pieces stand for a round wall, and on the mean are as far from it as they should be",
           "[infill][law]") {
   const Um radius = GENERATE(8'000, 20'000, 45'000);
-  const Hill hill(circle({}, radius, 1440), 150, 24);  // two lines
+  const int corners = GENERATE(1440, 170);
+  const Hill hill(circle({}, radius, corners), 150, 24);  // two lines
   const Um band = flow::band(450, 200);
   for (std::size_t i = 6; i < 18; ++i) {
-    CAPTURE(radius, i);
+    CAPTURE(radius, corners, i);
     const Beads beads = hill.solid_of(i);
     REQUIRE(beads.size() >= 1);
     const geometry::SegmentIndex edge(hill.insides[i]);
