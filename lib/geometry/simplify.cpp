@@ -117,12 +117,28 @@ Polyline simplified_line(std::span<const Point> line, Um bound) {
   return out;
 }
 
+namespace {
+
+/// Begins and ends at an extreme point: it is on the hull wherever the ring begins, and moves with the ring.
+Polyline opened_at_extreme(const Ring& ring) {
+  const auto start = std::min_element(ring.begin(), ring.end());
+  Polyline out(start, ring.end());
+  out.insert(out.end(), ring.begin(), start + 1);
+  return out;
+}
+
+}  // namespace
+
+Ring coarsened(const Ring& ring, Um bound) {
+  if (ring.size() <= 3 || bound <= 0) return ring;
+  Ring out = simplified_line(opened_at_extreme(ring), bound);
+  out.pop_back();
+  return out.size() >= 3 ? out : ring;
+}
+
 Ring simplified(const Ring& ring, Um bound) {
   if (ring.size() <= 3 || bound <= 0) return ring;
-  // Start at an extreme point: it is on the hull wherever the ring begins, and moves with the ring.
-  const auto start = std::min_element(ring.begin(), ring.end());
-  Polyline opened(start, ring.end());
-  opened.insert(opened.end(), ring.begin(), start + 1);
+  const Polyline opened = opened_at_extreme(ring);
   const double area = static_cast<double>(double_area(ring));
   for (; bound > 0; bound = bound * 3 / 4) {
     Ring out = simplified_line(opened, bound);

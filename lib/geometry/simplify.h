@@ -18,6 +18,9 @@ void drop_collinear_of_line(Polyline& line);
 ///         digitized curves"; a point is dropped only when the kept chord passes every dropped point within the bound.
 Polyline simplified_line(std::span<const Point> line, Um bound);
 
+/// The same for a ring, whatever area it loses; one that would collapse keeps its points.
+Ring coarsened(const Ring& ring, Um bound);
+
 /// The same for a ring, whose area changes by 0.75 % at most: a small one gets a smaller bound, one that would
 /// collapse keeps its points. Cost: O(n) for each bound that is tried, three quarters of the one before.
 /// A ring with itself may cross afterwards where it is narrower than 2 × bound; `simplified(Regions)` sees to that.

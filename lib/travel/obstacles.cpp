@@ -23,8 +23,8 @@ Regions obstacles_of(const TravelSettings& settings, const LayerInput& input) {
   // Ring by ring: where chords meet, what is kept off both meets as well.
   const auto add_coarse = [&](const Regions& more) {
     for (const Region& region : more) {
-      Region& to = out.emplace_back(Region{geometry::simplified(region.outer, coarse), {}});
-      for (const Ring& hole : region.holes) to.holes.push_back(geometry::simplified(hole, coarse));
+      Region& to = out.emplace_back(Region{geometry::coarsened(region.outer, coarse), {}});
+      for (const Ring& hole : region.holes) to.holes.push_back(geometry::coarsened(hole, coarse));
     }
   };
   for (const auto& object : input.objects) {

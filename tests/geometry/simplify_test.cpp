@@ -6,6 +6,8 @@
 #include "shapes.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include <catch2/catch.hpp>
 
@@ -88,6 +90,25 @@ TEST_CASE("geometry: collinear points, repeated points and spikes are dropped ex
   Polyline back_and_forth{{0, 0}, {0, 0}, {500, 0}, {1000, 0}, {200, 0}};
   drop_collinear_of_line(back_and_forth);
   CHECK(back_and_forth == Polyline{{0, 0}, {1000, 0}, {200, 0}});
+}
+
+TEST_CASE("geometry: a ring that may lose area has no more corners than the bound asks for") {
+  Ring ring;
+  for (int i = 0; i < 60; ++i) {
+    const double angle = i * std::numbers::pi / 30;
+    ring.push_back({rounded(1000 * std::cos(angle)), rounded(1000 * std::sin(angle))});
+  }
+  const Ring coarse = coarsened(ring, 50);
+  CHECK(coarse.size() <= 12);  // chords of 36 degrees are 49 from the arc
+  CHECK(simplified(ring, 50).size() > coarse.size());
+  for (std::size_t i = 0; i < coarse.size(); ++i) {
+    CHECK(std::find(ring.begin(), ring.end(), coarse[i]) != ring.end());
+    CHECK(std::hypot(coarse[i].x + coarse[(i + 1) % coarse.size()].x, coarse[i].y + coarse[(i + 1) % coarse.size()].y) /
+              2 >
+          949);
+  }
+  const Ring speck{{0, 0}, {30, 0}, {30, 30}, {0, 30}};
+  CHECK(coarsened(speck, 50) == speck);
 }
 
 TEST_CASE("geometry: a small ring keeps its area to 0.75 % when it is simplified", "[law]") {
