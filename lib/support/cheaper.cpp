@@ -99,12 +99,13 @@ class Guess {
 };
 
 /// What is held is strips thinner than a tip, on the whole, as under slopes. Each strip would need a row of tips of its
-/// own, as those beside it do not carry it, and each tip as much as one that holds ten times more: columns never take
-/// more than they do, which need not be reckoned.
-bool of_strips(const SupportSettings& settings, const Patch& patch) {
+/// own, as those beside it do not carry it, and each tip as much as one that holds ten times more: where columns take
+/// less than a row of tips does, branches need not be reckoned. High up they may well be less.
+bool for_columns_alone(const SupportSettings& settings, const Guess& guess, const Patch& patch) {
+  constexpr double tips_mm3_by_mm = 1.4;  // of a strip's outline
   double mm2 = 0, round_mm = 0;
   for (const auto& [k, regions] : patch.contacts) mm2 += area_mm2(regions), round_mm += geometry::outline_mm(regions);
-  return 2 * mm2 < round_mm * to_mm(branch_style(settings).tip);
+  return 2 * mm2 < round_mm * to_mm(branch_style(settings).tip) && guess.columns_mm3(patch) < tips_mm3_by_mm * round_mm;
 }
 
 }  // namespace
@@ -114,12 +115,13 @@ Split cheaper(const Room& room, const Stack& stack, const std::vector<Regions>& 
   const Guess guess(room, stack);
   const auto& all = patches.all();
   Split out{std::vector<Regions>(contacts.size()), std::vector<Regions>(contacts.size()), std::nullopt};
+  const auto strips = tasks::parallel_map(
+      all.size(), [&](std::size_t i) { return char{for_columns_alone(room.settings(), guess, all[i])}; });
   std::vector<std::size_t> asked;
   std::vector<Regions> wide(contacts.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const bool strips = of_strips(room.settings(), all[i]);
-    if (!strips) asked.push_back(i);
-    for (const auto& [k, regions] : all[i].contacts) append((strips ? out.for_columns : wide)[k], regions);
+    if (strips[i] == 0) asked.push_back(i);
+    for (const auto& [k, regions] : all[i].contacts) append((strips[i] != 0 ? out.for_columns : wide)[k], regions);
   }
   if (asked.empty()) return out;
   out.field.emplace(room.settings(), room.object(), stack, wide);

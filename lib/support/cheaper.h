@@ -15,7 +15,7 @@ struct Split {
 };
 
 /// Of each patch of contacts what takes less plastic. Neither is planned for that: columns are looked at every two
-/// millimetres, branches as lines; and where all is thin strips, columns are known to.
+/// millimetres, branches as lines; and thin strips that are not high are known to take columns.
 Split cheaper(const Room& room, const Stack& stack, const std::vector<Regions>& contacts);
 
 }  // namespace weft::support

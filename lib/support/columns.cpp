@@ -5,10 +5,12 @@
 #include "geometry/boolean.h"
 #include "geometry/clip_lines.h"
 #include "geometry/simplify.h"
+#include "geometry/touching.h"
 #include "geometry/trimmed.h"
 #include "support/branch_areas.h"
 #include "support/lengths.h"
 #include "support/patches.h"
+#include "support/steady.h"
 #include "tasks/parallel.h"
 
 #include <algorithm>
@@ -271,7 +273,9 @@ class Falling {
         lean_(s_, line_, height),
         towers_(s_),
         levels_(stack.levels.size()),
-        less_(stack.levels.size(), 0) {}
+        less_(stack.levels.size(), 0) {
+    if (!s_.support_conical_enabled && !s_.support_use_towers) steady_.emplace(line_);
+  }
 
   /// From the highest level down.
   std::vector<Regions> under(const Patch& patch, const std::vector<Regions>* given) && {
@@ -296,6 +300,8 @@ class Falling {
     const auto& level = stack_.levels[k];
     if (s_.support_conical_enabled && !falling_.empty() && lean_.narrow(level.height, falling_))
       edge_.reset(), less_[k] = 1;
+    if (steady_ && steady_->widen(level.z, falling_)) edge_.reset();
+    if (steady_) steady_->begin(contacts, level.z);
     towers_.begin(contacts, level.z);
     if (towers_.add(level.z, falling_) || !contacts.empty() || !given.empty()) edge_.reset();
     if (!contacts.empty()) {
@@ -365,6 +371,7 @@ class Falling {
   const std::vector<Regions>& shadow_;
   Um line_;
   Lean lean_;
+  std::optional<Steady> steady_;  ///< where nothing else is set of how wide columns are
   Towers towers_;
   Regions falling_, close_;
   std::vector<std::pair<std::size_t, Regions>> held_;  ///< the last contacts, by level
@@ -408,6 +415,8 @@ std::vector<Regions> columns(const Room& room, const Stack& stack, const std::ve
   for (auto& levels : of_patch)
     for (std::size_t k = 0; k < levels.size(); ++k)
       out[k].insert(out[k].end(), std::make_move_iterator(levels[k].begin()), std::make_move_iterator(levels[k].end()));
+  // What got wider may meet others.
+  tasks::for_each_index(out.size(), [&](std::size_t k) { out[k] = geometry::joined(out[k]); });
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include "geometry/clip_lines.h"
 #include "geometry/simplify.h"
 #include "geometry/trimmed.h"
+#include "support/brackets.h"
 #include "support/caps.h"
 #include "support/cheaper.h"
 #include "support/columns.h"
@@ -235,7 +236,8 @@ Standing stand(const Room& room, const Stack& stack, const std::vector<Regions>&
   }
   out.branches = tree(room, stack, *split.field, split.for_branches);
   out.under_columns = std::move(split.for_columns);
-  const auto left = left_by(out.branches, split.for_branches);
+  auto left = left_by(out.branches, split.for_branches);
+  hang_on(room, stack, split.for_branches, out.branches.areas, left);
   for (std::size_t k = 0; k < count; ++k) {
     if (left[k].empty() && towers[k].empty()) continue;
     append(out.under_columns[k], left[k]), append(out.under_columns[k], towers[k]);
