@@ -89,7 +89,8 @@ Regions add_brim(const Foot& foot, Um nominal, const Regions& others, std::uint3
   const int count = std::max(1, static_cast<int>(std::lround(static_cast<double>(settings.brim_width) / nominal)));
   const double band = static_cast<double>(settings.brim_width) / count;
   auto loops = brim_loops(foot.outlines, settings.brim_location, settings.brim_gap, band, count, others);
-  if (const auto places = brim_places(settings, foot.outlines))
+  const auto places = brim_places(settings, foot.outlines);
+  if (places)
     for (auto& loop : std::exchange(loops, {}))
       for (auto& piece : cut_loop(loop, *places, true))
         if (piece.closed || length_of(piece.line) >= shortest_piece) loops.push_back(std::move(piece));
@@ -97,14 +98,17 @@ Regions add_brim(const Foot& foot, Um nominal, const Regions& others, std::uint3
   const Regions groups = geometry::offset(foot.outlines, {.by = settings.brim_gap + settings.brim_width + 1,
                                                           .corner = geometry::Corner::round,
                                                           .arc_tolerance = arc_tolerance});
+  // … and so is each place of its own: pieces of a loop that was cut are far from each other
+  constexpr Um on_the_edge = 5;  // where they were cut
+  const Regions together = places ? geometry::offset(*places, {.by = on_the_edge}) : groups;
   std::vector<Box> boxes;
-  for (const Region& group : groups) boxes.push_back(box_of(group.outer));
-  std::vector<std::vector<const BrimLoop*>> of_group(groups.size() + 1);
+  for (const Region& group : together) boxes.push_back(box_of(group.outer));
+  std::vector<std::vector<const BrimLoop*>> of_group(together.size() + 1);
   for (const BrimLoop& loop : loops) {
     stop_if_asked();
     const Point p = loop.line.front();
     std::size_t g = 0;
-    while (g < groups.size() && !(boxes[g].contains(p) && side_of(groups[g].outer, p) != Side::outside)) ++g;
+    while (g < together.size() && !(boxes[g].contains(p) && side_of(together[g].outer, p) != Side::outside)) ++g;
     of_group[g].push_back(&loop);
   }
   for (std::size_t g = 0; g < of_group.size(); ++g)

@@ -99,11 +99,12 @@ std::vector<Ring> clean(std::span<const Ring> rings) {
 }
 }  // namespace
 
-Regions regions_from_rings(std::span<const Ring> rings, WindingRule rule) {
+Regions regions_from_rings(std::span<const Ring> rings, WindingRule rule, bool* met) {
   Box box;
   for (const auto& ring : rings) box.add(box_of(ring));
   if (box.empty()) return {};
   if (auto regions = wound(clean(rings), rule, box.centre())) return *std::move(regions);
+  if (met != nullptr) *met = true;
   FineRings subject;
   subject.reserve(rings.size());
   for (const auto& ring : rings) subject.push_back(fine(ring, box.centre()));

@@ -17,7 +17,8 @@ namespace weft::geometry {
 enum class WindingRule { nonzero, positive, even_odd };
 
 /// Union under the rule: the regions that closed rings of any shape enclose.
-Regions regions_from_rings(std::span<const Ring> rings, WindingRule rule = WindingRule::nonzero);
+/// @param met set where rings met or crossed, so that what they enclose had to be found by the sweep
+Regions regions_from_rings(std::span<const Ring> rings, WindingRule rule = WindingRule::nonzero, bool* met = nullptr);
 
 Regions unite(const Regions& regions);
 Regions unite(const Regions& a, const Regions& b);

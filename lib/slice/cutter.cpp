@@ -2,6 +2,7 @@
 #include "core/stop.h"
 #include "core/tolerances.h"
 #include "geometry/boolean.h"
+#include "geometry/offset.h"
 #include "geometry/simplify.h"
 #include "slice/slice.h"
 #include "slice/stitch.h"
@@ -72,10 +73,10 @@ namespace {
 /// What rings enclose: those that run clockwise are holes in the others, and no more than that where they reach beyond
 /// them. Those that meet no other are parts that are inside out, unless a shell of the mesh cuts through another: then
 /// they are where it leaves that one.
-Regions solid_of(std::vector<Ring> rings, bool cut_through) {
-  if (cut_through) return geometry::regions_from_rings(rings, geometry::WindingRule::positive);
+Regions solid_of(std::vector<Ring> rings, bool cut_through, bool& met) {
+  if (cut_through) return geometry::regions_from_rings(rings, geometry::WindingRule::positive, &met);
   const auto hole = [](const Ring& ring) { return double_area(ring) < 0; };
-  Regions any = geometry::regions_from_rings(rings);
+  Regions any = geometry::regions_from_rings(rings, geometry::WindingRule::nonzero, &met);
   if (std::none_of(rings.begin(), rings.end(), hole)) return any;
   Regions solid = geometry::regions_from_rings(rings, geometry::WindingRule::positive);
   if (area_mm2(any) - area_mm2(solid) < 1e-6 * tolerances::sliver_area_um2) return any;
@@ -90,12 +91,46 @@ Regions solid_of(std::vector<Ring> rings, bool cut_through) {
   return geometry::regions_from_rings(rings, geometry::WindingRule::positive);
 }
 
-Regions solid_of(std::vector<Ring> rings, bool cut_through, SlicingMode mode) {
-  if (mode == SlicingMode::even_odd) return geometry::regions_from_rings(rings, geometry::WindingRule::even_odd);
-  Regions solid = solid_of(std::move(rings), cut_through);
+Regions solid_of(std::vector<Ring> rings, bool cut_through, SlicingMode mode, bool& met) {
+  if (mode == SlicingMode::even_odd) return geometry::regions_from_rings(rings, geometry::WindingRule::even_odd, &met);
+  Regions solid = solid_of(std::move(rings), cut_through, met);
   if (mode == SlicingMode::regular) return solid;
   for (Region& region : solid) region.holes.clear();
   return geometry::unite(solid);  // what stood in a hole is within its region now
+}
+
+/// Whether outlines of two bodies may lie on each other.
+bool near_each_other(const std::vector<Ring>& rings) {
+  constexpr Um near = 50;  // wider is a gap
+  std::vector<Box> boxes;
+  for (const Ring& ring : rings)
+    if (double_area(ring) > 0) boxes.push_back(box_of(ring));
+  std::sort(boxes.begin(), boxes.end(), [](const Box& a, const Box& b) { return a.min.x < b.min.x; });
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    for (std::size_t j = i + 1; j < boxes.size() && boxes[j].min.x <= boxes[i].max.x + near; ++j)
+      if (boxes[j].min.y <= boxes[i].max.y + near && boxes[i].min.y <= boxes[j].max.y + near) return true;
+  return false;
+}
+
+double outlines_um(const Regions& regions) {
+  double out = 0;
+  for (const Ring& ring : geometry::rings_of(regions)) out += perimeter_of(ring);
+  return out;
+}
+
+/// Bodies that touch are one: where two faces lie on each other, each is cut and simplified by itself, and between what
+/// comes of them is a crack through the part, which walls would follow on both sides.
+Regions without_cracks(const Regions& solid, Um resolution) {
+  constexpr Um rounding = 4;          // vertices and crossings of both, each by up to 0.7 µm each way
+  constexpr Um most_simplified = 25;  // who lets outlines stand off by more does not mean narrow gaps
+  constexpr double least_um = 400;    // both sides of what is half as long as a bead is wide
+  constexpr Um lap = 10;              // what is filled meets what it lies between
+  const Um radius = std::min(resolution, most_simplified) + rounding / 2;
+  const Regions closed = geometry::closing(solid, radius, geometry::Corner::miter);
+  if (outlines_um(closed) > outlines_um(solid) - least_um) return solid;
+  // Cracks may be too thin to be areas: both sides are drawn back first, and what that takes elsewhere is a thin rim.
+  const Regions cracks_and_rim = geometry::subtract(closed, geometry::offset(solid, {.by = -lap}));
+  return geometry::unite(solid, geometry::opening(cracks_and_rim, lap * 7 / 10, geometry::Corner::miter));
 }
 
 }  // namespace
@@ -110,7 +145,9 @@ Cut Cutter::cut(std::size_t i, const LayerSettings& settings) const {
     stop.step();
     ring = geometry::simplified(ring, settings.resolution);
   }
-  out.layer.regions = solid_of(std::move(chains.rings), mesh_->cut_through, settings.slicing_mode);
+  bool met = near_each_other(chains.rings);
+  out.layer.regions = solid_of(std::move(chains.rings), mesh_->cut_through, settings.slicing_mode, met);
+  if (met) out.layer.regions = without_cracks(out.layer.regions, settings.resolution);
   return out;
 }
 

@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <set>
 
 #include <catch2/catch.hpp>
 
@@ -99,4 +101,20 @@ TEST_CASE("brim ears: the brim is a disc at each tip, and nothing elsewhere") {
   CHECK(none.layers[0].empty());
   REQUIRE(none.notices.size() == 1);
   CHECK(none.notices[0].code == "brim_no_tips");
+}
+
+TEST_CASE("brim ears: each is laid whole before the next") {
+  AdhesionSettings settings;
+  settings.skirt_line_count = 0, settings.skirt_brim_line_width = 450;
+  settings.brim_width = 5_mm, settings.brim_ears = true;
+  const Regions square{rectangle(0, 0, 40_mm, 40_mm)};
+  const adhesion::PlateLayer layer{square, 200};
+  const auto built = adhesion::build(settings, {std::span(&layer, 1), 400, nullptr});
+  REQUIRE(built.layers.size() == 1);
+  std::map<std::uint32_t, std::set<std::size_t>> corners;  // of what is laid together
+  for (const Bead& bead : built.layers[0])
+    for (std::size_t c = 0; c < 4; ++c)
+      if (distance(bead.path.front().at, square[0].outer[c]) < 6'000) corners[bead.sequence].insert(c);
+  CHECK(corners.size() == 4);
+  for (const auto& [sequence, of] : corners) CHECK(of.size() == 1);
 }

@@ -7,7 +7,9 @@
 #include "mesh/read.h"
 #include "solids.h"
 
+#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <random>
 
@@ -144,6 +146,63 @@ TEST_CASE("slice: solids that overlap or touch are one") {
       REQUIRE(cut.layer.regions.size() == 1);
       CHECK(cut.layer.regions[0].outer.size() == 4);
       CHECK(area_mm2(cut.layer.regions) == 200);
+    }
+  }
+}
+
+namespace {
+/// Adds a body between two quadrangles, each of its sides cut into n × n pairs of triangles.
+void add_leaning(Mesh& mesh, const std::array<Point3, 4>& low, const std::array<Point3, 4>& high, int n) {
+  std::map<std::array<Um, 3>, std::uint32_t> known;
+  const auto vertex = [&](Point3 p) {
+    const auto [at, added] = known.try_emplace({p.x, p.y, p.z}, static_cast<std::uint32_t>(mesh.vertices.size()));
+    if (added) mesh.vertices.push_back(p);
+    return at->second;
+  };
+  const auto face = [&](Point3 a, Point3 b, Point3 c, Point3 d, int cuts) {
+    const auto at = [&](int i, int j) {
+      const double u = double(i) / cuts, v = double(j) / cuts;
+      const auto along = [&](Um p, Um q, Um r, Um s) {
+        return rounded((1 - v) * ((1 - u) * p + u * q) + v * ((1 - u) * s + u * r));
+      };
+      return vertex({along(a.x, b.x, c.x, d.x), along(a.y, b.y, c.y, d.y), along(a.z, b.z, c.z, d.z)});
+    };
+    for (int i = 0; i < cuts; ++i)
+      for (int j = 0; j < cuts; ++j) {
+        mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+        mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+      }
+  };
+  for (std::size_t k = 0; k < 4; ++k) face(low[k], low[(k + 1) % 4], high[(k + 1) % 4], high[k], n);
+  face(low[3], low[2], low[1], low[0], n);
+  face(high[0], high[1], high[2], high[3], n);
+}
+
+/// How long the outlines are, mm.
+double outlines_mm(const Regions& regions) {
+  double um = 0;
+  for (const Region& region : regions) {
+    um += perimeter_of(region.outer);
+    for (const Ring& hole : region.holes) um += perimeter_of(hole);
+  }
+  return um / 1000;
+}
+}  // namespace
+
+TEST_CASE("slice: between bodies that touch on a leaning face, cut into triangles differently, there is no crack") {
+  const Point3 a{13'100, 370, 0}, b{17'300, 20'110, 0}, up_a{14'400, 1'070, 15'000}, up_b{18'600, 20'810, 15'000};
+  Mesh mesh;
+  add_leaning(mesh, {Point3{-2'000, 0, 0}, a, b, {-1'000, 20'000, 0}},
+              {Point3{-2'000, 0, 15'000}, up_a, up_b, {-1'000, 20'000, 15'000}}, 3);
+  add_leaning(mesh, {a, {35'000, 0, 0}, {35'000, 20'000, 0}, b},
+              {up_a, {35'000, 0, 15'000}, {35'000, 20'000, 15'000}, up_b}, 4);
+  for (const Um resolution : {0, 13}) {
+    LayerSettings settings;
+    settings.resolution = resolution;
+    for (const auto& cut : cut_all(mesh, settings)) {
+      INFO(cut.layer.z);
+      CHECK(cut.layer.regions.size() == 1);
+      CHECK(outlines_mm(cut.layer.regions) < 116);  // 40 mm more where both sides of a crack are outlines
     }
   }
 }
