@@ -4,6 +4,7 @@
 #include "core/stop.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace weft::geometry {
@@ -28,10 +29,9 @@ RingChains::RingChains(std::span<const Ring> rings) : rings_(rings) {
     if (!ring.empty()) points_.push_back(ring.front());
     first_of_ring_.push_back(first_of_ring_.back() + static_cast<std::uint32_t>(ring.size()));
   }
+  around_.reserve(rings.size()), chains_of_ring_.reserve(rings.size() + 1);
   for (std::uint32_t r = 0; r < rings.size(); ++r) cut(r);
-  std::sort(chains_.begin(), chains_.end(), [](const Chain& l, const Chain& r) {
-    return l.box.min.x != r.box.min.x ? l.box.min.x < r.box.min.x : l.first < r.first;
-  });
+  chains_of_ring_.push_back(static_cast<std::uint32_t>(chains_.size()));
 }
 
 Box RingChains::Piece::box() const {
@@ -54,8 +54,16 @@ void RingChains::cut(std::uint32_t ring) {
     }
     chains_.push_back({Segment{at[from], at[i]}.box(), way, first + from, i - from, ring});
   }
-  for (std::size_t c = first_chain; c < chains_.size(); ++c)
+  Box around;
+  for (std::size_t c = first_chain; c < chains_.size(); ++c) {
     chains_[c].next = chains_[c + 1 < chains_.size() ? c + 1 : first_chain].first;
+    around.add(chains_[c].box);
+  }
+  std::sort(chains_.begin() + static_cast<std::ptrdiff_t>(first_chain), chains_.end(),
+            [](const Chain& l, const Chain& r) {
+              return l.box.min.x != r.box.min.x ? l.box.min.x < r.box.min.x : l.first < r.first;
+            });
+  around_.push_back(around), chains_of_ring_.push_back(static_cast<std::uint32_t>(first_chain));
 }
 
 std::uint32_t RingChains::ring_of(std::uint32_t edge) const {
@@ -91,6 +99,7 @@ bool RingChains::only_join(const Chain& a, const Chain& b) {
 
 template <class F>
 struct RingChains::Search {
+  const RingChains& all;
   F& f;
   bool folds;         ///< stop at edges that fold
   std::size_t looks;  ///< at pairs of boxes, that are left
@@ -119,25 +128,52 @@ struct RingChains::Search {
       if (look() && box.overlaps(box_of_b)) in(part, box, b, box_of_b);
     }
   }
+  /// Pre: the chains overlap along x
+  void chains(const Chain& a, const Chain& b) {
+    if (b.box.min.y > a.box.max.y || b.box.max.y < a.box.min.y) return;
+    if (only_join(a, b))
+      joint(all.piece(a), all.piece(b));
+    else if (only_join(b, a))
+      joint(all.piece(b), all.piece(a));
+    else
+      in(all.piece(a), a.box, all.piece(b), b.box);
+  }
+  void within(std::uint32_t ring) {
+    const auto own = all.of_ring(ring);
+    for (std::size_t k = 0; k < own.size() && found == Found::all; ++k)
+      for (std::size_t l = k + 1; l < own.size() && own[l].box.min.x <= own[k].box.max.x && look(); ++l)
+        chains(own[k], own[l]);
+  }
+  /// Along x, from chain to chain of either ring.
+  void between(std::uint32_t a, std::uint32_t b) {
+    const auto of_a = all.of_ring(a), of_b = all.of_ring(b);
+    for (std::size_t i = 0, j = 0; i < of_a.size() && j < of_b.size() && found == Found::all;) {
+      const bool at_a = of_a[i].box.min.x <= of_b[j].box.min.x;
+      const Chain& chain = at_a ? of_a[i++] : of_b[j++];
+      const auto others = at_a ? of_b.subspan(j) : of_a.subspan(i);
+      if (!chain.box.overlaps(all.around_[at_a ? b : a])) continue;
+      for (std::size_t k = 0; k < others.size() && others[k].box.min.x <= chain.box.max.x && look(); ++k)
+        chains(chain, others[k]);
+    }
+  }
 };
 
 template <class F>
 RingChains::Found RingChains::for_each_near_pair(bool folds, F&& f) const {
   constexpr std::size_t as_long_as_a_grid = 32;  // looks an edge
-  Search<F> search{f, folds, as_long_as_a_grid * points_.size()};
+  Search<F> search{*this, f, folds, as_long_as_a_grid * points_.size()};
+  std::vector<std::uint32_t> order(rings_.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t l, std::uint32_t r) {
+    return around_[l].min.x != around_[r].min.x ? around_[l].min.x < around_[r].min.x : l < r;
+  });
   StopNowAndThen stop(64);
-  for (std::size_t k = 0; k < chains_.size(); ++k) {
-    stop.step();
-    const Chain& chain = chains_[k];
-    for (std::size_t l = k + 1; l < chains_.size() && chains_[l].box.min.x <= chain.box.max.x && search.look(); ++l) {
-      const Chain& other = chains_[l];
-      if (other.box.min.y > chain.box.max.y || other.box.max.y < chain.box.min.y) continue;
-      if (only_join(chain, other))
-        search.joint(piece(chain), piece(other));
-      else if (only_join(other, chain))
-        search.joint(piece(other), piece(chain));
-      else
-        search.in(piece(chain), chain.box, piece(other), other.box);
+  for (std::size_t i = 0; i < order.size() && search.found == Found::all; ++i) {
+    const Box& around = around_[order[i]];
+    search.within(order[i]);
+    for (std::size_t j = i + 1; j < order.size() && around_[order[j]].min.x <= around.max.x && search.look(); ++j) {
+      stop.step();
+      if (around.overlaps(around_[order[j]])) search.between(order[i], order[j]);
     }
   }
   return search.found;
@@ -196,28 +232,28 @@ void RingChains::windings(Point p, std::vector<SegmentIndex::RingWinding>& found
   constexpr std::size_t many = 256;  // rings: one look at each of their chains for each of them takes longer
   if (rings_.size() > many) return grid().windings(p, found);
   found.clear();
-  const auto add = [&](std::uint32_t ring, int step) {
-    const auto at = std::find_if(found.begin(), found.end(), [ring](const auto& w) { return w.ring >= ring; });
-    if (at != found.end() && at->ring == ring)
-      at->winding += step, at->on |= step == 0;
-    else
-      found.insert(at, {ring, step, step == 0});
-  };
-  for (const Chain& chain : chains_) {
-    if (chain.box.min.x > p.x) break;
-    if (chain.box.min.y > p.y || chain.box.max.y < p.y) continue;
-    if (chain.box.max.x < p.x) {  // all of it is further left
-      const Piece all = piece(chain);
-      const bool up = all.at[all.edges].y > p.y;
-      if ((all.at[0].y > p.y) != up) add(chain.ring, up ? -1 : 1);
-      continue;
+  for (std::uint32_t r = 0; r < around_.size(); ++r) {
+    if (!around_[r].contains(p)) continue;
+    SegmentIndex::RingWinding own{r, 0, false};
+    bool any = false;
+    const auto add = [&](int step) { own.winding += step, own.on |= step == 0, any = true; };
+    for (const Chain& chain : of_ring(r)) {
+      if (chain.box.min.x > p.x) break;
+      if (chain.box.min.y > p.y || chain.box.max.y < p.y) continue;
+      if (chain.box.max.x < p.x) {  // all of it is further left
+        const Piece all = piece(chain);
+        const bool up = all.at[all.edges].y > p.y;
+        if ((all.at[0].y > p.y) != up) add(up ? -1 : 1);
+        continue;
+      }
+      for_each_at(chain, p.y, [&](std::uint32_t, Point a, Point b) {
+        const std::int64_t side = orient(a, b, p);
+        if (side == 0 && std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x)) add(0);
+        const bool up = b.y > p.y;
+        if ((a.y > p.y) != up && side != 0 && (side > 0) != up) add(up ? -1 : 1);
+      });
     }
-    for_each_at(chain, p.y, [&](std::uint32_t, Point a, Point b) {
-      const std::int64_t side = orient(a, b, p);
-      if (side == 0 && std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x)) add(chain.ring, 0);
-      const bool up = b.y > p.y;
-      if ((a.y > p.y) != up && side != 0 && (side > 0) != up) add(chain.ring, up ? -1 : 1);
-    });
+    if (any) found.push_back(own);
   }
 }
 
@@ -228,10 +264,7 @@ std::uint32_t RingChains::first_left_of(Point p) const {
   std::uint32_t best = none;
   double best_x_um = 0;
   bool tie = false;
-  for (const Chain& chain : chains_) {
-    if (chain.box.min.x > p.x) break;
-    if (chain.box.min.y > p.y || chain.box.max.y < p.y) continue;
-    if (best != none && chain.box.max.x < best_x_um - equal_um) continue;
+  const auto look = [&](const Chain& chain) {
     for_each_at(chain, p.y, [&](std::uint32_t i, Point a, Point b) {
       const std::int64_t side = orient(a, b, p);
       const bool up = b.y > p.y;
@@ -242,7 +275,15 @@ std::uint32_t RingChains::first_left_of(Point p) const {
       tie = best != none && x_um < best_x_um + equal_um;
       if (!tie || x_um > best_x_um) best = i, best_x_um = x_um;
     });
-  }
+  };
+  const auto may_be_first = [&](const Box& box) {
+    return box.min.x <= p.x && box.min.y <= p.y && box.max.y >= p.y &&
+           (best == none || box.max.x >= best_x_um - equal_um);
+  };
+  for (std::uint32_t r = 0; r < around_.size(); ++r)
+    if (may_be_first(around_[r]))
+      for (const Chain& chain : of_ring(r))
+        if (may_be_first(chain.box)) look(chain);
   return tie ? unsure : best;
 }
 

@@ -62,6 +62,9 @@ class RingChains {
   Piece piece(const Chain& chain) const {
     return {points_.data() + chain.first + chain.ring, chain.first, chain.edges};
   }
+  std::span<const Chain> of_ring(std::uint32_t ring) const {
+    return {chains_.data() + chains_of_ring_[ring], chains_of_ring_[ring + 1] - chains_of_ring_[ring]};
+  }
   const SegmentIndex& grid() const;
   bool neighbours(std::uint32_t i, std::uint32_t j) const;
   bool join(std::uint32_t i, std::uint32_t j) const;
@@ -80,8 +83,10 @@ class RingChains {
   std::span<const Ring> rings_;
   std::vector<Point> points_;  // of each ring, its first one again behind its last
   std::vector<std::uint32_t> first_of_ring_;
-  std::vector<Chain> chains_;  // by box.min.x
-  bool has_points_ = false;    // an edge that ends where it begins
+  std::vector<Chain> chains_;                  // of each ring, by box.min.x
+  std::vector<std::uint32_t> chains_of_ring_;  // the first of each ring, and one more
+  std::vector<Box> around_;                    // each ring
+  bool has_points_ = false;                    // an edge that ends where it begins
   mutable std::unique_ptr<SegmentIndex> grid_;
 };
 

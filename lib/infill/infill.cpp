@@ -71,6 +71,17 @@ std::optional<double> angle_along_strip(const Region& region, Um band) {
   return std::atan2(y, x) / 2;
 }
 
+/// Whether an area is a strip everywhere no wider than some lines, and long.
+bool is_strip(const Region& region, Um band) {
+  constexpr double widest = 3.5;       // bands, as belts and straight strips
+  constexpr double least_long = 6.25;  // edge² / 4 areas: of a strip four times as long as wide
+  double edge = perimeter_of(region.outer);
+  for (const Ring& hole : region.holes) edge += perimeter_of(hole);
+  const double area = 1e6 * area_mm2(region);
+  if (2 * area > widest * band * edge || edge * edge < 4 * least_long * area) return false;
+  return geometry::offset({region}, {.by = -rounded(widest / 2 * band)}).empty();
+}
+
 /// The directions, joints and order that a pattern of solid layers asks for.
 void apply(SkinPattern pattern, SolidStyle& style) {
   style.connect = style.connect && pattern != SkinPattern::monotonic_lines;
@@ -92,6 +103,24 @@ void lay(const BeltLine& line, const SolidStyle& style, std::uint32_t part, Bead
   for (const Point at : line.path)
     if (bead.path.empty() || bead.path.back().at != at) bead.path.push_back({at, style.band, 1.F});
   if (bead.path.size() > (line.closed ? 2U : 1U)) beads.push_back(std::move(bead));
+}
+
+/// Lines along its edge where an area is a strip that bends. @returns what is no such strip
+template <class IsOnBridge>
+Regions fill_strips(const Regions& regions, const SolidStyle& style, const FillInput& input, std::uint32_t part,
+                    const IsOnBridge& is_on_bridge, Beads& beads) {
+  Regions rest;
+  for (const Region& region : regions) {
+    Beads along;
+    if (is_strip(region, style.band) && !angle_along_strip(region, style.band) && !is_on_bridge(region))
+      along = input.along_edge(region);
+    if (along.empty()) rest.push_back(region);
+    for (Bead& line : along) {
+      if (!line.closed && 1000 * length_mm(line) < style.band) continue;  // a dab
+      beads.push_back({.path = std::move(line.path), .role = style.role, .closed = line.closed, .part = part});
+    }
+  }
+  return rest;
 }
 
 /// Across the bridge that most of an area lies on: its strands then carry each line at many places. Lines that cross
@@ -353,6 +382,9 @@ FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const 
     const auto along = angle_along_strip(region, style.band);
     return along && std::abs(std::cos(*along - *across)) > nearly_across ? *along : *across;
   };
+  const auto is_on_bridge = [&](const Region& region) {
+    return angle_across_bridges(region, input.bridges_below).has_value();
+  };
   for (const PartAreas& areas : input.areas) {
     for (const BridgeArea& area : areas.bridges)
       fill_all(area.regions, area.ledge ? styles.solid : styles.bridge, std::nullopt, areas.part,
@@ -361,7 +393,10 @@ FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const 
     const std::size_t from = layer.beads.size();
     for (const BeltLine& line : areas.belts) lay(line, styles.solid, areas.part, layer.beads);
     spread_out(flow::spread(input.height, input.overlap_factor), from, layer.beads);
-    fill_all(areas.solid, styles.solid, styles.solid_winds, areas.part, solid_angle);
+    const bool strips = input.along_edge && styles.solid.turned && !shells.skin_angle && !styles.solid_winds;
+    fill_all(
+        strips ? fill_strips(areas.solid, styles.solid, input, areas.part, is_on_bridge, layer.beads) : areas.solid,
+        styles.solid, styles.solid_winds, areas.part, solid_angle);
     fill_all(areas.top, styles.top, styles.top_winds, areas.part, own_angle);
     if (shells.ironing_enabled)
       iron(shells, input, areas, styles.ironing, sequence, layer.beads,

@@ -8,6 +8,7 @@
 #include "settings/groups/shells.h"
 
 #include <cstddef>
+#include <functional>
 #include <span>
 
 namespace weft::infill {
@@ -29,10 +30,13 @@ struct FillInput {
   const Prepared* prepared = nullptr;           ///< of the object (infill/prepared.h)
   bool topmost = false;                         ///< no layer lies above
   std::span<const BridgeArea> bridges_below{};  ///< of the layer below: solid lines cross their strands
+  /// Fills an area with lines along its edge that are together as wide as it is everywhere; absent: none is filled so.
+  std::function<Beads(const Region&)> along_edge{};
 };
 
 /// Lays beads in the areas: sparse ones in the pattern, skin and solid ones as lines that fill the area's width
-/// exactly, in an order that never leaves a line between two printed ones (monotonic), bridges as free strands.
+/// exactly, in an order that never leaves a line between two printed ones (monotonic), bridges as free strands. Solid
+/// strips that bend get lines along their edge: across it they would be dabs with a turn between each two.
 /// Post: volume of solid beads = area × height, of sparse ones the same times the density; beads stay within the areas,
 ///       but for ends of lines and what joins them along the edge, which reach over it by the overlap. Bead::part is
 ///       that of the area. A solid region's beads share a `sequence`.

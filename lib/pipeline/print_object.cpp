@@ -238,6 +238,20 @@ Shelled shelled(const FillHands& handed, const Scopes& scopes, const Cuts& cuts,
   return object;
 }
 
+/// Fills a narrow area of a layer as walls fill one: its lines follow its edge, and are together as wide as it is.
+Beads lines_along_edge(const Region& area, const SlicedLayer& layer, const ShellSettings& shells, Um nozzle,
+                       double overlap_factor) {
+  WallSettings lines;
+  lines.wall_line_count = 2;  // from both sides
+  lines.wall_line_width_0 = lines.wall_line_width_x =
+      LengthOrShare{length_or(shells.skin_line_width, nozzle, flow::automatic_width(nozzle, layer.height))};
+  lines.min_feature_size = nozzle / 2;       // less is left open by all fills
+  lines.wall_outline = WallOutline::volume;  // what is beside it is no air
+  lines.overlap_factor = overlap_factor;
+  const SlicedLayer alone{layer.z, layer.height, {area}};
+  return walls::build(lines, {.layer = alone, .nozzle_diameter = nozzle}).beads;
+}
+
 /// Shells and infill.
 /// @param looked_at is told what fills the layers, before it is laid
 template <class LookedAt>
@@ -271,23 +285,27 @@ Fills fill_object(const FillHands& handed, const WallHands& walled, const Scopes
     const auto fill = [&](ScopeId scope, const infill::LayerAreas& own) {
       const auto& [shells, infill, nozzle, wall_line_width, overlap_factor] = handed[tools.infill_of(scope, scopes)];
       const auto& [own_walls, own_nozzle] = walled[scope];
-      return infill::fill(infill, shells,
-                          {.areas = own,
-                           .index = i,
-                           .z = layer.z,
-                           .height = layer.height,
-                           .nozzle = nozzle,
-                           .overlap_factor = overlap_factor,
-                           .wall_line_width = length_or(wall_line_width, nozzle, 0),
-                           .outer_wall_line_width = length_or(own_walls.wall_line_width_0, own_nozzle, 0),
-                           .wall_count = own_walls.wall_line_count,
-                           .origin = origin,
-                           .turned_rad = lying.turned_rad,
-                           .reach = reach,
-                           .prepared = prepared.of(object.scope_of(scope)),
-                           .topmost = i + 1 == cuts.size(),
-                           .bridges_below = i > 0 ? std::span<const infill::BridgeArea>(bridges[i - 1])
-                                                  : std::span<const infill::BridgeArea>{}});
+      return infill::fill(
+          infill, shells,
+          {.areas = own,
+           .index = i,
+           .z = layer.z,
+           .height = layer.height,
+           .nozzle = nozzle,
+           .overlap_factor = overlap_factor,
+           .wall_line_width = length_or(wall_line_width, nozzle, 0),
+           .outer_wall_line_width = length_or(own_walls.wall_line_width_0, own_nozzle, 0),
+           .wall_count = own_walls.wall_line_count,
+           .origin = origin,
+           .turned_rad = lying.turned_rad,
+           .reach = reach,
+           .prepared = prepared.of(object.scope_of(scope)),
+           .topmost = i + 1 == cuts.size(),
+           .bridges_below =
+               i > 0 ? std::span<const infill::BridgeArea>(bridges[i - 1]) : std::span<const infill::BridgeArea>{},
+           .along_edge = [&layer, &own = shells, across = nozzle, overlap = overlap_factor](const Region& area) {
+             return lines_along_edge(area, layer, own, across, overlap);
+           }});
     };
     auto filled = areas[i].size() == 1 ? fill(areas[i].front().scope, parts[i])
                                        : fill_of_areas(told_apart(handed, areas[i]), parts[i], fill);

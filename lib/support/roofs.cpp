@@ -4,6 +4,7 @@
 #include "core/stop.h"
 #include "geometry/boolean.h"
 #include "geometry/clip_lines.h"
+#include "geometry/trimmed.h"
 #include "support/branch_areas.h"
 #include "support/columns.h"
 #include "support/joists.h"
@@ -16,6 +17,8 @@
 
 namespace weft::support {
 namespace {
+
+constexpr Um side_by_side = 1.5_mm;  // strips of a slope that are no further up or down lie on each other
 
 /// Contacts of levels around one, so many up and down, together, as far as they come as near to those of the level.
 Regions around_level(const std::vector<Regions>& contacts, std::size_t k, std::size_t count, Um near) {
@@ -31,15 +34,14 @@ Regions around_level(const std::vector<Regions>& contacts, std::size_t k, std::s
   return grown(around, 20);
 }
 
-/// What of a contact, together with those of its neighbours, is wide enough to lie on more than one branch.
-Regions wide_part(const Regions& contact, const Regions& around, Um least) {
-  const Regions wide = opened(around, least / 2, 50);
-  return wide.empty() ? wide : geometry::opening(geometry::intersect(contact, wide), 20);
+/// What of contacts together is wide enough to lie on more than one branch, and a little around it.
+Regions wide_part(const Regions& together, Um least) {
+  return opened(together, least / 2, 50);
 }
 
 }  // namespace
 
-Roofs::Roofs(const Room& room, const Stack& stack, const std::vector<Regions>& contacts)
+Roofs::Roofs(const Room& room, const Stack& stack, const std::vector<Regions>& contacts, Use use)
     : room_(room),
       s_(room.settings()),
       o_(room.object()),
@@ -54,28 +56,61 @@ Roofs::Roofs(const Room& room, const Stack& stack, const std::vector<Regions>& c
       lowest_(contacts.size()),
       tips_(contacts.size()) {
   if (s_.support_roof_enable && s_.support_roof_height > 0)
-    begin_roofs();
+    begin_roofs(use);
   else
     bare_ = contacts;
 }
 
-void Roofs::begin_roofs() {
-  constexpr Um side_by_side = 1.5_mm;  // strips of a slope that are no further up or down lie on each other
+/// Contacts of levels, with what is beside them.
+struct Roofs::Floor {
+  Um top = 0;
+  Regions around, wide;
+};
+
+/// Levels with contacts that go on without a gap, together: a slope, or a table's underside. By level, which of them.
+std::vector<Roofs::Floor> Roofs::floors(Um least, std::vector<std::size_t>& floor_of) const {
+  std::vector<Floor> out;
+  floor_of.resize(contacts_.size());
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    if (contacts_[k].empty()) continue;
+    if (out.empty() || stack_.levels[k].z > out.back().top + side_by_side) out.emplace_back();
+    floor_of[k] = out.size() - 1;
+    out.back().top = stack_.levels[k].z;
+    append(out.back().around, contacts_[k]);
+  }
+  for (Floor& floor : out) floor.around = grown(floor.around, 20), floor.wide = wide_part(floor.around, least);
+  return out;
+}
+
+/// What is beside the contacts of each level, themselves included, and what of that is wide.
+std::vector<Roofs::Beside> Roofs::beside_contacts(Use use) const {
   const Um least = branch_style(s_).tip * 3 / 2;
-  auto around = tasks::parallel_map(contacts_.size(), [&](std::size_t k) {
-    if (contacts_[k].empty()) return Regions{};
+  std::vector<std::size_t> floor_of;
+  const auto all = use == Use::reckoned ? floors(least, floor_of) : std::vector<Floor>{};
+  return tasks::parallel_map(contacts_.size(), [&](std::size_t k) {
+    Beside out;
+    if (contacts_[k].empty()) return out;
     stop_if_asked();
-    const Um height = std::max<Um>(s_.support_roof_height, side_by_side);
-    return around_level(contacts_, k, interface_levels(stack_, k, height), 2 * least);
+    if (use == Use::reckoned) {
+      const Floor& floor = all[floor_of[k]];
+      const Box box = box_of(contacts_[k]).grown(2 * least);
+      out.around = geometry::trimmed(floor.around, box), out.wide = geometry::trimmed(floor.wide, box);
+    } else {
+      const Um height = std::max<Um>(s_.support_roof_height, side_by_side);
+      out.around = around_level(contacts_, k, interface_levels(stack_, k, height), 2 * least);
+      out.wide = wide_part(out.around, least);
+    }
+    if (!out.wide.empty()) out.wide = geometry::opening(geometry::intersect(contacts_[k], out.wide), 20);
+    return out;
   });
-  wide_ = tasks::parallel_map(contacts_.size(), [&](std::size_t k) {
-    if (contacts_[k].empty()) return Regions{};
-    stop_if_asked();
-    return wide_part(contacts_[k], around[k], least);
-  });
+}
+
+void Roofs::begin_roofs(Use use) {
+  auto beside = beside_contacts(use);
   const auto caps = lowest_caps(stack_);
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     if (contacts_[k].empty()) continue;
+    wide_[k] = std::move(beside[k].wide);
     bare_[k] =
         wide_[k].empty() ? contacts_[k] : geometry::opening(geometry::subtract(contacts_[k], grown(wide_[k], 100)), 20);
     if (wide_[k].empty()) continue;
@@ -88,7 +123,7 @@ void Roofs::begin_roofs() {
     }
     held_from_[k - count].push_back(k);
     append(begins_[k - count], wide_[k]);
-    append(around_[k - count], around[k]);
+    append(around_[k - count], beside[k].around);
   }
   for (auto* some : {&begins_, &around_})
     for (auto& regions : *some)

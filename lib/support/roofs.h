@@ -13,8 +13,11 @@ namespace weft::support {
 /// branches would hang. What is too narrow for a roof is held by tips themselves.
 class Roofs {
  public:
+  enum class Use { laid, reckoned };
   /// @param contacts  by level; they outlive this
-  Roofs(const Room& room, const Stack& stack, const std::vector<Regions>& contacts);
+  /// @param use       roofs that are only reckoned take all of a slope for what lies beside a level of it, which is
+  /// found once
+  Roofs(const Room& room, const Stack& stack, const std::vector<Regions>& contacts, Use use);
 
   /// What tips that end on this level hold by themselves.
   const Regions& bare(std::size_t level) const { return bare_[level]; }
@@ -55,7 +58,13 @@ class Roofs {
   OfLevel of_level(std::size_t level, const std::vector<Regions>& branches) const;
   JoistPlace place_on(std::size_t level, const std::vector<Regions>& branches, const Regions& dense) const;
   Regions shaped(const Regions& area, std::size_t level) const;
-  void begin_roofs();
+  struct Floor;
+  std::vector<Floor> floors(Um least, std::vector<std::size_t>& floor_of) const;
+  struct Beside {
+    Regions around, wide;
+  };
+  std::vector<Beside> beside_contacts(Use use) const;
+  void begin_roofs(Use use);
 
   const Room& room_;
   const SupportSettings& s_;

@@ -66,7 +66,7 @@ class Grower {
   }
 
   Tree tree() && {
-    Roofs roofs(room_, stack_, contacts_);
+    Roofs roofs(room_, stack_, contacts_, Roofs::Use::laid);
     grow(roofs);
     tree_.areas = branch_areas(room_, stack_, contacts_, discs_);
     auto laid = std::move(roofs).laid(tree_.areas);
@@ -74,7 +74,7 @@ class Grower {
     return std::move(tree_);
   }
   std::vector<double> plastic_mm3() && {
-    Roofs roofs(room_, stack_, contacts_);
+    Roofs roofs(room_, stack_, contacts_, Roofs::Use::reckoned);
     grow(roofs);
     return std::move(mm3_);
   }

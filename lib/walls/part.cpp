@@ -5,6 +5,7 @@
 #include "geometry/boolean.h"
 #include "geometry/medial_axis.h"
 #include "geometry/offset.h"
+#include "geometry/simplify.h"
 #include "walls/finish.h"
 #include "walls/fit_ends.h"
 #include "walls/keep_inside.h"
@@ -24,6 +25,7 @@ namespace {
 constexpr double corner_deg = 45;      // walls are led into the tip of a sharper corner
 constexpr double dab_share = 2.0 / 3;  // of the square of a bead's width: a smaller part is a dab
 constexpr double chord_um = 4;         // how far a chord may stand off a bead that bends around a corner
+constexpr Um rest_chord = 2;  // … and off what walls leave: most of its points are ribs that tell nothing, rounded
 
 void add_rings(const Regions& at, Um width, std::uint16_t inset, std::uint32_t part, Beads& out) {
   auto add = [&](const Ring& ring) {
@@ -63,6 +65,7 @@ Regions rest_of(const Skeleton& skeleton, const Laying& laying, Point origin) {
       const Point q{origin.x + rounded(p.x), origin.y + rounded(p.y)};
       if (ring.empty() || ring.back() != q) ring.push_back(q);
     }
+    ring = geometry::simplified(ring, rest_chord);
     if (ring.size() >= 3) rings.push_back(std::move(ring));
   }
   return rings.empty() ? Regions{} : geometry::regions_from_rings(rings);

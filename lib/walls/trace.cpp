@@ -10,7 +10,8 @@ namespace weft::walls {
 namespace {
 
 using Vertex = Line::Vertex;
-constexpr double same_um = 0.5;
+constexpr double same_um = 0.5;      // places, and widths
+constexpr double nothing_um = 0.01;  // what is less is rounding
 
 double quad_area(Place a, Place b, Place c, Place d) {
   return 0.5 * std::abs(cross(a, b, c) + cross(a, c, d));
@@ -49,13 +50,35 @@ Piece pair_piece(const Skeleton& s, const Laying& laying, std::uint32_t h, std::
   return p;
 }
 
+bool same(const Vertex& a, const Vertex& b) {
+  return distance(a.at, b.at) < same_um && std::abs(a.width - b.width) <= same_um;
+}
+
+/// Whether a bead from a to c is at b where and as wide as it would be without b, to ten nanometres. Half of all ribs
+/// belong to what lies on the other side of the axis, and tell this side nothing.
+bool says_nothing(const Vertex& a, const Vertex& b, const Vertex& c) {
+  const double x = c.at.x - a.at.x, y = c.at.y - a.at.y, px = b.at.x - a.at.x, py = b.at.y - a.at.y;
+  const double length2 = x * x + y * y, along = px * x + py * y;
+  if (along <= 0 || along >= length2) return false;
+  const double aside = px * y - py * x, wider = (a.width - b.width) * length2 + along * (c.width - a.width);
+  return std::max(aside * aside, wider * wider / length2) <= nothing_um * nothing_um * length2;
+}
+
+void lead_on(std::vector<Vertex>& path, const Vertex& to) {
+  const std::size_t n = path.size();
+  if (n >= 2 && says_nothing(path[n - 2], path[n - 1], to))
+    path.back() = to;
+  else
+    path.push_back(to);
+}
+
 /// Adds a piece to a path; where its width is not that of the path's end, the vertex there is two: a step.
 void append(std::vector<Vertex>& path, const Vertex& start, const Vertex& end) {
-  constexpr double even_um = 0.5;
-  if (path.empty() || distance(path.back().at, start.at) >= same_um ||
-      std::abs(path.back().width - start.width) > even_um)
-    path.push_back(start);
-  path.push_back(end);
+  if (!path.empty() && same(path.back(), start))
+    path.back() = lerp(path.back(), start, 0.5);  // the same from either side
+  else
+    lead_on(path, start);
+  lead_on(path, end);
 }
 
 /// A stretch of a loop between turns.
@@ -92,6 +115,17 @@ void set_back(Chain& chain) {
   cut_end(path, tail * scale);
 }
 
+/// Where a loop begins is chance: it is no vertex unless it says something.
+void close(std::vector<Vertex>& path) {
+  if (path.size() < 5) return;
+  if (same(path.back(), path.front())) {
+    path.front() = lerp(path.back(), path.front(), 0.5);
+    path.pop_back();
+  }
+  if (says_nothing(path[path.size() - 2], path.back(), path[0])) path.pop_back();
+  if (says_nothing(path.back(), path[0], path[1])) path.erase(path.begin());
+}
+
 struct Loop {
   std::vector<Chain> chains;  ///< a turn between each and the next
 };
@@ -105,6 +139,7 @@ Line joined(Loop& loop, int inset) {
     for (auto& chain : chains) set_back(chain);
   }
   for (auto& chain : chains) line.path.insert(line.path.end(), chain.path.begin(), chain.path.end());
+  if (chains.size() == 1) close(line.path);
   return line;
 }
 
@@ -123,7 +158,8 @@ double area_of(const std::vector<Vertex>& path) {
 }
 
 void cut_end(std::vector<Vertex>& path, double by) {
-  while (path.size() > 1) {
+  constexpr double rounding = 1e-6;  // what it leaves must not take the first of two vertices in one place: a step
+  while (path.size() > 1 && by > rounding) {
     Vertex &last = path.back(), &before = path[path.size() - 2];
     const double d = distance(last.at, before.at);
     if (d > by) {

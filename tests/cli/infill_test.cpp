@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/program.h"
 
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <set>
@@ -52,6 +53,71 @@ TEST_CASE("infill: directions that stand still against the part are turned with 
     return scratch.read(frame + ".gcode");
   };
   CHECK(lines("plate") != lines("part"));
+}
+
+namespace {
+
+/// A tube on the plate, mm.
+std::string tube_stl(double inner, double outer, double height) {
+  constexpr int sides = 90;
+  std::ostringstream out;
+  const auto at = [](double radius, int side, double z) {
+    const double a = 2 * M_PI * side / sides;
+    return std::array{radius * std::cos(a), radius * std::sin(a), z};
+  };
+  using Corner = std::array<double, 3>;
+  const auto quad = [&](Corner a, Corner b, Corner c, Corner d) {
+    for (const auto& face : {std::array{a, b, c}, std::array{a, c, d}}) {
+      out << "facet normal 0 0 0\nouter loop\n";
+      for (const Corner& p : face) out << "vertex " << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+      out << "endloop\nendfacet\n";
+    }
+  };
+  out << "solid tube\n";
+  for (int i = 0; i < sides; ++i) {
+    quad(at(outer, i, 0), at(outer, i + 1, 0), at(outer, i + 1, height), at(outer, i, height));
+    quad(at(inner, i + 1, 0), at(inner, i, 0), at(inner, i, height), at(inner, i + 1, height));
+    quad(at(inner, i, height), at(outer, i, height), at(outer, i + 1, height), at(inner, i + 1, height));
+    quad(at(inner, i + 1, 0), at(outer, i + 1, 0), at(outer, i, 0), at(inner, i, 0));
+  }
+  out << "endsolid tube\n";
+  return out.str();
+}
+
+}  // namespace
+
+TEST_CASE("infill: between the walls of a tube solid lines run around it and fill it") {
+  Scratch scratch;
+  scratch.write("tube.stl", tube_stl(10, 13.7, 3));
+  const auto run = weft({"slice", "tube.stl", "-o", "out.gcode", "--report", "-", "-s", "wall_line_width_0=0.45", "-s",
+                         "wall_line_width_x=0.45", "-s", "skin_line_width=0.45", "-s", "wall_line_count=3", "-s",
+                         "layer_height=0.2", "-s", "nozzle_diameter=0.4"},
+                        scratch.path());
+  INFO(run.err);
+  REQUIRE(run.status == 0);
+  std::istringstream lines(scratch.read("out.gcode"));
+  double x = 0, y = 0, way_x = 0, way_y = 0, mm = 0;
+  bool solid = false;
+  int turns = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line == ";TYPE:Internal infill") break;  // what is above it is a bridge at first
+    if (line.rfind(";TYPE:", 0) == 0) solid = line == ";TYPE:Solid infill", way_x = way_y = 0;
+    if (line.rfind("G1 ", 0) != 0 && line.rfind("G0 ", 0) != 0) continue;
+    const auto word = [&](char name, double usual) {
+      const auto found = line.find(std::string(" ") + name);
+      return found == std::string::npos ? usual : std::stod(line.substr(found + 2));
+    };
+    const double to_x = word('X', x) - x, to_y = word('Y', y) - y, length = std::hypot(to_x, to_y);
+    const bool laid = solid && line.find(" E") != std::string::npos && length > 0;
+    if (laid) {
+      mm += length;
+      turns += to_x * way_x + to_y * way_y < 0;  // by more than 90°
+    }
+    if (length > 0) way_x = laid ? to_x : 0, way_y = laid ? to_y : 0;
+    x += to_x, y += to_y;
+  }
+  CHECK(mm > 600);
+  CHECK(turns == 0);
 }
 
 namespace {

@@ -200,6 +200,42 @@ TEST_CASE("infill: solid lines cross the strands of the bridge below, unless a d
   CHECK(std::abs(std::sin(direction({}, beside) - direction({}, {}))) < 1e-6);
 }
 
+TEST_CASE("infill: strips that bend are filled along their edge, as whoever can do that gives their lines",
+          "[infill]") {
+  const auto ring = [](double inner, double outer) {
+    Region out;
+    Ring hole;
+    for (int i = 0; i < 120; ++i) {
+      const double a = degrees(3.0 * i);
+      out.outer.push_back({rounded(outer * std::cos(a)), rounded(outer * std::sin(a))});
+      hole.push_back({rounded(inner * std::cos(-a)), rounded(inner * std::sin(-a))});
+    }
+    out.holes.push_back(std::move(hole));
+    return out;
+  };
+  const auto along = [](const Region& region, const ShellSettings& shells = {}) {
+    const LayerAreas areas = solid_area(region);
+    auto in = input(areas, 1);
+    in.along_edge = [](const Region& strip) {
+      return Beads{{{{strip.outer[0], 411}, {strip.outer[40], 411}, {strip.outer[80], 411}}, Role::inner_wall, true, 2},
+                   {{{{0, 0}, 411}, {{200, 0}, 411}}, Role::inner_wall}};  // a dab
+    };
+    const Beads beads = infill::fill({}, shells, in).beads;
+    const bool found = beads.size() == 1 && beads[0].closed && beads[0].path.size() == 3;
+    if (found) CHECK((beads[0].role == Role::solid_infill && beads[0].part == 3 && beads[0].inset == 0));
+    CHECK(!beads.empty());
+    return found;
+  };
+  CHECK(along(ring(10000, 11200)));
+  CHECK(along(ring(10000, 11900)));
+  CHECK_FALSE(along(ring(10000, 13500)));            // it is crossed
+  CHECK_FALSE(along(ring(1, 1200)));                 // a patch
+  CHECK_FALSE(along(rectangle(0, 0, 30000, 1200)));  // straight lines along it do
+  ShellSettings asked;
+  asked.skin_angle = 10;
+  CHECK_FALSE(along(ring(10000, 11200), asked));
+}
+
 TEST_CASE("infill: on a bridge lines of a strip run along it, if that is not along the strands", "[infill]") {
   const LayerAreas areas = solid_area(rectangle(0, 0, 20000, 1200));
   const auto lines_over = [&](double angle) {

@@ -92,7 +92,7 @@ TEST_CASE("walls: a wall in a corner keeps to the outline and leaves less bare b
     return n;
   };
   const auto walls = walls_with(75, square);
-  CHECK(bare(walls) < 0.6 * bare(walls_with(100, square)));
+  CHECK(bare(walls) < 0.65 * bare(walls_with(100, square)));
   for (Um t = 5; t < 10_mm; t += 11) {
     CHECK_FALSE(is_covered(walls, {t, -11}));
     CHECK_FALSE(is_covered(walls, {-11, t}));
