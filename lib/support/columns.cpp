@@ -370,10 +370,13 @@ class Falling {
       const bool less = less_[k] != 0;
       if (less_below && !levels_[k].empty()) {
         stop_if_asked();
-        const Regions all = levels_[k];
+        Regions all = levels_[k];
         rest_on(room_, stack_.levels[k], levels_[k - 1], levels_[k]);
         const double lost_mm2 = area_mm2(all) - area_mm2(levels_[k]);
-        if (lost_mm2 > least_toe_mm2) add_toes(k, geometry::subtract(all, levels_[k]));
+        if (lost_mm2 > least_toe_mm2) {
+          std::erase_if(all, [&](const Region& r) { return !geometry::intersect({r}, levels_[k]).empty(); });
+          add_toes(k, all);
+        }
         less_below = less || lost_mm2 > 0;
       } else {
         less_below = less;
@@ -382,10 +385,10 @@ class Falling {
   }
   /// Over a steep slope a column hangs: it is kept off it further sideways than it may sag. There it reaches out to
   /// where the slope is near below, no nearer to it than contacts are.
-  /// @param lost  what of that level rests on nothing
+  /// @param lost  regions of that level of which nothing rests
   void add_toes(std::size_t k, const Regions& lost) {
     const auto& level = stack_.levels[k];
-    if (s_.support_type != SupportType::everywhere || level.bottom() <= room_.object().floor) return;
+    if (lost.empty() || s_.support_type != SupportType::everywhere || level.bottom() <= room_.object().floor) return;
     const Regions wide = grown(lost, beside(s_, room_.object()));
     const Regions free = room_.free_part(wide, level, wide), part = part_below(room_, level, box_of(wide));
     if (free.empty() || part.empty()) return;
