@@ -102,7 +102,7 @@ class Guess {
 /// own, as those beside it do not carry it, and each tip as much as one that holds ten times more: where columns take
 /// less than a row of tips does, branches need not be reckoned. High up they may well be less.
 bool for_columns_alone(const SupportSettings& settings, const Guess& guess, const Patch& patch) {
-  constexpr double tips_mm3_by_mm = 1.4;  // of a strip's outline
+  constexpr double tips_mm3_by_mm = 1.65;  // of a strip's outline
   double mm2 = 0, round_mm = 0;
   for (const auto& [k, regions] : patch.contacts) mm2 += area_mm2(regions), round_mm += geometry::outline_mm(regions);
   return 2 * mm2 < round_mm * to_mm(branch_style(settings).tip) && guess.columns_mm3(patch) < tips_mm3_by_mm * round_mm;

@@ -232,19 +232,33 @@ Regions hanging(const Regions& here, const Regions& below) {
 
 }  // namespace
 
+namespace {
+
+/// What of the part a level comes to lie on: beads sink so far.
+Regions part_below(const Room& room, const Stack::Level& level, const Box& near) {
+  constexpr Um sinks = 0.6_mm;
+  return room.part(level.bottom() - bottom_gap(room.settings()) - sinks, level.bottom(), near);
+}
+
+/// How far beads reach beyond what they lie on.
+Um reach_of(const Room& room, const Stack::Level& level) {
+  return std::max(line_width(room.settings(), room.object().nozzle) * 6 / 10, level.height);
+}
+
+}  // namespace
+
 void rest_on(const Room& room, const Stack::Level& level, const Regions& below, Regions& here) {
-  constexpr Um sinks = 0.6_mm;  // what hangs so far above the part comes to lie on it
   if (here.empty()) return;
   const auto& s = room.settings();
   const Regions hangs = hanging(here, below);
   if (hangs.empty()) return;
-  const Um reach = std::max(line_width(s, room.object().nozzle) * 6 / 10, level.height);
+  const Um reach = reach_of(room, level);
   Regions free;
   for (const Region& piece : hangs) {
     const Box near = box_of(piece.outer).grown(2 * reach);
     Regions base = geometry::trimmed(below, near);
     if (s.support_type == SupportType::everywhere) {  // what lies below it, and not walls beside
-      const Regions part = room.part(level.bottom() - bottom_gap(s) - sinks, level.bottom(), near);
+      const Regions part = part_below(room, level, near);
       if (!part.empty()) append(base, geometry::intersect({piece}, part));
     }
     if (base.empty())
@@ -356,15 +370,36 @@ class Falling {
       const bool less = less_[k] != 0;
       if (less_below && !levels_[k].empty()) {
         stop_if_asked();
-        const double before = area_mm2(levels_[k]);
+        Regions all = levels_[k];
         rest_on(room_, stack_.levels[k], levels_[k - 1], levels_[k]);
-        less_below = less || area_mm2(levels_[k]) < before;
+        const double lost_mm2 = area_mm2(all) - area_mm2(levels_[k]);
+        if (lost_mm2 > least_toe_mm2) {
+          std::erase_if(all, [&](const Region& r) { return !geometry::intersect({r}, levels_[k]).empty(); });
+          add_toes(k, all);
+        }
+        less_below = less || lost_mm2 > 0;
       } else {
         less_below = less;
       }
     }
   }
+  /// Over a steep slope a column hangs: it is kept off it further sideways than it may sag. There it reaches out to
+  /// where the slope is near below, no nearer to it than contacts are.
+  /// @param lost  regions of that level of which nothing rests
+  void add_toes(std::size_t k, const Regions& lost) {
+    const auto& level = stack_.levels[k];
+    if (lost.empty() || s_.support_type != SupportType::everywhere || level.bottom() <= room_.object().floor) return;
+    const Regions wide = grown(lost, beside(s_, room_.object()));
+    const Regions free = room_.free_part(wide, level, wide), part = part_below(room_, level, box_of(wide));
+    if (free.empty() || part.empty()) return;
+    const Regions toes = without_thin(
+        geometry::intersect(grown(geometry::intersect(free, part), reach_of(room_, level)), free), line_ * 4 / 10);
+    if (toes.empty()) return;
+    append(levels_[k], toes);
+    levels_[k] = geometry::unite(levels_[k]);
+  }
 
+  static constexpr double least_toe_mm2 = 0.2;  // about a bead's square
   const SupportSettings& s_;
   const Room& room_;
   const Stack& stack_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "body.h"
+#include "support/plastic.h"
 
 #include <algorithm>
 #include <cmath>
@@ -155,6 +156,45 @@ TEST_CASE("support: branches take less than columns under a high table") {
   const double columns = plastic(planned(on(SupportStructure::normal), body));
   CHECK(plastic(planned(on(SupportStructure::tree), body)) < 0.8 * columns);
   CHECK(plastic(planned(on(SupportStructure::hybrid), body)) <= columns);
+}
+
+TEST_CASE("support: a column stands on a slope of the part that is steep, also where it does not end in the open") {
+  for (const double slope : {50.0, 55.0, 60.0, 65.0}) {
+    Body body;  // a wall that leans back below a shelf that reaches no further than its foot
+    const double foot = 15000, back = 11000;
+    const int steps = static_cast<int>((foot - back) * std::tan(slope * 3.14159265 / 180) / 200);
+    for (int i = 0; i < steps; ++i)
+      body.add(1, {rectangle(-5000, -6000, static_cast<Um>(foot - i * (foot - back) / steps), 6000)});
+    body.add(20, {rectangle(-5000, -6000, static_cast<Um>(back), 6000)});
+    body.add(5, {rectangle(-5000, -6000, static_cast<Um>(foot), 6000)});
+    for (const auto structure : every_structure) {
+      const auto plan = planned(on(structure), body);
+      INFO(slope << " degrees, structure " << static_cast<int>(structure));
+      CHECK(plan.figures.left_mm2 < 0.05 * plan.figures.needed_mm2);
+      CHECK(too_near(plan, body, 195) == 0);
+      CHECK(floating(plan, body, 300) < 0.05);
+    }
+  }
+}
+
+TEST_CASE("support: thin strips high up stand on branches where these take less") {
+  Body body;  // the inside of a dome
+  const Region around = rectangle(-29000, -29000, 29000, 29000);
+  for (int i = 0; i < 200; ++i) {
+    const double radius = 27000 * std::sqrt(1 - std::pow(i / 202.0, 2));
+    Ring hole;
+    for (int k = 0; k < 48; ++k)
+      hole.push_back({static_cast<Um>(radius * std::cos(k * 3.14159265 / 24)),
+                      static_cast<Um>(radius * std::sin(k * 3.14159265 / 24))});
+    body.add(1, geometry::subtract({around}, {{hole, {}}}));
+  }
+  body.add(10, {around});
+  const auto taken = [&](SupportStructure structure) {
+    const auto s = on(structure);
+    return support::plastic_mm3(s, 400, planned(s, body));
+  };
+  INFO(taken(SupportStructure::tree));
+  CHECK(taken(SupportStructure::hybrid) < 0.8 * taken(SupportStructure::normal));
 }
 
 TEST_CASE("support: of the plate alone nothing stands on the part, and what it cannot reach is told") {
