@@ -25,9 +25,9 @@ double radians(double degrees) {
   return degrees * std::numbers::pi / 180;
 }
 
-/// The direction (up to 90°) of most of the area's edge, when half of it runs that way or across; else 45°. Lines along
-/// straight walls end square on the walls across, so they leave nothing open.
-double angle_along_walls(const Region& region) {
+/// The direction (up to 90°) of most of the area's edge, when half of it runs that way or across. Lines along straight
+/// walls end square on the walls across, so they leave nothing open.
+std::optional<double> angle_along_walls(const Region& region) {
   constexpr double shortest_um = 1000;  // of what counts as a straight wall
   constexpr std::size_t bins = 90;
   constexpr double quarter = std::numbers::pi / 2;
@@ -48,7 +48,7 @@ double angle_along_walls(const Region& region) {
   look(region.outer);
   for (const Ring& hole : region.holes) look(hole);
   const auto peak = static_cast<std::size_t>(std::max_element(length.begin(), length.end()) - length.begin());
-  return length[peak] >= all / 2 ? angle[peak] : radians(45);
+  return length[peak] >= all / 2 ? std::optional(angle[peak]) : std::nullopt;
 }
 
 /// The direction of a straight strip no wider than some lines: across it they would be dabs with a turn between each
@@ -125,9 +125,7 @@ Regions fill_strips(const Regions& regions, const SolidStyle& style, const FillI
   return rest;
 }
 
-/// Across the bridge that most of an area lies on: its strands then carry each line at many places. Lines that cross
-/// them at 60° and more are carried at about as many: those of a strip run along it.
-constexpr double nearly_across = 0.866;
+/// Across the bridge that most of an area lies on: its strands then carry each line at many places.
 std::optional<double> angle_across_bridges(const Region& region, std::span<const BridgeArea> below) {
   const Box box = weft::box_of(region.outer);
   for (const BridgeArea& bridge : below) {
@@ -139,6 +137,18 @@ std::optional<double> angle_across_bridges(const Region& region, std::span<const
       return bridge.angle_rad + radians(90);
   }
   return std::nullopt;
+}
+
+/// Lines that cross strands at 64° and more are carried at about as many places as those straight across: they run
+/// along a strip, and along walls or square on them.
+double nearly_across(const Region& region, Um band, double across) {
+  constexpr double nearly = 0.9;  // cosine of 26°
+  const auto near = [&](double angle) { return std::abs(std::cos(angle - across)) > nearly; };
+  if (const auto along = angle_along_strip(region, band); along && near(*along)) return *along;
+  if (const auto along = angle_along_walls(region))
+    for (const double angle : {*along, *along + radians(90)})
+      if (near(angle)) return angle;
+  return across;
 }
 
 /// How far the outline is from what walls leave inside.
@@ -375,14 +385,13 @@ FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const 
   const auto own_angle = [&](const SolidStyle& style, const Region& region) {
     if (style.turned && !shells.skin_angle)
       if (const auto along = angle_along_strip(region, style.band)) return *along;
-    return (style.turned ? turn : 0) + (shells.skin_angle ? radians(*shells.skin_angle) : angle_along_walls(region));
+    return (style.turned ? turn : 0) +
+           (shells.skin_angle ? radians(*shells.skin_angle) : angle_along_walls(region).value_or(radians(45)));
   };
   const auto solid_angle = [&](const SolidStyle& style, const Region& region) {
     const auto across =
         shells.skin_angle || !style.turned ? std::nullopt : angle_across_bridges(region, input.bridges_below);
-    if (!across) return own_angle(style, region);
-    const auto along = angle_along_strip(region, style.band);
-    return along && std::abs(std::cos(*along - *across)) > nearly_across ? *along : *across;
+    return across ? nearly_across(region, style.band, *across) : own_angle(style, region);
   };
   const auto is_on_bridge = [&](const Region& region) {
     return angle_across_bridges(region, input.bridges_below).has_value();

@@ -193,6 +193,11 @@ TEST_CASE("infill: solid lines cross the strands of the bridge below, unless a d
     return angle;
   };
   CHECK(std::abs(std::cos(direction({}, below) - degrees(30))) < 0.02);
+  for (const double strands : {10.0, 75.0, 105.0, 170.0}) {  // along the walls, or square on them
+    const std::vector<infill::BridgeArea> nearly{{{rectangle(0, 0, 20000, 15000)}, degrees(strands)}};
+    CHECK(std::abs(std::sin(2 * direction({}, nearly))) < 0.02);
+    CHECK(std::abs(std::cos(direction({}, nearly) - degrees(strands))) < 0.3);
+  }
   ShellSettings asked;
   asked.skin_angle = 10;
   CHECK(std::abs(std::sin(direction(asked, below) - direction(asked, {}))) < 1e-6);
