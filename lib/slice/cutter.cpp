@@ -4,6 +4,7 @@
 #include "geometry/boolean.h"
 #include "geometry/offset.h"
 #include "geometry/simplify.h"
+#include "geometry/spatial_index.h"
 #include "slice/slice.h"
 #include "slice/stitch.h"
 
@@ -99,16 +100,39 @@ Regions solid_of(std::vector<Ring> rings, bool cut_through, SlicingMode mode, bo
   return geometry::unite(solid);  // what stood in a hole is within its region now
 }
 
+constexpr Um near = 50;  // what is further apart has a gap between it, not a crack
+
+double distance_to(Point p, const geometry::Segment& s) {
+  const double x = s.b.x - s.a.x, y = s.b.y - s.a.y, square = x * x + y * y;
+  if (square == 0) return distance(p, s.a);
+  const double along = ((p.x - s.a.x) * x + (p.y - s.a.y) * y) / square;
+  return distance(p, lerp(s.a, s.b, std::clamp(along, 0.0, 1.0)));
+}
+
+/// Whether a corner of one outline lies on another, about.
+bool corners_on_others(const std::vector<Ring>& rings) {
+  const geometry::SegmentIndex index{std::span<const Ring>(rings)};
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t r = 0; r < rings.size(); ++r)
+    for (const Point p : rings[r]) {
+      found.clear();
+      index.near({{p.x - near, p.y - near}, {p.x + near, p.y + near}}, found);
+      for (const std::uint32_t s : found)
+        if (index.origin(s).region != r && distance_to(p, index.segments()[s]) <= near) return true;
+    }
+  return false;
+}
+
 /// Whether outlines of two bodies may lie on each other.
 bool near_each_other(const std::vector<Ring>& rings) {
-  constexpr Um near = 50;  // wider is a gap
   std::vector<Box> boxes;
   for (const Ring& ring : rings)
     if (double_area(ring) > 0) boxes.push_back(box_of(ring));
   std::sort(boxes.begin(), boxes.end(), [](const Box& a, const Box& b) { return a.min.x < b.min.x; });
   for (std::size_t i = 0; i < boxes.size(); ++i)
     for (std::size_t j = i + 1; j < boxes.size() && boxes[j].min.x <= boxes[i].max.x + near; ++j)
-      if (boxes[j].min.y <= boxes[i].max.y + near && boxes[i].min.y <= boxes[j].max.y + near) return true;
+      if (boxes[j].min.y <= boxes[i].max.y + near && boxes[i].min.y <= boxes[j].max.y + near)
+        return corners_on_others(rings);
   return false;
 }
 
@@ -130,7 +154,9 @@ Regions without_cracks(const Regions& solid, Um resolution) {
   if (outlines_um(closed) > outlines_um(solid) - least_um) return solid;
   // Cracks may be too thin to be areas: both sides are drawn back first, and what that takes elsewhere is a thin rim.
   const Regions cracks_and_rim = geometry::subtract(closed, geometry::offset(solid, {.by = -lap}));
-  return geometry::unite(solid, geometry::opening(cracks_and_rim, lap * 7 / 10, geometry::Corner::miter));
+  Regions cracks = geometry::opening(cracks_and_rim, lap * 7 / 10, geometry::Corner::miter);
+  std::erase_if(cracks, [](const Region& crack) { return perimeter_of(crack.outer) < least_um; });  // notches
+  return cracks.empty() ? solid : geometry::unite(solid, cracks);
 }
 
 }  // namespace
