@@ -72,10 +72,11 @@ void write_gcode(const gcode::Job& job, PrintPlan& plan, std::vector<std::string
     if (i < heat.size()) add_heat(heat[i], plan.layers[i]);
     auto block = writer.layer(i);
     let_go(plan.layers[i].steps);
+    // Here, and not beside the audit: that takes one layer after another, and is what is waited for.
+    if (i % layers_between_giving_back == 0) give_back_memory();
     return block;
   };
-  tasks::parallel_in_order(plan.layers.size(), write, [&](std::size_t i, const std::string& block) {
-    if (i % layers_between_giving_back == 0) give_back_memory();
+  tasks::parallel_in_order(plan.layers.size(), write, [&](std::size_t, const std::string& block) {
     const Stopwatch audit(report.timings_ms[Stage::audit]);
     check.add(block);
   });
