@@ -14,6 +14,7 @@
 #include "tasks/parallel.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace weft::support {
 using namespace weft::literals;
@@ -101,11 +102,15 @@ class Guess {
 /// What is held is strips thinner than a tip, on the whole, as under slopes. Each strip would need a row of tips of its
 /// own, as those beside it do not carry it, and each tip as much as one that holds ten times more: where columns take
 /// less than a row of tips does, branches need not be reckoned. High up they may well be less.
-bool for_columns_alone(const SupportSettings& settings, const Guess& guess, const Patch& patch) {
+/// @param columns_mm3  what columns take, if it had to be reckoned
+bool for_columns_alone(const SupportSettings& settings, const Guess& guess, const Patch& patch,
+                       std::optional<double>& columns_mm3) {
   constexpr double tips_mm3_by_mm = 1.65;  // of a strip's outline
   double mm2 = 0, round_mm = 0;
   for (const auto& [k, regions] : patch.contacts) mm2 += area_mm2(regions), round_mm += geometry::outline_mm(regions);
-  return 2 * mm2 < round_mm * to_mm(branch_style(settings).tip) && guess.columns_mm3(patch) < tips_mm3_by_mm * round_mm;
+  if (2 * mm2 >= round_mm * to_mm(branch_style(settings).tip)) return false;
+  columns_mm3 = guess.columns_mm3(patch);
+  return *columns_mm3 < tips_mm3_by_mm * round_mm;
 }
 
 }  // namespace
@@ -115,8 +120,10 @@ Split cheaper(const Room& room, const Stack& stack, const std::vector<Regions>& 
   const Guess guess(room, stack);
   const auto& all = patches.all();
   Split out{std::vector<Regions>(contacts.size()), std::vector<Regions>(contacts.size()), std::nullopt};
-  const auto strips = tasks::parallel_map(
-      all.size(), [&](std::size_t i) { return char{for_columns_alone(room.settings(), guess, all[i])}; });
+  std::vector<std::optional<double>> columns_mm3(all.size());
+  const auto strips = tasks::parallel_map(all.size(), [&](std::size_t i) {
+    return char{for_columns_alone(room.settings(), guess, all[i], columns_mm3[i])};
+  });
   std::vector<std::size_t> asked;
   std::vector<Regions> wide(contacts.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -126,19 +133,20 @@ Split cheaper(const Room& room, const Stack& stack, const std::vector<Regions>& 
   if (asked.empty()) return out;
   out.field.emplace(room.settings(), room.object(), stack, wide);
   // Branches are reckoned level by level: columns are meanwhile.
-  std::vector<double> columns_mm3, by_branches_mm3;
+  std::vector<double> by_branches_mm3;
   tasks::for_each_index(2, [&](std::size_t structure) {
     if (structure == 0)
       by_branches_mm3 = branches_mm3(room, stack, *out.field, wide, patches);
     else
-      columns_mm3 = tasks::parallel_map(asked.size(), [&](std::size_t i) { return guess.columns_mm3(all[asked[i]]); });
+      tasks::for_each_index(asked.size(), [&](std::size_t i) {
+        if (auto& mm3 = columns_mm3[asked[i]]; !mm3) mm3 = guess.columns_mm3(all[asked[i]]);
+      });
   });
   // Where both take about the same, columns are done sooner and stand firmer; neither is reckoned better than that.
   constexpr double about_the_same = 0.8;
-  for (std::size_t i = 0; i < asked.size(); ++i)
-    for (const auto& [k, regions] : all[asked[i]].contacts)
-      append((by_branches_mm3[asked[i]] < about_the_same * columns_mm3[i] ? out.for_branches : out.for_columns)[k],
-             regions);
+  for (const std::size_t i : asked)
+    for (const auto& [k, regions] : all[i].contacts)
+      append((by_branches_mm3[i] < about_the_same * *columns_mm3[i] ? out.for_branches : out.for_columns)[k], regions);
   return out;
 }
 
