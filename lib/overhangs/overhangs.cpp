@@ -50,45 +50,6 @@ void add(const Run& run, std::vector<Run>& runs) {
     runs.push_back(run);
 }
 
-/// How much of the width of a segment lies over air, looked at in the middles of equal steps.
-class Looks {
- public:
-  Looks(const Junction& a, const Junction& b, Air& air)
-      : a_(a), b_(b), air_(air), length_(distance(a.at, b.at)), reach_(std::max(a.width, b.width) / 2 + 2) {
-    shares_.resize(static_cast<std::size_t>(std::ceil(length_ / step_um)));
-    look(0, shares_.size());
-  }
-  const std::vector<double>& shares() const { return shares_; }
-
- private:
-  /// Where no edge of the air is near, all steps are alike: on a long segment most of them are.
-  void look(std::size_t first, std::size_t end) {
-    constexpr std::size_t few = 2;
-    const auto count = static_cast<double>(shares_.size());
-    const double from = static_cast<double>(first) / count, to = static_cast<double>(end) / count;
-    if (!air_.edge_near(lerp(a_.at, b_.at, from), lerp(a_.at, b_.at, to), reach_)) {
-      const double share = air_.at(lerp(a_.at, b_.at, (from + to) / 2)) ? 1 : 0;
-      std::fill_n(shares_.begin() + static_cast<std::ptrdiff_t>(first), end - first, share);
-    } else if (end - first > few) {
-      const std::size_t middle = (first + end) / 2;
-      look(first, middle), look(middle, end);
-    } else {
-      for (std::size_t k = first; k < end; ++k) shares_[k] = share_at((static_cast<double>(k) + 0.5) / count);
-    }
-  }
-  double share_at(double along) const {
-    const double nx = -(b_.at.y - a_.at.y) / length_, ny = (b_.at.x - a_.at.x) / length_;
-    const double half = (a_.width + along * (b_.width - a_.width)) / 2;
-    return air_.share(lerp(a_.at, b_.at, along), {rounded(half * nx), rounded(half * ny)});
-  }
-
-  const Junction &a_, &b_;
-  Air& air_;
-  double length_;
-  Um reach_;  // half the width, and what rounding adds
-  std::vector<double> shares_;
-};
-
 /// How the bead lies all along.
 std::vector<Run> runs_of(const std::vector<Junction>& path, Air& air) {
   std::vector<Run> runs;
@@ -103,11 +64,17 @@ std::vector<Run> runs_of(const std::vector<Junction>& path, Air& air) {
       add({{i, 0}, {i, 1}, length, share * length, level_of(share)}, runs);
       continue;
     }
-    const Looks looks(a, b, air);
-    const auto count = static_cast<double>(looks.shares().size());
-    for (std::size_t k = 0; k < looks.shares().size(); ++k) {
-      const double share = looks.shares()[k], at = static_cast<double>(k);
-      add({{i, at / count}, {i, (at + 1) / count}, length / count, share * length / count, level_of(share)}, runs);
+    const int looks = static_cast<int>(std::ceil(length / step_um));
+    const double nx = -(b.at.y - a.at.y) / length, ny = (b.at.x - a.at.x) / length;
+    for (int k = 0; k < looks; ++k) {
+      const double along = (k + 0.5) / looks, half = (a.width + along * (b.width - a.width)) / 2;
+      const double share = air.share(lerp(a.at, b.at, along), {rounded(half * nx), rounded(half * ny)});
+      add({{i, static_cast<double>(k) / looks},
+           {i, (k + 1.0) / looks},
+           length / looks,
+           share * length / looks,
+           level_of(share)},
+          runs);
     }
   }
   return runs;
