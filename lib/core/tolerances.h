@@ -19,9 +19,6 @@ inline constexpr Um arc = 5_um;
 /// model/simplify.
 inline constexpr Um path = 10_um;
 
-/// … and how far its band may lie off: a twentieth of a bead, the spread of filament. model/simplify.
-inline constexpr Um band = 20_um;
-
 /// A segment along which a bead's band changes by more than this is cut, because firmware extrudes evenly along a
 /// segment. motion/resample.
 inline constexpr Um band_step = 20_um;
@@ -41,7 +38,7 @@ inline constexpr Um least_move = 50_um;
 /// least_move grows with it to 0.1 mm; with more, corners of narrow areas would be cut off. motion/resample.
 inline constexpr Um path_inside = 20_um;
 
-/// `band` and band_step for them: a ninth of a line. shortest_piece grows with it to 0.5 mm, as an orifice of 0.4 mm
+/// `band_step` for them: a ninth of a line. shortest_piece grows with it to 0.5 mm, as an orifice of 0.4 mm
 /// lays nothing that is finer; so does band_leap. motion/resample.
 inline constexpr Um band_inside = 50_um;
 

@@ -2,18 +2,16 @@
 #include "model/simplify.h"
 
 #include "core/stop.h"
+#include "model/pieces.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
-#include <queue>
 
 namespace weft {
 namespace {
-
-constexpr double short_piece = tolerances::least_move + 2 * tolerances::path;  // both its ends may be moved yet
 
 double length_of(const PathVertex& a, const PathVertex& b) {
   const double x = b.x - a.x, y = b.y - a.y;
@@ -24,12 +22,11 @@ bool is_even(const VertexPath& path) {
   return std::all_of(path.begin(), path.end(), [&](const PathVertex& v) { return v.band == path[0].band; });
 }
 
-// A bow may stand so far off its chord: the piece comes to lie in its middle, two thirds of that from its ends.
-constexpr double most_bow = 1.25 * tolerances::path;
-constexpr double per_place = 1.0 / (most_bow * most_bow),
-                 per_band = 1.0 / (static_cast<double>(tolerances::band) * tolerances::band);
+// A vertex so near to the straight between others tells nothing: the lattice tells no more.
+constexpr double same_place_um = 0.5, same_band_um = 1;
+constexpr double per_place = 1 / (same_place_um * same_place_um), per_band = 1 / (same_band_um * same_band_um);
 
-/// The squares of how far places or bands lie off a piece, in units of the tolerances.
+/// The squares of how far places or bands lie off a piece, in units of what is the same.
 class Chord {
  public:
   Chord(const PathVertex& a, const PathVertex& b) : a_(a), x_(b.x - a.x), y_(b.y - a.y), wider_(b.band - a.band) {
@@ -57,7 +54,7 @@ bool lies_off(const PathVertex& a, const PathVertex& p, const PathVertex& b, dou
   return std::max(aside * aside * per_place * length2, wider * wider * per_band) > most * length2 * length2;
 }
 
-/// The vertices of an open path that pieces between them do not stand for, ascending; its ends are among them.
+/// The vertices of an open path that tell something, ascending; its ends are among them.
 std::vector<std::size_t> standing_out(const VertexPath& path) {
   struct Span {
     std::size_t first, last;
@@ -253,7 +250,7 @@ VertexPath finer(const VertexPath& path, const Bends& bends, bool closed, double
     const double length = length_of(a, b), halfway = (length + on - back) / 2;
     const auto add = [&](double s) {
       const double t = s / length;
-      out.push_back({a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.band + t * (b.band - a.band)});
+      out.push_back(lerp(a, b, t));
     };
     for (const double r : graded)
       if (const double s = r * reach - back; s > 0 && s < std::min(length, halfway)) add(s);
@@ -263,8 +260,8 @@ VertexPath finer(const VertexPath& path, const Bends& bends, bool closed, double
   return out;
 }
 
-/// Puts first the vertex that stands out most: which one is first is chance, and it stays.
-void begin_at_corner(VertexPath& path) {
+/// The vertex that stands out most from its neighbours: a closed path begins there, and the first one stays.
+std::size_t corner_of(const VertexPath& path) {
   const std::size_t n = path.size();
   std::size_t best = 0;
   double most = 0;
@@ -272,84 +269,83 @@ void begin_at_corner(VertexPath& path) {
     const PathVertex &a = path[i > 0 ? i - 1 : n - 1], &b = path[i + 1 < n ? i + 1 : 0];
     if (lies_off(a, path[i], b, most * (1 + 1e-6))) most = Chord(a, b).error(path[i]), best = i;
   }
-  std::rotate(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(best), path.end());
+  return best;
 }
 
-/// The vertices that are left of a path, as a list.
-class Remaining {
- public:
-  Remaining(const VertexPath& path, const std::vector<std::size_t>& chosen)
-      : path_(path), chosen_(chosen), out_(chosen.size(), 0), before_(chosen.size()), after_(chosen.size()) {
-    std::iota(before_.begin() + 1, before_.end(), std::size_t{0});
-    std::iota(after_.begin(), after_.end(), std::size_t{1});
+/// The vertices of a path, in the middle of what their pieces stand for, of bands that lay what lies there. With
+/// `closed` the path's ends are one vertex, which is there twice; else they stay in place.
+VertexPath projected(const VertexPath& path, const std::vector<std::size_t>& at, bool closed) {
+  const Projection projection(path, at, closed);
+  VertexPath out;
+  for (const std::size_t i : at) out.push_back(path[i]);
+  const VertexPath chords = out;
+  const auto length = [&](std::size_t k) { return length_of(out[k], out[k + 1]); };
+  const Tridiagonal places = projection.system(length);
+  const auto off = [&](double PathVertex::*axis) {
+    return projection.of(places, [&](std::size_t k, std::size_t i, double t) {
+      return path[i].*axis - chords[k].*axis - t * (chords[k + 1].*axis - chords[k].*axis);
+    });
+  };
+  stop_if_asked();
+  const auto x = off(&PathVertex::x), y = off(&PathVertex::y);
+  stop_if_asked();
+  // No piece gets too short, wherever the other end goes.
+  const std::size_t pieces = at.size() - 1;
+  const auto room = [&](std::size_t k) { return (length_of(chords[k], chords[k + 1]) - tolerances::least_move) / 2; };
+  for (std::size_t k = closed ? 0 : 1; k < pieces; ++k) {
+    const double most = std::max(0.0, std::min(room(k), room(k > 0 ? k - 1 : pieces - 1)));
+    const double by = std::sqrt(x[k] * x[k] + y[k] * y[k]), share = by > most ? most / by : 1;
+    out[k].x += share * x[k], out[k].y += share * y[k];
   }
-  bool is_end(std::size_t i) const { return i == 0 || i + 1 == chosen_.size(); }
-  bool is_piece(std::size_t from, std::size_t to) const { return !out_[from] && !out_[to] && after_[from] == to; }
-  std::size_t before(std::size_t i) const { return before_[i]; }
-  std::size_t after(std::size_t i) const { return after_[i]; }
-  double length(std::size_t from, std::size_t to) const { return length_of(at(from), at(to)); }
-  /// How far it lies off the chord past it.
-  double missed(std::size_t i) const { return is_end(i) ? 1e18 : Chord(at(before_[i]), at(after_[i])).error(at(i)); }
-  /// Whether the path turns there by more than 60°.
-  bool turns(std::size_t i) const {
-    if (is_end(i)) return false;
-    const PathVertex &a = at(before_[i]), &b = at(i), &c = at(after_[i]);
-    return (b.x - a.x) * (c.x - b.x) + (b.y - a.y) * (c.y - b.y) < 0.5 * length_of(a, b) * length_of(b, c);
+  if (closed) out.back() = out.front();
+  if (is_even(path)) return out;
+  const auto band =
+      projection.of(projection.system(length), [&](std::size_t, std::size_t i, double) { return path[i].band; });
+  // No wider nor narrower than what it stands for.
+  std::vector<double> least(pieces), most(pieces);
+  for (std::size_t k = 0; k < pieces; ++k) {
+    least[k] = most[k] = path[at[k]].band;
+    for (std::size_t i = at[k] + 1; i <= at[k + 1]; ++i)
+      least[k] = std::min(least[k], path[i].band), most[k] = std::max(most[k], path[i].band);
   }
-  void leave_out(std::size_t i) {
-    out_[i] = 1;
-    after_[before_[i]] = after_[i];
-    before_[after_[i]] = before_[i];
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const std::size_t behind = k < pieces ? k : closed ? 0 : pieces - 1;
+    const std::size_t before = k > 0 ? k - 1 : closed ? pieces - 1 : 0;
+    constexpr double rounded_um = 2;  // both edges, by the lattice's one
+    const double narrowest = std::min(least[before], least[behind]), widest = std::max(most[before], most[behind]);
+    out[k].band = std::max(1.0, std::clamp(band[k % band.size()], narrowest - rounded_um, widest + rounded_um));
   }
-  std::vector<std::size_t> chosen() const {
-    std::vector<std::size_t> left;
-    for (std::size_t i = 0; i < chosen_.size(); ++i)
-      if (!out_[i]) left.push_back(chosen_[i]);
-    return left;
-  }
+  return out;
+}
 
- private:
-  const PathVertex& at(std::size_t i) const { return path_[chosen_[i]]; }
-
-  const VertexPath& path_;
-  const std::vector<std::size_t>& chosen_;
-  std::vector<std::uint8_t> out_;
-  std::vector<std::size_t> before_, after_;
+/// A path with vertices where its pieces end.
+struct Cut {
+  VertexPath path;
+  std::vector<std::size_t> at;      ///< the indices of those vertices
+  std::vector<std::size_t> before;  ///< … and of the vertices of the path as it was that they are, or lie behind
 };
-
-/// Of both ends of a piece that is too short the one goes that is missed less; where it is the path's end, the other. A
-/// step of width that goes on stays. The shortest pieces go first, so that a path is the same from either end.
-std::vector<std::size_t> without_short_pieces(const VertexPath& path, const std::vector<std::size_t>& chosen) {
-  struct Piece {
-    double length;
-    std::size_t from, to;
-    bool operator<(const Piece& other) const { return length > other.length; }
-  };
-  Remaining left(path, chosen);
-  std::priority_queue<Piece> shortest;
-  const auto add = [&](std::size_t from, std::size_t to) {
-    if (const double length = left.length(from, to); length < short_piece) shortest.push({length, from, to});
-  };
-  for (std::size_t i = 0; i + 1 < chosen.size(); ++i) add(i, i + 1);
-  if (shortest.empty()) return chosen;
-  StopNowAndThen stop(64);
-  while (!shortest.empty()) {
-    stop.step();
-    const auto [length, from, to] = shortest.top();
-    shortest.pop();
-    if (!left.is_piece(from, to) || (left.is_end(from) && left.is_end(to))) continue;
-    const double first = left.missed(from), last = left.missed(to);
-    // Where the path turns back both are missed alike.
-    const bool leave_first =
-        first != last ? first < last : left.length(left.before(from), from) < left.length(to, left.after(to));
-    if (std::min(first, last) > 1 && !left.turns(from) && !left.turns(to)) continue;
-    const std::size_t i = leave_first ? from : to, before = left.before(i), after = left.after(i);
-    left.leave_out(i);
-    add(before, after);
-    if (before > 0) add(left.before(before), before);
-    if (!left.is_end(after)) add(after, left.after(after));
+/// `ends`: on the path of which only the vertices `telling` are left.
+Cut cut_at(const VertexPath& path, const std::vector<std::size_t>& telling, const std::vector<Stop>& ends) {
+  Cut out;
+  out.path.reserve(path.size() + ends.size());
+  std::size_t i = 0;
+  for (const Stop& end : ends) {
+    std::size_t k = telling[end.from];
+    PathVertex there = path[k];
+    if (end.t > 0) {  // behind what lies as far along the path itself
+      const std::size_t next = telling[end.from + 1];
+      there = lerp(there, path[next], end.t);
+      double way = 0;
+      for (std::size_t j = k; j < next; ++j) way += length_of(path[j], path[j + 1]);
+      way *= end.t;
+      for (double l = 0; k + 1 < next && (l = length_of(path[k], path[k + 1])) <= way; ++k) way -= l;
+    }
+    while (i <= k) out.path.push_back(path[i++]);
+    if (end.t > 0) out.path.push_back(there);
+    out.before.push_back(k);
+    out.at.push_back(out.path.size() - 1);
   }
-  return left.chosen();
+  return out;
 }
 
 }  // namespace
@@ -374,10 +370,6 @@ void smooth_widths(VertexPath& path, bool closed, double reach) {
   for (std::size_t i = 0; i < n; ++i) path[i].band = right[i];
 }
 
-std::vector<std::size_t> chosen_vertices(const VertexPath& path) {
-  return without_short_pieces(path, standing_out(path));
-}
-
 int ramp_pieces(double change_um, double length_um) {
   if (change_um <= tolerances::band_step) return 1;
   const double most =
@@ -396,55 +388,36 @@ void cut_ramps(VertexPath& path, bool closed) {
     const int pieces = ramp_pieces(std::abs(a.band - b.band), length_of(a, b));
     for (int k = 1; k < pieces; ++k) {
       const double t = static_cast<double>(k) / pieces;
-      out.push_back({a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.band + t * (b.band - a.band)});
+      out.push_back(lerp(a, b, t));
     }
   }
   path = std::move(out);
 }
 
-VertexPath projected(const VertexPath& path, const std::vector<std::size_t>& at, bool closed) {
-  const Projection projection(path, at, closed);
-  VertexPath out;
-  for (const std::size_t i : at) out.push_back(path[i]);
-  const VertexPath chords = out;
-  const auto length = [&](std::size_t k) { return length_of(out[k], out[k + 1]); };
-  const Tridiagonal places = projection.system(length);
-  const auto off = [&](double PathVertex::*axis) {
-    return projection.of(places, [&](std::size_t k, std::size_t i, double t) {
-      return path[i].*axis - chords[k].*axis - t * (chords[k + 1].*axis - chords[k].*axis);
-    });
-  };
-  stop_if_asked();
-  const auto x = off(&PathVertex::x), y = off(&PathVertex::y);
-  stop_if_asked();
-  const std::size_t n = x.size();
-  std::vector<std::uint8_t> still(out.size(), 0);  // ends, and steps of width: they would turn
-  if (!closed && !still.empty()) still.front() = still.back() = 1;
-  for (std::size_t k = 0; k + 1 < out.size(); ++k)
-    if (length(k) < short_piece) still[k] = still[k + 1] = 1;
-  for (std::size_t k = 0; k < n; ++k)
-    if (!still[k] && !(closed && k == 0 && still.back())) out[k].x += x[k], out[k].y += y[k];
-  if (closed) out.back() = out.front();
-  if (is_even(path)) return out;
-  const auto band =
-      projection.of(projection.system(length), [&](std::size_t, std::size_t i, double) { return path[i].band; });
-  for (std::size_t k = 0; k < out.size(); ++k) out[k].band = std::max(1.0, band[k % n]);
-  return out;
-}
-
-void simplify(VertexPath& path, bool closed) {
-  if (path.size() < (closed ? 4U : 3U)) return;
+std::vector<std::size_t> simplify(VertexPath& path, bool closed) {
+  std::vector<std::size_t> own(path.size());
+  std::iota(own.begin(), own.end(), std::size_t{0});
+  if (path.size() < (closed ? 4U : 3U)) return own;
   if (closed) {
-    begin_at_corner(path);
+    const std::size_t first = corner_of(path);
+    std::rotate(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(first), path.end());
+    std::rotate(own.begin(), own.begin() + static_cast<std::ptrdiff_t>(first), own.end());
     path.push_back(path.front());
   }
-  const auto chosen = chosen_vertices(path);
-  if (closed && chosen.size() < 4) {
-    path.pop_back();
-    return;
+  const auto telling = standing_out(path);
+  VertexPath told;
+  for (const std::size_t i : telling) told.push_back(path[i]);
+  const auto ends = ends_of_pieces(told);
+  if (ends.size() < path.size() && ends.size() >= (closed ? 4U : 2U)) {
+    const Cut cut = cut_at(path, telling, ends);
+    path = projected(cut.path, cut.at, closed);
+    std::vector<std::size_t> before;
+    for (const std::size_t k : cut.before) before.push_back(own[k % own.size()]);
+    own = std::move(before);
   }
-  if (chosen.size() < path.size()) path = projected(path, chosen, closed);
   if (closed) path.pop_back();
+  own.resize(path.size());
+  return own;
 }
 
 }  // namespace weft

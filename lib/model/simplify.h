@@ -16,6 +16,10 @@ struct PathVertex {
 };
 using VertexPath = std::vector<PathVertex>;
 
+inline PathVertex lerp(const PathVertex& a, const PathVertex& b, double t) {
+  return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.band + t * (b.band - a.band)};
+}
+
 /// Makes the width of a path change no faster than plastic follows: it becomes its mean with weights that fall by e for
 /// every `reach` µm along the path (at its ends it is mirrored), so that the volume stays. Steps, which are two
 /// vertices in one place, become ramps; vertices are added there. A closed path does not repeat its first vertex. Cost:
@@ -23,14 +27,13 @@ using VertexPath = std::vector<PathVertex>;
 /// system.
 void smooth_widths(VertexPath& path, bool closed, double reach);
 
-/// Leaves out what chords stand for: the path stays within tolerances::path and the band within
-/// tolerances::band of what they were, but that no piece is shorter than tolerances::least_move that is not a path or a
-/// step of width that goes on. Ends
-/// stay. Pieces lie in the middle of what they stand for and lay what was laid there, as nearly as places and widths
-/// that are linear between vertices can. Post: at least two vertices, three of a closed path. Cost: O(n log n) where
-/// the path turns evenly. Source: Douglas & Peucker 1973, with the width as a third coordinate; L² projection on hat
+/// Tells a path by the pieces that are worth their moves (pieces.h), none shorter than tolerances::least_move unless
+/// the whole is. Ends stay. Pieces lie in the middle of what they stand for and lay what was laid there, as nearly as
+/// places and widths that are linear between vertices can; an even band stays. Post: at least two vertices, three of a
+/// closed path. Returns, for each vertex, which one of the path as it was it is, or lies behind; a closed path may
+/// begin at another one than before. Cost: O(n log n) where the path turns evenly. Source: L² projection on hat
 /// functions.
-void simplify(VertexPath& path, bool closed);
+std::vector<std::size_t> simplify(VertexPath& path, bool closed);
 
 /// Firmware extrudes evenly along a move: into how many pieces one of that length (µm) is cut along which the band
 /// changes by so much (µm), so that in none it changes by more than tolerances::band_step. Pieces are at least
@@ -39,11 +42,5 @@ int ramp_pieces(double change_um, double length_um);
 
 /// Cuts the pieces of a path so. The volume stays.
 void cut_ramps(VertexPath& path, bool closed);
-
-/// The two steps of `simplify`: the indices of the vertices of an open path that stay, ascending …
-std::vector<std::size_t> chosen_vertices(const VertexPath& path);
-/// … and those vertices, in the middle of what their pieces stand for, of bands that lay what lies there; an even band
-/// stays. With `closed` the path's ends are one vertex, which is there twice; else they stay in place.
-VertexPath projected(const VertexPath& path, const std::vector<std::size_t>& chosen, bool closed);
 
 }  // namespace weft

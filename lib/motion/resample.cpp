@@ -12,7 +12,7 @@ namespace weft::motion {
 Coarseness coarseness(Role role) {
   if (role != Role::solid_infill && role != Role::overhang_skin && row_of(role).kind != RoleKind::fill) return {};
   return {static_cast<double>(tolerances::path_inside) / tolerances::path,
-          static_cast<double>(tolerances::band_inside) / tolerances::band};
+          static_cast<double>(tolerances::band_inside) / tolerances::band_step};
 }
 
 void thin_out(std::vector<Junction>& path, Coarseness times) {
@@ -21,22 +21,23 @@ void thin_out(std::vector<Junction>& path, Coarseness times) {
   vertices.reserve(path.size());
   for (const Junction& j : path)
     vertices.push_back({j.at.x / times.path, j.at.y / times.path, j.width * static_cast<double>(j.flow) / times.band});
-  const auto chosen = chosen_vertices(vertices);
-  if (chosen.size() == path.size()) return;
-  const auto simple = projected(vertices, chosen, false);
+  const auto before = simplify(vertices, false);
+  if (before.size() == path.size()) return;
   const bool even_flow =
       std::all_of(path.begin(), path.end(), [&](const Junction& j) { return j.flow == path[0].flow; });
-  for (std::size_t k = 0; k < chosen.size(); ++k) {
-    Junction j = path[chosen[k]];
-    const double x = times.path * simple[k].x, y = times.path * simple[k].y, band = times.band * simple[k].band;
+  std::vector<Junction> out;
+  out.reserve(before.size());
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    Junction j = path[before[k]];
+    const double x = times.path * vertices[k].x, y = times.path * vertices[k].y, band = times.band * vertices[k].band;
     if (even_flow && j.flow > 0)
       j.width = rounded(band / static_cast<double>(j.flow));
     else if (j.width > 0)
       j.flow = static_cast<float>(band / static_cast<double>(j.width));
     j.at = {rounded(x), rounded(y)};
-    path[k] = j;
+    out.push_back(j);
   }
-  path.resize(chosen.size());
+  path = std::move(out);
 }
 
 void cut_where_width_changes(std::vector<Junction>& path, Coarseness times) {

@@ -96,7 +96,7 @@ TEST_CASE("simplify: what is narrow for a short way stays narrow there, between 
 }
 
 TEST_CASE("simplify: a circle becomes a polygon that lies on both sides of it and lays as much") {
-  for (const double radius : {200.0, 1'000.0, 20'000.0}) {
+  for (const double radius : {200.0, 500.0, 1'000.0, 20'000.0}) {
     VertexPath fine;
     const int n = 720;
     for (int i = 0; i < n; ++i) {
@@ -107,10 +107,13 @@ TEST_CASE("simplify: a circle becomes a polygon that lies on both sides of it an
     simplify(few, true);
     CAPTURE(radius, few.size());
     CHECK(static_cast<double>(few.size()) < 6 + 5 * std::sqrt(radius / 10));
-    CHECK(laid(few, true) == Approx(laid(fine, true)).epsilon(0.01));  // an even bead stays even
+    // An even bead stays even, and a polygon as large as a circle is longer: of n sides by (π/n)²/6.
+    const double sides = static_cast<double>(few.size()), longer = std::pow(std::numbers::pi / sides, 2) / 6;
+    CHECK(laid(few, true) == Approx(laid(fine, true)).epsilon(std::max(0.01, 1.1 * longer)));
+    CHECK(longer < (radius < 500 ? 0.03 : 0.01));
     double most = 0;
     for (const PathVertex& v : fine) most = std::max(most, off(few, v, true));
-    CHECK(most < 8);  // half of what chords through its points would
+    CHECK(most < tolerances::path);  // two thirds of what chords through its points would
     double inside = 0, outside = 0;
     for (const PathVertex& v : few)
       inside = std::max(inside, radius - std::hypot(v.x, v.y)),
@@ -124,17 +127,51 @@ TEST_CASE("simplify: no path turns by more than 60° beside a piece shorter than
   std::mt19937 random(7);
   for (int n = 0; n < 300; ++n) {
     const VertexPath path = walk(random);
-    const auto chosen = chosen_vertices(path);
-    REQUIRE(chosen.size() >= 2);
-    CHECK(chosen.front() == 0);
-    CHECK(chosen.back() + 1 == path.size());
-    for (std::size_t i = 1; i + 1 < chosen.size(); ++i) {
-      const PathVertex &a = path[chosen[i - 1]], &b = path[chosen[i]], &c = path[chosen[i + 1]];
-      const double before = length(a, b), after = length(b, c);
-      const double cosine = ((b.x - a.x) * (c.x - b.x) + (b.y - a.y) * (c.y - b.y)) / (before * after);
-      if (std::min(before, after) < tolerances::least_move) CHECK(cosine >= 0.5);  // turns by no more than 60°
+    VertexPath simple = path;
+    const auto before = simplify(simple, false);
+    REQUIRE(simple.size() >= 2);
+    REQUIRE(before.size() == simple.size());
+    CHECK(std::is_sorted(before.begin(), before.end()));
+    CHECK(simple.front() == PathVertex{path.front().x, path.front().y, simple.front().band});
+    CHECK(simple.back() == PathVertex{path.back().x, path.back().y, simple.back().band});
+    for (std::size_t i = 1; i + 1 < simple.size(); ++i) {
+      const PathVertex &a = simple[i - 1], &b = simple[i], &c = simple[i + 1];
+      const double in = length(a, b), on = length(b, c);
+      const double cosine = ((b.x - a.x) * (c.x - b.x) + (b.y - a.y) * (c.y - b.y)) / (in * on);
+      CAPTURE(in, on, i, simple.size(), n);
+      if (std::min(in, on) < tolerances::least_move - 1e-6) CHECK(cosine >= 0.5);  // turns by no more than 60°
     }
   }
+}
+
+TEST_CASE("simplify: a bow becomes as many pieces as are worth their moves, and no more") {
+  // For an even bow of radius r in n pieces of length l: n + n l (l² / 8 r)² 4 / 45 / A is least; A is 10,000 µm³.
+  for (const double radius : {500.0, 2'000.0, 10'000.0}) {
+    VertexPath bow;
+    for (int i = 0; i <= 3'600; ++i) {
+      const double a = std::numbers::pi * i / 3'600;
+      bow.push_back({radius * std::cos(a), radius * std::sin(a), 400});
+    }
+    const auto cost = [&](double n) {
+      const double l = std::numbers::pi * radius / n, stands_off = l * l / 8 / radius;
+      return n + n * l * stands_off * stands_off * 4 / 45 / 10'000;
+    };
+    double best = 1;
+    while (cost(best + 1) < cost(best)) ++best;
+    simplify(bow, false);
+    CAPTURE(radius, best);
+    CHECK(static_cast<double>(bow.size()) - 1 == Approx(best).margin(1));
+  }
+}
+
+TEST_CASE("simplify: of two beads of even width that meet in a ramp each stays even, for a ramp is cut into moves") {
+  VertexPath path{{0, 0, 400}, {3'000, 0, 400}, {3'200, 0, 460}, {6'000, 0, 460}};
+  simplify(path, false);
+  REQUIRE(path.size() == 4);
+  CHECK(path[1].x == Approx(3'000).margin(20));
+  CHECK(path[2].x == Approx(3'200).margin(20));
+  CHECK(path[1].band == Approx(400).margin(3));
+  CHECK(path[2].band == Approx(460).margin(3));
 }
 
 TEST_CASE("simplify: a path is the same from either end") {
@@ -146,8 +183,8 @@ TEST_CASE("simplify: a path is the same from either end") {
     std::reverse(back.begin(), back.end());
     REQUIRE(back.size() == path.size());
     for (std::size_t i = 0; i < path.size(); ++i) {
-      CHECK(length(path[i], back[i]) < 1e-6);
-      CHECK(path[i].band == Approx(back[i].band));
+      CHECK(length(path[i], back[i]) < 0.5);  // half of what the lattice tells
+      CHECK(path[i].band == Approx(back[i].band).margin(0.5));
     }
   }
 }

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "model/pieces.h"
+
+#include "core/stop.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft {
+namespace {
+
+constexpr double worth_of_a_move = 0.5 * tolerances::path * tolerances::path * tolerances::shortest_piece;  // µm³
+
+double distance2_of(const PathVertex& a, const PathVertex& b) {
+  const double x = b.x - a.x, y = b.y - a.y;
+  return x * x + y * y;
+}
+
+/// A straight bead, as wide as changes evenly along it.
+struct StraightBead {
+  double x, y, half_band;  ///< of its middle
+  double ux, uy;           ///< its direction
+  double wider;            ///< half its band, per µm of way
+  double way;              ///< of its path, to its middle
+
+  /// Half its band, so far along the path.
+  double half_at(double way_there) const { return half_band + wider * (way_there - way); }
+  /// How far its edges are off a place so far along the path, on average, squared.
+  double off2(const PathVertex& p, double way_to_p) const {
+    const double aside = (p.x - x) * uy - (p.y - y) * ux;
+    const double half = p.band / 2 - half_at(way_to_p);
+    return aside * aside + half * half;
+  }
+};
+
+/// Moments of the way along a path from its first vertex, about that: integrals over its length.
+struct Moments {
+  double way = 0;              ///< ∫ ds
+  double x = 0, y = 0, w = 0;  ///< ∫ x ds, …; w is half the band
+  double xx = 0, yy = 0, ww = 0;
+  double xy = 0, sw = 0;  ///< s is the way
+
+  /// On along a straight that is l µm long. Places are told from the path's first vertex.
+  void go_on(const PathVertex& from, const PathVertex& to, double l) {
+    const double half = l / 2, third = l / 3, sixth = l / 6, s = way, t = way + l;
+    const double u = from.x, v = from.y, q = from.band / 2, a = to.x, b = to.y, c = to.band / 2;
+    x += half * (u + a), y += half * (v + b), w += half * (q + c);
+    xx += third * (u * u + u * a + a * a), yy += third * (v * v + v * b + b * b), ww += third * (q * q + q * c + c * c);
+    xy += sixth * (u * (2 * v + b) + a * (v + 2 * b)), sw += sixth * (q * (2 * s + t) + c * (s + 2 * t));
+    way = t;
+  }
+};
+
+/// The straight bead that is nearest to a stretch of a path, from the moments of the path to the ends of the stretch.
+class Nearest {
+ public:
+  Nearest(const Moments& from, const Moments& to)
+      : length_(to.way - from.way), per_(length_ > 0 ? 1 / length_ : 0), way_((from.way + to.way) / 2) {
+    const double x = to.x - from.x, y = to.y - from.y, w = to.w - from.w;
+    x_ = x * per_, y_ = y * per_, w_ = w * per_;
+    xx_ = to.xx - from.xx - x * x_, yy_ = to.yy - from.yy - y * y_, xy_ = to.xy - from.xy - x * y_;
+    ww_ = to.ww - from.ww - w * w_;
+    const double d = xx_ - yy_;
+    root_ = std::sqrt(d * d + 4 * xy_ * xy_);
+    wider_ = (to.sw - from.sw - w * way_) * 12 * per_ * per_ * per_;
+  }
+  /// ∫ off2 ds over the stretch.
+  double misfit() const {
+    return std::max(0.0, (xx_ + yy_ - root_) / 2) +
+           std::max(0.0, ww_ - wider_ * wider_ * length_ * length_ * length_ / 12);
+  }
+  /// How many moves it becomes, not rounded: no choice hangs on a micron of width.
+  double moves() const {
+    const double change = 2 * std::abs(wider_) * length_;
+    return std::max(1.0, std::min(change / tolerances::band_step, length_ / tolerances::shortest_piece));
+  }
+  StraightBead bead() const {
+    const double d = xx_ - yy_, x = d < 0 ? 2 * xy_ : d + root_, y = d < 0 ? root_ - d : 2 * xy_;
+    const double l = std::sqrt(x * x + y * y);
+    return {x_, y_, w_, l > 0 ? x / l : 1, l > 0 ? y / l : 0, wider_, way_};
+  }
+
+ private:
+  double length_, per_, way_;             // of its middle
+  double x_, y_, w_, xx_, yy_, xy_, ww_;  // means, and moments about them
+  double root_, wider_;
+};
+
+/// A path by the way along it, told from its first vertex.
+class Course {
+ public:
+  /// A place on it, behind vertex `from` or there.
+  struct Place {
+    std::size_t from;
+    double way;
+  };
+
+  explicit Course(const VertexPath& path) : path_(path), moments_(path.size()) {
+    const PathVertex first = path.front();
+    for (PathVertex& v : path_) v.x -= first.x, v.y -= first.y;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      moments_[i] = moments_[i - 1];
+      moments_[i].go_on(path_[i - 1], path_[i], std::sqrt(distance2_of(path_[i - 1], path_[i])));
+    }
+  }
+  std::size_t size() const { return path_.size(); }
+  double way(std::size_t i) const { return moments_[i].way; }
+  double distance2(std::size_t i, std::size_t j) const { return distance2_of(path_[i], path_[j]); }
+  Nearest nearest(std::size_t i, std::size_t j) const { return {moments_[i], moments_[j]}; }
+  Nearest nearest(Place from, Place to) const { return {moments(from), moments(to)}; }
+  Place place(double way) const {
+    const auto behind =
+        std::upper_bound(moments_.begin(), moments_.end(), way, [](double w, const Moments& m) { return w < m.way; });
+    return {static_cast<std::size_t>(behind - moments_.begin()) - 1, way};
+  }
+  Stop stop(Place p) const {
+    const double length = p.from + 1 < size() ? way(p.from + 1) - way(p.from) : 0;
+    return {p.from, length > 0 ? (p.way - way(p.from)) / length : 0};
+  }
+  PathVertex vertex(Place p) const {
+    const Stop at = stop(p);
+    const PathVertex& a = path_[at.from];
+    return at.t > 0 ? lerp(a, path_[at.from + 1], at.t) : a;
+  }
+
+ private:
+  Moments moments(Place p) const {
+    Moments out = moments_[p.from];
+    if (p.way > out.way) out.go_on(path_[p.from], vertex(p), p.way - out.way);
+    return out;
+  }
+
+  VertexPath path_;
+  std::vector<Moments> moments_;
+};
+
+/// The vertices between which pieces are worth most, none of which is off by more than `most`; none at all if pieces
+/// would be too short.
+std::vector<std::size_t> worth_most(const Course& course, double most) {
+  constexpr double never = 1e18;
+  const std::size_t last = course.size() - 1;
+  std::vector<double> cost(course.size(), never);
+  std::vector<std::size_t> from(course.size(), 0);
+  cost[0] = 0;
+  StopNowAndThen stop(64);
+  for (std::size_t i = 0; i < last; ++i) {
+    stop.step();
+    if (cost[i] >= never) continue;
+    for (std::size_t j = i + 1; j <= last; ++j) {
+      if (cost[i] + 1 >= cost[j] || course.distance2(i, j) < least_piece * least_piece) continue;
+      const Nearest nearest = course.nearest(i, j);
+      const double misfit = nearest.misfit();
+      if (misfit > most) break;  // the longer the more
+      if (cost[i] + 1 + misfit / worth_of_a_move >= cost[j]) continue;
+      if (const double sum = cost[i] + nearest.moves() + misfit / worth_of_a_move; sum < cost[j])
+        cost[j] = sum, from[j] = i;
+    }
+  }
+  if (cost[last] >= never) return {};
+  std::vector<std::size_t> out{last};
+  while (out.back() > 0) out.push_back(from[out.back()]);
+  std::reverse(out.begin(), out.end());
+  return out;
+}
+
+std::vector<std::size_t> worth_most(const Course& course) {
+  constexpr double moves = 2;  // no piece saves so many, but beside those that would be too short
+  for (double most = moves * worth_of_a_move; most < 1e15; most *= moves)
+    if (auto out = worth_most(course, most); !out.empty()) return out;
+  return {0, course.size() - 1};
+}
+
+/// Where ends of pieces are best.
+class Ends {
+ public:
+  Ends(const Course& course, const std::vector<std::size_t>& at) : course_(course) {
+    for (const std::size_t i : at) ends_.push_back({i, course.way(i)});
+    beads_.resize(at.size() - 1), rooms_.resize(at.size() - 1);
+    free_.assign(at.size(), 0);
+    for (std::size_t k = 0; k + 1 < at.size(); ++k)
+      if (at[k + 1] > at[k] + 1) free_[k] = free_[k + 1] = 1;
+    free_.front() = free_.back() = 0;
+    moves_ = free_;
+  }
+  /// Each is moved to where the beads before and behind it are off alike: there less of both is. Again, as that changes
+  /// the beads.
+  std::vector<Course::Place> moved() && {
+    constexpr int rounds = 4;  // each halves what is left
+    for (int round = 0; round < rounds; ++round) {
+      for (std::size_t k = 0; k < beads_.size(); ++k)
+        if (round > 0 ? moves_[k] || moves_[k + 1] : free_[k] || free_[k + 1]) fit(k);
+      std::vector<Course::Place> next = ends_;
+      for (std::size_t k = 1; k + 1 < ends_.size(); ++k)
+        if (free_[k] && (moves_[k - 1] || moves_[k] || moves_[k + 1])) next[k] = best(k);
+      stay_where_too_short(next);
+      bool any = false;
+      for (std::size_t k = 0; k < ends_.size(); ++k) {
+        constexpr double least_um = 2;
+        moves_[k] = std::abs(next[k].way - ends_[k].way) > least_um;
+        any = any || moves_[k];
+      }
+      ends_ = std::move(next);
+      if (!any) break;
+    }
+    return with_ramps();
+  }
+
+ private:
+  /// Where beads meet whose bands differ by more than a step, a short piece leads from one to the other: else their
+  /// whole length would.
+  std::vector<Course::Place> with_ramps() const {
+    std::vector<Course::Place> out{ends_.front()};
+    const auto apart2 = [&](const Course::Place& a, const Course::Place& b) {
+      return distance2_of(course_.vertex(a), course_.vertex(b));
+    };
+    constexpr double least2 = least_piece * least_piece, slack = 1 - 1e-6;
+    for (std::size_t k = 1; k + 1 < ends_.size(); ++k) {
+      const auto &before = ends_[k - 1], &here = ends_[k], &behind = ends_[k + 1];
+      if (!free_[k]) {
+        out.push_back(here);
+        continue;
+      }
+      const double change = 2 * std::abs(beads_[k - 1].half_at(here.way) - beads_[k].half_at(here.way));
+      const bool room = std::min(apart2(before, here), apart2(here, behind)) > 4 * least2;  // for their ramps, too
+      const auto from = course_.place(here.way - least_piece / 2), to = course_.place(here.way + least_piece / 2);
+      if (change > tolerances::band_step && room && apart2(from, to) > least2 * slack)
+        out.push_back(from), out.push_back(to);
+      else
+        out.push_back(here);
+    }
+    out.push_back(ends_.back());
+    return out;
+  }
+  /// Where a path turns back, an end that moves on may come nearer to the one before.
+  void stay_where_too_short(std::vector<Course::Place>& next) const {
+    const auto too_short = [&](std::size_t k) {
+      return distance2_of(course_.vertex(next[k]), course_.vertex(next[k + 1])) < least_piece * least_piece;
+    };
+    for (bool any = true; any;) {
+      any = false;
+      std::vector<std::size_t> stay;
+      for (std::size_t k = 0; k + 1 < next.size(); ++k)
+        if (too_short(k)) stay.push_back(k), stay.push_back(k + 1);
+      for (const std::size_t k : stay) {
+        any = any || next[k].way != ends_[k].way;
+        next[k] = ends_[k];
+      }
+    }
+  }
+  void fit(std::size_t k) {
+    beads_[k] = course_.nearest(ends_[k], ends_[k + 1]).bead();
+    const double length = std::sqrt(distance2_of(course_.vertex(ends_[k]), course_.vertex(ends_[k + 1])));
+    rooms_[k] = std::max(0.0, (length - least_piece) / 2);
+  }
+  Course::Place best(std::size_t k) const {
+    const StraightBead &before = beads_[k - 1], &behind = beads_[k];
+    const auto more_off_before = [&](Course::Place at) {
+      const PathVertex p = course_.vertex(at);
+      return before.off2(p, at.way) - behind.off2(p, at.way);
+    };
+    Course::Place at = ends_[k];
+    double here = more_off_before(at);
+    const bool back = here > 0;
+    const double end = back ? at.way - rooms_[k - 1] : at.way + rooms_[k];
+    while (at.way != end) {
+      Course::Place next = at;
+      if (back) {
+        if (course_.way(next.from) == next.way) --next.from;
+        next.way = std::max(end, course_.way(next.from));
+      } else {
+        next.way = std::min(end, course_.way(next.from + 1));
+      }
+      const double there = more_off_before(next);
+      if ((there > 0) != back) return {next.from, at.way + (next.way - at.way) * here / (here - there)};
+      if (!back && next.way == course_.way(next.from + 1)) ++next.from;
+      at = next, here = there;
+    }
+    return at;
+  }
+
+  const Course& course_;
+  std::vector<Course::Place> ends_;
+  std::vector<StraightBead> beads_;
+  std::vector<double> rooms_;       // by how much each end of a piece may be moved that it is not too short
+  std::vector<std::uint8_t> free_;  // whether a piece beside the end is of several of the path: others are exact
+  std::vector<std::uint8_t> moves_;
+};
+
+}  // namespace
+
+std::vector<Stop> ends_of_pieces(const VertexPath& path) {
+  if (path.size() == 2) return {{0, 0}, {1, 0}};
+  const Course course(path);
+  std::vector<Stop> out;
+  for (const auto& end : Ends(course, worth_most(course)).moved()) out.push_back(course.stop(end));
+  return out;
+}
+
+}  // namespace weft
