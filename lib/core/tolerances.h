@@ -12,7 +12,8 @@ inline constexpr Um stitch_gap = 0.1_mm;
 /// A region smaller than this prints nothing and is dropped after Booleans, µm²: a square of 0.02 mm. geometry/boolean.
 inline constexpr double sliver_area_um2 = 400;
 
-/// How far a chord may stand off a round corner made by an offset. geometry/offset.
+/// How far a chord may stand off a round corner made by an offset, and `path` for rounds of support. geometry/offset;
+/// motion/resample.
 inline constexpr Um arc = 5_um;
 
 /// How far a bead's path may be moved to be printed with fewer moves: less than a printer's belts give.

@@ -10,6 +10,9 @@
 namespace weft::motion {
 
 Coarseness coarseness(Role role) {
+  // Much of support is small rounds, at whose corners the nozzle slows down: with as many as an offset makes it does
+  // not.
+  if (row_of(role).kind == RoleKind::support) return {static_cast<double>(tolerances::arc) / tolerances::path, 1};
   if (role != Role::solid_infill && role != Role::overhang_skin && row_of(role).kind != RoleKind::fill) return {};
   return {static_cast<double>(tolerances::path_inside) / tolerances::path,
           static_cast<double>(tolerances::band_inside) / tolerances::band_step};

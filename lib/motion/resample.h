@@ -12,7 +12,7 @@ namespace weft::motion {
 struct Coarseness {
   double path = 1, band = 1;
 };
-/// For beads of a role: lines of infill are told coarsely.
+/// For beads of a role: lines of infill are told coarsely, rounds of support finely.
 Coarseness coarseness(Role role);
 
 /// Drops junctions that tell nothing (model/simplify). Ends stay in place; flow gives way where it varies, else width.

@@ -693,3 +693,24 @@ TEST_CASE("motion: the moves that are timed are those that are written") {
   for (const auto& move : moves) length += move.length_mm;
   CHECK(length == Approx(30));
 }
+
+TEST_CASE("motion: a round of support turns by little at each of its vertices, so that the nozzle need not slow down") {
+  const auto most_turn = [](Role role) {
+    std::vector<Junction> round;
+    for (int i = 0; i <= 96; ++i) {
+      const double a = 2 * std::numbers::pi * i / 96;
+      round.push_back({{rounded(250 * std::cos(a)), rounded(250 * std::sin(a))}, 450, 1.F});
+    }
+    resample(round, coarseness(role));
+    double most = 0;
+    for (std::size_t i = 1; i + 1 < round.size(); ++i) {
+      const Point in = round[i].at - round[i - 1].at, on = round[i + 1].at - round[i].at;
+      const double turn = std::atan2(static_cast<double>(in.x) * on.y - static_cast<double>(in.y) * on.x,
+                                     static_cast<double>(in.x) * on.x + static_cast<double>(in.y) * on.y);
+      most = std::max(most, std::abs(turn) * 180 / std::numbers::pi);
+    }
+    return most;
+  };
+  CHECK(most_turn(Role::support) < 30);
+  CHECK(most_turn(Role::outer_wall) > 30);  // of which there are few
+}
