@@ -63,6 +63,20 @@ TEST_CASE("support: beads are as much plastic as the area, the height and the sh
   }
 }
 
+TEST_CASE("support: round ends of lines stay within the area, as far from walls as it is") {
+  const Regions area{rectangle(0, 0, 20000, 12000)};
+  const auto filled = pipeline::fill_support(fine_lines(), {level(2000, 200, &support::SupportLayer::roof, area)}, {});
+  REQUIRE(!filled.front().beads.empty());
+  Um nearest = 20000;
+  for (const Bead& bead : filled.front().beads)
+    for (const auto& j : bead.path) {
+      const Um to_edge = std::min({j.at.x, j.at.y, 20000 - j.at.x, 12000 - j.at.y});
+      nearest = std::min(nearest, to_edge);
+      CHECK(to_edge >= j.width / 2 - 25);  // lines are told to 20 µm
+    }
+  CHECK(nearest < 250);  // and no further than that
+}
+
 TEST_CASE("support: lines of levels of any height lie on each other") {
   const Regions column{rectangle(0, 0, 40000, 40000)};
   const auto filled = pipeline::fill_support(fine_lines(),
