@@ -96,6 +96,33 @@ TEST_CASE("shells: what is seen from above between two walls is top, however nar
   for (std::size_t i = 0; i + 1 < 12; ++i) CHECK(sum(stepped[i], &PartAreas::top) == 0);
 }
 
+TEST_CASE("shells: what narrow walls cover of a top surface is top like the rest, wide patches are not", "[infill]") {
+  const Region plate = rectangle(0, 0, 30000, 20000);
+  // a rib of that width stands on a plate of three layers
+  const auto below_rib = [&](Um width) {
+    std::vector<Regions> outlines(3, {plate});
+    outlines.resize(8, {rectangle(15000 - width / 2, 6000, 15000 + width / 2, 14000)});
+    return Object(std::move(outlines)).areas(skin(5, 4, 0, 0))[2];
+  };
+  CHECK(sum(below_rib(1600), &PartAreas::solid) == 0);
+  CHECK(sum(below_rib(1600), &PartAreas::top) == Approx(28 * 18));
+  CHECK(sum(below_rib(5000), &PartAreas::solid) == Approx((5 - 0.9) * (8 - 0.9)).epsilon(0.15));
+}
+
+TEST_CASE("shells: narrow solid beside a top stays what it is beside sparse infill, and where it leads away",
+          "[infill]") {
+  std::vector<Regions> steps(14, {rectangle(0, 0, 30000, 20000)});
+  steps.resize(24, {rectangle(0, 0, 20000, 20000)});
+  const LayerAreas step = Object(std::move(steps)).areas(skin(4, 4, 0, 0))[13];
+  CHECK(sum(step, &PartAreas::sparse) > 100);
+  CHECK(sum(step, &PartAreas::top) == Approx(9 * 18).epsilon(0.05));
+
+  std::vector<Regions> bars(3, {rectangle(0, 0, 30000, 3000)});
+  bars.resize(8, {rectangle(5000, 0, 30000, 3000)});
+  const LayerAreas bar = Object(std::move(bars)).areas(skin(5, 4, 0, 0))[2];
+  CHECK(sum(bar, &PartAreas::top) == Approx(4.2).epsilon(0.05));
+}
+
 TEST_CASE("shells: infill_support_enabled keeps infill only below what does not carry itself", "[infill]") {
   InfillSettings below_tops;
   below_tops.infill_support_enabled = true;
