@@ -123,9 +123,13 @@ Scene words_of(const Toolpaths& paths, const View& view) {
   const auto [first, last] = view.layers.value_or(std::pair<std::size_t, std::size_t>{0, paths.layers.size() - 1});
   if (!view.title.empty()) scene.title.push_back(view.title);
   scene.title.push_back(fmt::format("layers {} to {} of {}", first, last, paths.layers.size()));
-  scene.title.push_back(fmt::format("z {:.2f} to {:.2f}", to_mm(paths.layers[first].z), to_mm(paths.layers[last].z)));
-  add_legend(scene, paths, view, std::span(paths.layers).subspan(first, last - first + 1),
-             range_of(paths, first, last, view.colour));
+  const auto shown = std::span(paths.layers).subspan(first, last - first + 1);
+  const auto lies = [](const auto& layer) { return layer.z != 0; };  // a part's last tips may be too thin to be laid
+  const auto lowest = std::find_if(shown.begin(), shown.end(), lies);
+  const auto highest = std::find_if(shown.rbegin(), shown.rend(), lies);
+  if (lowest != shown.end())
+    scene.title.push_back(fmt::format("z {:.2f} to {:.2f}", to_mm(lowest->z), to_mm(highest->z)));
+  add_legend(scene, paths, view, shown, range_of(paths, first, last, view.colour));
   return scene;
 }
 

@@ -2,6 +2,7 @@
 #include "preview/colours.h"
 #include "preview/picture.h"
 #include "preview/preview.h"
+#include "preview/scene.h"
 
 #include <catch2/catch.hpp>
 
@@ -54,6 +55,16 @@ TEST_CASE("preview: a bead covers its true width, with a darker edge, and nothin
   int dark = 255;
   for (double y = 5.4; y < 5.6; y += 0.025) dark = std::min(dark, at(image, 5, y)[0]);
   CHECK(dark < wall.r);
+}
+
+TEST_CASE("preview: the heights that a title tells are those of layers on which something lies", "[preview]") {
+  Toolpaths paths = one_bead();
+  paths.layers.push_back(paths.layers[0]);
+  paths.layers[1].z = 400;
+  paths.layers.push_back({});  // tips too thin to be laid: the file names the layer, and nothing lies there
+  const auto title = words_of(paths, {}).title;
+  CHECK(std::find(title.begin(), title.end(), "layers 0 to 2 of 3") != title.end());
+  CHECK(std::find(title.begin(), title.end(), "z 0.20 to 0.40") != title.end());
 }
 
 TEST_CASE("preview: travels are drawn only when asked for", "[preview]") {
