@@ -65,6 +65,20 @@ TEST_CASE("support: on, it holds what is printed first above a tip that is too t
   CHECK(told(job, "support_missing").empty());
 }
 
+TEST_CASE("support: of copies the report tells what all of them need, as it tells their plastic") {
+  const ModelOfBoxes model(gallows(1));
+  Job job = job_of(model);
+  job.settings.support.support_enable = true;
+  Report one, three;
+  REQUIRE(run(job, {}, one));
+  job.placement.copies = 3;
+  REQUIRE(run(job, {}, three));
+  CHECK(three.support.needed_mm2 == Approx(3 * one.support.needed_mm2));
+  CHECK(three.support.contact_mm2 == Approx(3 * one.support.contact_mm2));
+  CHECK(three.support.islands == 3 * one.support.islands);
+  CHECK(three.support.tips == 3 * one.support.tips);
+}
+
 TEST_CASE("support: an enforcer that meets no downward face is told, and one that does is not", "[support]") {
   const ModelOfBoxes model(gallows(1));
   for (const auto& [mark, idle] : {std::pair{"box:-1,-1,30,1,1,31", true}, std::pair{"box:5,-2,19,10,2,21", false}}) {
