@@ -14,11 +14,11 @@
 namespace weft::overhangs {
 namespace {
 
-constexpr double step_um = 400;       // between looks: about a bead's width
-constexpr double edge_um = 50;        // how exactly edges below are found
-constexpr double shortest_um = 1000;  // of a piece
+constexpr double step_um = 400;            // between looks: about a bead's width
+constexpr double edge_um = 50;             // how exactly edges below are found
+constexpr double shortest_um = 1000;       // of a piece
 constexpr double shortest_whole_um = 500;  // of one that lies on nothing: more than a bead's width of it curls
-constexpr double least_share = 0.1;   // of the width: less is the roughness of a wall
+constexpr double least_share = 0.1;        // of the width: less is the roughness of a wall
 constexpr double whole_share = 0.95;
 
 /// How a place of a bead lies: 0 on what is below, 1 … 4 quarters over air, `whole` all over air.

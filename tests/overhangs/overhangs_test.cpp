@@ -174,7 +174,8 @@ TEST_CASE("overhangs: short stretches that follow each other are one, a single o
   CHECK(length_of(pieces[1]) == Approx(9.2).margin(1));
 }
 
-TEST_CASE("overhangs: what lies on nothing is told from half a millimetre on, and is a strand from one on", "[overhangs]") {
+TEST_CASE("overhangs: what lies on nothing is told from half a millimetre on, and is a strand from one on",
+          "[overhangs]") {
   for (Um begin = 10000; begin < 10400; begin += 130) {  // wherever it lies between looks
     const Extrude bead = wall({{0, 0}, {30000, 0}});
     const auto over = [&](Um um) { return marked({bead}, {rectangle(begin, -1000, begin + um, 1000)}); };
