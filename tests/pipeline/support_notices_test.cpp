@@ -65,6 +65,19 @@ TEST_CASE("support: on, it holds what is printed first above a tip that is too t
   CHECK(told(job, "support_missing").empty());
 }
 
+TEST_CASE("support: what hangs by its gap above the bed lies on it, and is not told as out of reach") {
+  // A shelf whose underside is 0.2 mm above the bed: thin layers begin to hang there, and the gap is as wide.
+  const ModelOfBoxes model({{0, 0, 0, 10, 20, 4}, {9, 0, 0.2, 24, 20, 4}});
+  Job job = job_of(model);
+  job.settings.support.support_enable = true;
+  job.settings.layers.layer_height = 100;
+  Report report;
+  REQUIRE(run(job, {}, report));
+  CHECK(report.support.needed_mm2 > 200);
+  CHECK(report.support.left_mm2 == 0);
+  CHECK(told(job, "support_left").empty());
+}
+
 TEST_CASE("support: of copies the report tells what all of them need, as it tells their plastic") {
   const ModelOfBoxes model(gallows(1));
   Job job = job_of(model);
