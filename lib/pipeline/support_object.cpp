@@ -9,6 +9,7 @@
 #include "pipeline/fill_support.h"
 #include "pipeline/key_bytes.h"
 #include "pipeline/stopwatch.h"
+#include "pipeline/tell_marks.h"
 #include "slice/shadow.h"
 #include "support/support.h"
 #include "tasks/parallel.h"
@@ -318,6 +319,7 @@ void support_object(const Running& job, const Scopes& all, const ObjectScopes& s
   auto made = run_stage<Stage::support>(
       job, [&] { return support_key(row_of<Stage::support>().reads.bytes_of(settings), sliced_by(), object, out); },
       [&] { return make_supports(settings, object, cuts, out); });
+  tell_marks(settings, object, cuts, out, job.report.warnings);
   tell(settings, object, (*made).figures, job.report);
   job.report.support.layers += (*made).layers.size();
   for (const auto mark : (*made).idle_enforcers)
