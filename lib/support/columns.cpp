@@ -336,13 +336,13 @@ class Falling {
   }
   void clear(std::size_t k, const Regions& contacts) {
     const auto& level = stack_.levels[k];
-    const Regions& close = beside_contacts(k, contacts);
+    look_above(k, contacts);
     if (contacts.empty() && (shadow_.empty() || shadow_[k].empty()) && room_.stands_free(falling_, edge(), level))
       return;
     if (ragged_ || !contacts.empty()) falling_ = geometry::simplified(falling_, corner_bound), edge_.reset();
     ragged_ = false;
     bool cut = false;
-    Regions left = room_.free_part(falling_, level, close, &cut);
+    Regions left = room_.free_part(falling_, level, close_, &cut, &above_);
     if (!shadow_.empty() && !shadow_[k].empty()) left = geometry::subtract(left, shadow_[k]), cut = true;
     if (!cut && contacts.empty()) return;
     falling_ = without_thin(left, line_ * 4 / 10);
@@ -353,15 +353,18 @@ class Falling {
     if (!edge_) edge_.emplace(falling_);
     return *edge_;
   }
-  /// What is held as near beside the part as contacts are must come from further away, and leans towards it on the
-  /// last levels: the contacts of those above this one.
-  const Regions& beside_contacts(std::size_t k, const Regions& contacts) {
-    constexpr std::size_t leaning = 2;  // levels; what rests reaches about half a line further on each
-    if (!contacts.empty()) held_.push_back({k, contacts});
-    std::erase_if(held_, [k](const auto& held) { return held.first >= k + leaning; });
-    close_.clear();
-    for (const auto& held : held_) append(close_, held.second);
-    return close_;
+  /// What is held as near beside the part as contacts are must come from further away: it leans towards it in two
+  /// steps, on the last levels and where the roof above them begins. What rests reaches about half a line further on
+  /// each. Finds the contacts of those above a level, and its own.
+  void look_above(std::size_t k, const Regions& contacts) {
+    constexpr std::size_t last = 2;
+    if (!contacts.empty()) {
+      const bool has_roof = s_.support_roof_enable && s_.support_roof_height > 0;
+      held_.push_back({k, has_roof ? interface_levels(stack_, k, s_.support_roof_height) + 1 : last, contacts});
+    }
+    std::erase_if(held_, [k](const Held& held) { return held.level >= k + held.leaning; });
+    close_.clear(), above_.clear();
+    for (const Held& held : held_) append(held.level < k + last ? close_ : above_, held.contacts);
   }
   /// From the bottom up: where the level below is no less than this one, all of it rests.
   void let_rest() {
@@ -408,10 +411,14 @@ class Falling {
   Lean lean_;
   std::optional<Steady> steady_;  ///< where nothing else is set of how wide columns are
   Towers towers_;
-  Regions falling_, close_;
-  std::vector<std::pair<std::size_t, Regions>> held_;  ///< the last contacts, by level
-  std::optional<geometry::SegmentIndex> edge_;         ///< of what falls, once asked for
-  bool ragged_ = false;                                ///< it has corners of what was cut from it
+  struct Held {
+    std::size_t level = 0, leaning = 0;  ///< from theirs down, so many lean towards them
+    Regions contacts;
+  };
+  Regions falling_, close_, above_;
+  std::vector<Held> held_;                      ///< the last contacts
+  std::optional<geometry::SegmentIndex> edge_;  ///< of what falls, once asked for
+  bool ragged_ = false;                         ///< it has corners of what was cut from it
   std::vector<Regions> levels_;
   std::vector<char> less_;  ///< of each level, whether it is not all of what lies above it
 };

@@ -113,9 +113,11 @@ void spread_first(const Room& room, const Stack& stack, SupportLayer& first) {
   Regions all = first.columns;
   append(all, first.roof), append(all, first.bottom);
   Regions wide = all.empty() ? all : grown(geometry::unite(all), room.settings().support_brim_width);
-  append(wide, first.branches);  // which have a foot of their own
-  if (wide.empty()) return;
-  wide = room.free_part(geometry::unite(wide), stack.levels.front(), {});
+  append(all, first.branches);  // which have a foot of their own
+  if (all.empty()) return;
+  if (!wide.empty()) wide = room.free_part(wide, stack.levels.front(), {});
+  append(wide, all);  // what leans towards contacts is nearer to the part
+  wide = geometry::unite(wide);
   Regions dense = first.roof;
   append(dense, first.bottom);
   first.columns = dense.empty() ? wide : geometry::subtract(wide, dense);
