@@ -253,15 +253,19 @@ void fill_lines(const Region& region, const ShellSettings& shells, const SolidSt
     thin_short_lines(shells.small_area_flow_length, style.angle_rad, from, beads);
 }
 
-/// What of a part's areas is ironed: what keeps off their edge by the inset.
+/// What of a part's areas is ironed: what keeps off their edge by the inset. A top may go on below what stands on it,
+/// as far as letters do; there it is ironed up to their edge.
 Regions ironed(const ShellSettings& shells, const FillInput& input, const PartAreas& areas) {
   if (shells.ironing_surfaces == IroningSurfaces::topmost && !input.topmost) return {};
+  const Um inset = shells.ironing_inset.value_or(input.nozzle / 2);
   Regions out = areas.top;
+  if (!out.empty() && input.above != nullptr && !input.above->empty())
+    out = geometry::subtract(out, geometry::offset(*input.above, {.by = -inset}));
   if (shells.ironing_surfaces == IroningSurfaces::solid) {
     out = geometry::unite(out, areas.solid);
     out = geometry::unite(out, areas.belted);
   }
-  return geometry::offset(out, {.by = -shells.ironing_inset.value_or(input.nozzle / 2)});
+  return geometry::offset(out, {.by = -inset});
 }
 
 /// @param across of a region: the direction across the lines of its skin

@@ -29,6 +29,7 @@ struct FillInput {
   Um reach = 0;                                 ///< how far the object goes from there, along either axis
   const Prepared* prepared = nullptr;           ///< of the object (infill/prepared.h)
   bool topmost = false;                         ///< no layer lies above
+  const Regions* above = nullptr;               ///< the slice of the layer above, if there is one: it covers tops
   std::span<const BridgeArea> bridges_below{};  ///< of the layer below: solid lines cross their strands
   /// Fills an area with lines along its edge, about as far apart as it says (µm), that are together as wide as the area
   /// is everywhere; absent: none is filled so.

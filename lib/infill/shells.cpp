@@ -206,19 +206,19 @@ void give_strips_to_top(const Mask& seen_above, double line, Kinds& kinds) {
   kinds.top |= to_top, kinds.solid -= to_top;
 }
 
-/// A patch of solid that is no wider than two lines or so and lies beside top all along, and beside no other fill, is
-/// top: what of a top the walls above cover. Apart it would be a few short lines with tips that run out over the walls.
-void give_patches_to_top(double line, Kinds& kinds) {
-  constexpr double widest = 2.5;  // lines
+/// A patch of solid that is no larger than the top of its layer, and lies beside no other fill, is top: what of a top
+/// is covered by something that stands on it, letters or a boss. One surface has fewer ends of lines than two that fit
+/// into each other, and none of them shows around what stands there.
+void give_patches_to_top(Kinds& kinds) {
   if (!kinds.top.any() || !kinds.solid.any()) return;
   const Grid& grid = kinds.solid.grid();
-  Mask other = kinds.solid.opened(cells(widest / 2 * line, grid)) & kinds.solid;
-  other |= kinds.solid - kinds.top.grown(cells(widest * line, grid));
-  if (!(kinds.solid - other).any()) return;
+  Mask other(grid);
   if (kinds.sparse) other |= *kinds.sparse;
   for (const Hanging& bridge : kinds.hanging) other |= bridge.area;
+  const double top_mm2 = static_cast<double>(kinds.top.count()) * to_mm(grid.cell) * to_mm(grid.cell);
   Regions patches;
   for (Region& patch : geometry::regions_from_rings(kinds.solid.outlines())) {
+    if (area_mm2(patch) > top_mm2) continue;
     const Mask reach = Mask(grid.window(weft::box_of(patch.outer), 3 * grid.cell), {&patch, 1}).grown(1);
     if (reach.meets(kinds.top) && !reach.meets(other)) patches.push_back(std::move(patch));
   }
@@ -252,7 +252,7 @@ Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, cons
     kinds.solid -= kinds.top;
   }
   give_strips_to_top(split.seen_above, line, kinds);
-  give_patches_to_top(line, kinds);
+  give_patches_to_top(kinds);
   if (settings.bridges && index > 0) {
     const ShellLayer& below = object.layers[index - 1];
     const SparseStyle style = sparse_style(infill, {.index = index - 1,

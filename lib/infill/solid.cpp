@@ -144,12 +144,20 @@ class Filler {
   double length(std::uint32_t i) const { return all_[i].to - all_[i].from; }
   double y(std::uint32_t i) const { return lines_.y(all_[i].line); }
 
-  /// How far a line is prolonged along itself to reach `overlap` beyond its edge.
-  double over(std::uint32_t edge) const {
+  /// How far a line goes along itself to be that far from its edge.
+  double along_itself(std::uint32_t edge, double um) const {
     const Turned a = outline_.points()[edge], b = outline_.points()[outline_.next(edge)];
     if (sides_ && SideFit::along(a, b)) return 0;  // it lies beside the edge there, and its neighbour fits itself to it
     const double sine = std::abs(b.y - a.y) / std::hypot(b.x - a.x, b.y - a.y);
-    return style_.overlap_um / std::max(sine, 0.4);  // not far along edges that are nearly parallel to it
+    return um / std::max(sine, 0.4);  // not far along edges that are nearly parallel to it
+  }
+  /// How far a line is prolonged to reach `overlap` beyond its edge.
+  double over(std::uint32_t edge) const { return along_itself(edge, style_.overlap_um); }
+  /// How much less far it reaches where it does not turn.
+  double kept_within(std::uint32_t i, bool right) const {
+    if (!style_.ends_within) return 0;
+    const double back = along_itself(right ? all_[i].to_edge : all_[i].from_edge, lines_.spacing / 2);
+    return std::min(back, (length(i) - least_left * lines_.spacing) / 2);
   }
 
   /// Which of the ready chains begins nearest to where the nozzle is.
@@ -221,6 +229,7 @@ class Filler {
         start -= open_->along() * joint->after;
       } else {
         end_bead();
+        start += (rightwards ? 1 : -1) * std::max(0.0, kept_within(here, !rightwards));
       }
       prolonged_ += all_[here].from - left_[here] + right_[here] - all_[here].to;
       open_ = {here, rightwards, start, end};
@@ -234,7 +243,8 @@ class Filler {
 
   void end_bead() {
     if (!open_) return;
-    append_line(path_, open_->line, open_->start, open_->end);
+    const double back = std::max(0.0, kept_within(open_->line, open_->rightwards));
+    append_line(path_, open_->line, open_->start, open_->end - open_->along() * back);
     open_.reset();
     add(std::exchange(path_, {}), style_.role);
   }

@@ -15,9 +15,10 @@ struct SolidStyle {
   bool fixed_strand = false;  ///< keep `band` as the width of each line (bridges)
   double flow = 1;
   Point origin{};
-  bool turned = true;   ///< by 90° on every second layer
-  bool gaps = true;     ///< strips narrower than a line and a half are filled
-  bool ordered = true;  ///< lines are printed one after the other, also where another order is shorter
+  bool turned = true;        ///< by 90° on every second layer
+  bool ends_within = false;  ///< ends of lines that do not turn keep half a line off the edge, as turns do
+  bool gaps = true;          ///< strips narrower than a line and a half are filled
+  bool ordered = true;       ///< lines are printed one after the other, also where another order is shorter
   std::uint32_t part = 0, sequence = 0;
 };
 

@@ -340,6 +340,7 @@ Fills fill_object(const FillHands& handed, const WallHands& walled, const Scopes
                            .reach = reach,
                            .prepared = prepared.of(object.scope_of(scope)),
                            .topmost = i + 1 == cuts.size(),
+                           .above = i + 1 < cuts.size() ? &cuts[i + 1].layer.regions : nullptr,
                            .bridges_below = i > 0 ? std::span<const infill::BridgeArea>(bridges[i - 1])
                                                   : std::span<const infill::BridgeArea>{},
                            .along_edge = [&layer, across = nozzle](const Region& area, Um band) {

@@ -309,19 +309,20 @@ class Filler {
   }
   void solid(const Regions& areas, double angle, Role role, bool connect = true) {
     const std::size_t from = beads_.size();
-    const double overlap_um = connect ? 0 : -band_ / 2.0;  // ends are round; turns keep as far off
     for (const Region& region : areas) {
       stop_if_asked();
-      infill::fill_solid(region,
-                         {.role = Role::solid_infill,
-                          .band = band_,
-                          .angle_rad = radians(angle),
-                          .overlap_um = overlap_um,
-                          .connect = connect,
-                          .origin = origin_,
-                          .turned = false,
-                          .ordered = false},
-                         beads_);
+      infill::fill_solid(
+          region,
+          {.role = Role::solid_infill,
+           .band = band_,
+           .angle_rad = radians(angle),
+           .overlap_um = 0,
+           .connect = connect,
+           .origin = origin_,
+           .turned = false,
+           .ends_within = true,  // they are round, and what they stood out would be off the gap to the part
+           .ordered = false},
+          beads_);
     }
     call(from, role);
   }

@@ -87,3 +87,24 @@ TEST_CASE("infill: what is ironed, and in which direction", "[infill]") {
   shells.ironing_angle = 90;
   CHECK_FALSE(along_x(ironing(shells)));
 }
+
+TEST_CASE("infill: ironing goes up to what stands on a top surface, and not below it", "[infill]") {
+  const LayerAreas areas = top_and_solid();
+  const Regions letter{rectangle(5000, 3000, 9000, 7000)}, hair{rectangle(15000, 3000, 15300, 7000)};
+  const auto ironed_mm2 = [&](const Regions* above, IroningSurfaces surfaces) {
+    ShellSettings shells = ironed();
+    shells.ironing_surfaces = surfaces;
+    auto beads =
+        infill::fill({}, shells, {.areas = areas, .index = 4, .z = 1000, .height = 200, .nozzle = 400, .above = above})
+            .beads;
+    std::erase_if(beads, [](const Bead& bead) { return bead.role != Role::ironing; });
+    if (above == &letter && surfaces == IroningSurfaces::top)
+      for (const Bead& bead : beads)
+        for (const auto& j : bead.path) CHECK_FALSE(holds({rectangle(5060, 3060, 8940, 6940)}, j.at));
+    return volume(beads) / (0.2 * 0.15);
+  };
+  const double bare = ironed_mm2(nullptr, IroningSurfaces::top);
+  CHECK(bare - ironed_mm2(&letter, IroningSurfaces::top) == Approx(16).epsilon(0.05));
+  CHECK(ironed_mm2(&hair, IroningSurfaces::top) == Approx(bare).epsilon(0.002));  // less than a nozzle wide
+  CHECK(ironed_mm2(&letter, IroningSurfaces::solid) > bare);
+}

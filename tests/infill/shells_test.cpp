@@ -96,17 +96,19 @@ TEST_CASE("shells: what is seen from above between two walls is top, however nar
   for (std::size_t i = 0; i + 1 < 12; ++i) CHECK(sum(stepped[i], &PartAreas::top) == 0);
 }
 
-TEST_CASE("shells: what narrow walls cover of a top surface is top like the rest, wide patches are not", "[infill]") {
+TEST_CASE("shells: what stands on a top surface covers top like the rest, unless it covers most of it", "[infill]") {
   const Region plate = rectangle(0, 0, 30000, 20000);
-  // a rib of that width stands on a plate of three layers
-  const auto below_rib = [&](Um width) {
+  // a block of that width stands on a plate of three layers
+  const auto below_block = [&](Um width, Um length) {
     std::vector<Regions> outlines(3, {plate});
-    outlines.resize(8, {rectangle(15000 - width / 2, 6000, 15000 + width / 2, 14000)});
+    outlines.resize(8, {rectangle(15000 - width / 2, 10000 - length / 2, 15000 + width / 2, 10000 + length / 2)});
     return Object(std::move(outlines)).areas(skin(5, 4, 0, 0))[2];
   };
-  CHECK(sum(below_rib(1600), &PartAreas::solid) == 0);
-  CHECK(sum(below_rib(1600), &PartAreas::top) == Approx(28 * 18));
-  CHECK(sum(below_rib(5000), &PartAreas::solid) == Approx((5 - 0.9) * (8 - 0.9)).epsilon(0.15));
+  for (const Um width : {1600, 5000, 9000}) {
+    CHECK(sum(below_block(width, 8000), &PartAreas::solid) == 0);
+    CHECK(sum(below_block(width, 8000), &PartAreas::top) == Approx(28 * 18));
+  }
+  CHECK(sum(below_block(24000, 14000), &PartAreas::solid) == Approx((24 - 0.9) * (14 - 0.9)).epsilon(0.1));
 }
 
 TEST_CASE("shells: narrow solid beside a top stays what it is beside sparse infill, and where it leads away",

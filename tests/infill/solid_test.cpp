@@ -37,6 +37,25 @@ TEST_CASE("solid: the volume of an area's lines is the area's", "[infill][law]")
   }
 }
 
+TEST_CASE("solid: with ends_within no end of a line stands out of the area", "[infill]") {
+  const double angle = GENERATE(0.0, 30.0, 90.0);
+  const bool connect = GENERATE(true, false);
+  CAPTURE(angle, connect);
+  constexpr Um side = 8000, half = 215;
+  const auto near_the_edge = [&](bool within) {
+    constexpr Um rounding = 25;  // lines are as wide as whole ones fit
+    const SolidStyle style{.band = 2 * half, .angle_rad = degrees(angle), .connect = connect, .ends_within = within};
+    int count = 0;
+    for (const Bead& bead : filled(rectangle(0, 0, side, side), style))
+      for (const Junction& j : bead.path)
+        count += std::min({j.at.x, j.at.y, side - j.at.x, side - j.at.y}) < half - rounding;
+    return count;
+  };
+  const int within = near_the_edge(true);
+  CHECK(within <= (angle == 30.0 ? 4 : 0));  // lines in corners are too short to be kept back
+  CHECK(near_the_edge(false) >= within + (connect ? 2 : 30));
+}
+
 TEST_CASE("solid: lines lie side by side without gap and without overlap", "[infill][law]") {
   const double angle = GENERATE(0.0, 45.0, 77.0);
   const Beads beads = filled(rectangle(0, 0, 8000, 5000), {.band = 430, .angle_rad = degrees(angle)});
