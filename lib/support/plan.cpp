@@ -70,9 +70,16 @@ class Interfaces {
       if (!out.roof.empty()) out.bottom = geometry::subtract(out.bottom, out.roof);
     }
     if (!out.roof.empty() || !out.bottom.empty()) {
-      Regions dense = out.roof;
+      Regions dense = out.roof, sparse;
       append(dense, out.bottom);
-      out.columns = without_thin(geometry::subtract(out.columns, dense), line_ * 4 / 10);
+      for (Region& column : out.columns) {
+        const Regions near = geometry::trimmed(dense, box_of(column.outer).grown(1));
+        if (near.empty())
+          sparse.push_back(std::move(column));
+        else if (near != Regions{column})
+          append(sparse, without_thin(geometry::subtract({column}, near), line_ * 4 / 10));
+      }
+      out.columns = std::move(sparse);
     }
     return out;
   }
@@ -147,16 +154,13 @@ void note_reached(const Object& object, const Stack& stack, const Demand& demand
     }
     Regions all = all_areas(plan.layers[contact.level]);
     append(all, caps.of[i]);
-    Regions left;
+    Regions left, whole, partly;  // of what is held: what all of it is near, and what only some is
     for (const Region& wanted : demand[i].wanted) {
-      const Box box = box_of(wanted.outer);
-      const Regions near = geometry::trimmed(all, box.grown(2 * reached));
+      const Regions near = geometry::trimmed(all, box_of(wanted.outer).grown(1));
       if (near.empty()) {
-        left.push_back(wanted);
+        partly.push_back(wanted);
         continue;
       }
-      // It is a judgement of reach: beads' finer corners do not matter to it.
-      constexpr Um coarse = 80;
       const Regions beside = geometry::subtract({wanted}, near);
       const double covered_mm2 = area_mm2(wanted) - area_mm2(beside);
       out.contact_mm2 += covered_mm2;
@@ -165,11 +169,22 @@ void note_reached(const Object& object, const Stack& stack, const Demand& demand
                                  const Point size = box_of(piece.outer).size();
                                  return std::hypot(size.x, size.y) < reached;
                                });
-      const Regions wide = grown(geometry::simplified(all_reached ? Regions{wanted} : near, coarse), reached, coarse);
-      if (!all_reached) append(left, geometry::opening(geometry::subtract({wanted}, wide), coarse));
-      append(out.held, geometry::intersect(geometry::trimmed(object.layers[i]->regions, box.grown(reached)), wide));
+      (all_reached ? whole : partly).push_back(wanted);
     }
-    if (out.held.size() > 1) out.held = geometry::unite(out.held);
+    // It is a judgement of reach: beads' finer corners do not matter to it.
+    constexpr Um coarse = 80;
+    const auto around = [](const Regions& areas) {
+      return grown(geometry::simplified(areas, coarse), reached, coarse);
+    };
+    Regions wide = around(whole);
+    if (!partly.empty()) {
+      const Regions beside = around(geometry::trimmed(all, box_of(partly).grown(2 * reached)));
+      left = geometry::opening(geometry::subtract(partly, beside), coarse);
+      append(wide, beside);
+    }
+    if (!wide.empty())
+      out.held = geometry::intersect(
+          geometry::trimmed(object.layers[i]->regions, box_of(demand[i].wanted).grown(reached)), wide);
     out.left_mm2 = area_mm2(left);
     if (!left.empty()) out.left_at = left.front().outer.front();
     return out;

@@ -130,35 +130,29 @@ Regions Room::part_near(Um low, Um high, const Place& place, Um within) const {
   return out;
 }
 
-KeepOut Room::keep_out(const Stack::Level& level, const Place& place) const {
-  KeepOut out;
+Regions Room::barred(const Stack::Level& level, const Place& place, const Regions& contacts) const {
   const Regions part_beside = part_near(level.bottom(), level.z, place, beside_ + 3 * outline_bound);
-  out.near = kept_off(part_beside, beside_);
-  out.touch = close_ == beside_ ? out.near : kept_off(part_beside, close_);
+  Regions out;
   const Um above = top_gap(s_), below = bottom_gap(s_);
   if (above > 0) {
     // What lies in the gap is kept off sideways too, so that a bead has room beside it for a contact that ends lower.
     const Regions in_gap = part_near(level.z, level.z + above, place, close_ + 3 * outline_bound);
-    if (in_gap != part_beside) out.over = kept_off(in_gap, close_);
+    if (in_gap != part_beside) out = kept_off(in_gap, close_);
   }
   if (below > 0 && level.bottom() > o_.floor)
-    append(out.over, part_near(level.bottom() - below, level.bottom(), place, 1));
-  append(out.over, stair(level, place.box));
-  if (s_.support_blockers_avoided) append(out.over, blocked_between(o_, level.bottom(), level.z));
-  return out;
-}
-
-Regions Room::barred(const Stack::Level& level, const Place& place, const Regions& contacts) const {
-  KeepOut out = keep_out(level, place);
-  Regions barred = std::move(out.over);
+    append(out, part_near(level.bottom() - below, level.bottom(), place, 1));
+  append(out, stair(level, place.box));
+  if (s_.support_blockers_avoided) append(out, blocked_between(o_, level.bottom(), level.z));
+  if (part_beside.empty()) return out;
+  const Regions near = kept_off(part_beside, beside_);
   const Regions close = contacts.empty() ? contacts : geometry::trimmed(contacts, place.box.grown(o_.nozzle + 1));
-  if (close.empty()) {
-    append(barred, out.near);
+  if (close.empty() || close_ == beside_) {
+    append(out, near);
   } else {
-    append(barred, out.touch);
-    append(barred, geometry::subtract(out.near, grown(close, o_.nozzle)));  // a strip alone could not be printed
+    append(out, kept_off(part_beside, close_));
+    append(out, geometry::subtract(near, grown(close, o_.nozzle)));  // a strip alone could not be printed
   }
-  return barred;
+  return out;
 }
 
 /// What of it lies in the object's room.

@@ -20,13 +20,6 @@ Regions blocked_between(const Object& object, Um low, Um high);
 /// Distance to the part beside, µm.
 Um beside(const SupportSettings& settings, const Object& object);
 
-/// Where no support may be on a level, near a box.
-struct KeepOut {
-  Regions near;   ///< the part beside, grown by support_xy_distance
-  Regions touch;  ///< grown by the distance that holds beside contacts only
-  Regions over;   ///< the part less than a gap above or below, and what else is not to be entered
-};
-
 /// The part as support sees it, and where support may be. It is asked for what lies near a box, so that its outlines
 /// cost no more than what is close by.
 class Room {
@@ -71,7 +64,8 @@ class Room {
   };
   /// The part in that height, as far as it comes as near to a place.
   Regions part_near(Um low, Um high, const Place& place, Um within) const;
-  KeepOut keep_out(const Stack::Level& level, const Place& place) const;
+  /// Where no support may be on a level, near a place: what is further from contacts than a nozzle keeps
+  /// support_xy_distance, what is beside them support_xy_distance_overhang.
   Regions barred(const Stack::Level& level, const Place& place, const Regions& contacts) const;
   Regions stair(const Stack::Level& level, const Box& near) const;
 
