@@ -134,6 +134,33 @@ bool on_the_bed(const Object& object, const SlicedLayer& layer) {
   return !object.on_raft && layer.z - layer.height <= object.layers.front()->z;
 }
 
+/// What is wanted, by how much of it support is near to.
+struct Near {
+  Regions whole, partly;
+  double contact_mm2 = 0;  ///< that support lies right under
+};
+
+Near near_to(const Regions& all_wanted, const Regions& support) {
+  Near out;
+  for (const Region& wanted : all_wanted) {
+    const Regions under = geometry::trimmed(support, box_of(wanted.outer).grown(1));
+    if (under.empty()) {
+      out.partly.push_back(wanted);
+      continue;
+    }
+    const Regions beside = geometry::subtract({wanted}, under);
+    const double covered_mm2 = area_mm2(wanted) - area_mm2(beside);
+    out.contact_mm2 += covered_mm2;
+    // Each piece of what is partly covered touches what covers it.
+    const bool all_reached = covered_mm2 > 0 && std::all_of(beside.begin(), beside.end(), [](const Region& piece) {
+                               const Point size = box_of(piece.outer).size();
+                               return std::hypot(size.x, size.y) < reached;
+                             });
+    (all_reached ? out.whole : out.partly).push_back(wanted);
+  }
+  return out;
+}
+
 /// What is held of each layer of the object, and what is not.
 void note_reached(const Object& object, const Stack& stack, const Demand& demand, const Caps& caps, Plan& plan) {
   struct Reached {
@@ -154,32 +181,17 @@ void note_reached(const Object& object, const Stack& stack, const Demand& demand
     }
     Regions all = all_areas(plan.layers[contact.level]);
     append(all, caps.of[i]);
-    Regions left, whole, partly;  // of what is held: what all of it is near, and what only some is
-    for (const Region& wanted : demand[i].wanted) {
-      const Regions near = geometry::trimmed(all, box_of(wanted.outer).grown(1));
-      if (near.empty()) {
-        partly.push_back(wanted);
-        continue;
-      }
-      const Regions beside = geometry::subtract({wanted}, near);
-      const double covered_mm2 = area_mm2(wanted) - area_mm2(beside);
-      out.contact_mm2 += covered_mm2;
-      // Each piece of what is partly covered touches what covers it.
-      const bool all_reached = covered_mm2 > 0 && std::all_of(beside.begin(), beside.end(), [](const Region& piece) {
-                                 const Point size = box_of(piece.outer).size();
-                                 return std::hypot(size.x, size.y) < reached;
-                               });
-      (all_reached ? whole : partly).push_back(wanted);
-    }
+    const Near near = near_to(demand[i].wanted, all);
+    out.contact_mm2 = near.contact_mm2;
     // It is a judgement of reach: beads' finer corners do not matter to it.
     constexpr Um coarse = 80;
     const auto around = [](const Regions& areas) {
       return grown(geometry::simplified(areas, coarse), reached, coarse);
     };
-    Regions wide = around(whole);
-    if (!partly.empty()) {
-      const Regions beside = around(geometry::trimmed(all, box_of(partly).grown(2 * reached)));
-      left = geometry::opening(geometry::subtract(partly, beside), coarse);
+    Regions left, wide = around(near.whole);
+    if (!near.partly.empty()) {
+      const Regions beside = around(geometry::trimmed(all, box_of(near.partly).grown(2 * reached)));
+      left = geometry::opening(geometry::subtract(near.partly, beside), coarse);
       append(wide, beside);
     }
     if (!wide.empty())

@@ -139,8 +139,7 @@ Regions Room::barred(const Stack::Level& level, const Place& place, const Region
     const Regions in_gap = part_near(level.z, level.z + above, place, close_ + 3 * outline_bound);
     if (in_gap != part_beside) out = kept_off(in_gap, close_);
   }
-  if (below > 0 && level.bottom() > o_.floor)
-    append(out, part_near(level.bottom() - below, level.bottom(), place, 1));
+  if (below > 0 && level.bottom() > o_.floor) append(out, part_near(level.bottom() - below, level.bottom(), place, 1));
   append(out, stair(level, place.box));
   if (s_.support_blockers_avoided) append(out, blocked_between(o_, level.bottom(), level.z));
   if (part_beside.empty()) return out;
