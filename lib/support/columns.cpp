@@ -211,21 +211,20 @@ Regions without_thin(const Regions& area, Um radius) {
 
 namespace {
 
-/// What of a level hangs, but for slivers along edges: an area that was opened by 0.4 lines is none.
-Regions hanging(const Regions& here, const Regions& below) {
+/// What of an area hangs, but for slivers along edges: one that was opened by 0.4 lines is none.
+Regions hanging(const Region& region, const Regions& below) {
   constexpr double least_mm2 = 0.05;
   constexpr Um least_wide = 60;
+  const Regions under = geometry::trimmed(below, box_of(region.outer).grown(1));
+  if (std::find(under.begin(), under.end(), region) != under.end()) return {};
   Regions out;
-  const auto add = [&](const Region& piece) {
+  for (const Region& piece : under.empty() ? Regions{region} : geometry::subtract({region}, under)) {
     const double mm2 = area_mm2(piece);
-    if (mm2 < least_mm2) return;
-    if (2e6 * mm2 >= least_wide * perimeter_of(piece.outer)) return out.push_back(piece);
-    append(out, geometry::opening({piece}, least_wide / 2));  // what is wide may hang on to a long sliver
-  };
-  for (const Region& region : here) {
-    const Regions under = geometry::trimmed(below, box_of(region.outer).grown(1));
-    if (under.size() == 1 && under.front() == region) continue;
-    for (const Region& piece : under.empty() ? Regions{region} : geometry::subtract({region}, under)) add(piece);
+    if (mm2 < least_mm2) continue;
+    if (2e6 * mm2 >= least_wide * perimeter_of(piece.outer))
+      out.push_back(piece);
+    else
+      append(out, geometry::opening({piece}, least_wide / 2));  // what is wide may hang on to a long sliver
   }
   return out;
 }
@@ -247,27 +246,40 @@ Um reach_of(const Room& room, const Stack::Level& level) {
 
 }  // namespace
 
-void rest_on(const Room& room, const Stack::Level& level, const Regions& below, Regions& here) {
-  if (here.empty()) return;
-  const auto& s = room.settings();
-  const Regions hangs = hanging(here, below);
-  if (hangs.empty()) return;
+namespace {
+
+/// What of pieces of a level that hang over the one below has nothing near enough to hold it.
+Regions falls_down(const Room& room, const Stack::Level& level, const Regions& below, const Regions& hangs) {
   const Um reach = reach_of(room, level);
-  Regions free;
+  Regions out;
   for (const Region& piece : hangs) {
     const Box near = box_of(piece.outer).grown(2 * reach);
     Regions base = geometry::trimmed(below, near);
-    if (s.support_type == SupportType::everywhere) {  // what lies below it, and not walls beside
+    if (room.settings().support_type == SupportType::everywhere) {  // what lies below it, and not walls beside
       const Regions part = part_below(room, level, near);
       if (!part.empty()) append(base, geometry::intersect({piece}, part));
     }
     if (base.empty())
-      free.push_back(piece);
+      out.push_back(piece);
     else
-      append(free, geometry::subtract({piece}, grown(base, reach)));
+      append(out, geometry::subtract({piece}, grown(base, reach)));
   }
-  // Nothing rests on a hair that stays beside what goes.
-  if (!free.empty()) here = without_thin(geometry::subtract(here, free), line_width(s, room.object().nozzle) * 4 / 10);
+  return out;
+}
+
+}  // namespace
+
+void rest_on(const Room& room, const Stack::Level& level, const Regions& below, Regions& here) {
+  const Um hair = line_width(room.settings(), room.object().nozzle) * 4 / 10;
+  Regions left;
+  for (Region& region : here) {
+    const Regions free = falls_down(room, level, below, hanging(region, below));
+    if (free.empty())
+      left.push_back(std::move(region));
+    else  // nothing rests on a hair that stays beside what goes
+      append(left, without_thin(geometry::subtract({region}, free), hair));
+  }
+  here = std::move(left);
 }
 
 namespace {
@@ -341,13 +353,22 @@ class Falling {
       return;
     if (ragged_ || !contacts.empty()) falling_ = geometry::simplified(falling_, corner_bound), edge_.reset();
     ragged_ = false;
-    bool cut = false;
-    Regions left = room_.free_part(falling_, level, close_, &cut, &above_);
-    if (!shadow_.empty() && !shadow_[k].empty()) left = geometry::subtract(left, shadow_[k]), cut = true;
-    if (!cut && contacts.empty()) return;
-    falling_ = without_thin(left, line_ * 4 / 10);
+    const bool shaded = !shadow_.empty() && !shadow_[k].empty();
+    Regions left;
+    for (Region& region : falling_) {
+      bool cut = shaded;
+      Regions free = room_.free_part({region}, level, close_, cut ? nullptr : &cut, &above_);
+      if (shaded) free = geometry::subtract(free, shadow_[k]);
+      ragged_ = ragged_ || cut;
+      if (cut)
+        append(left, without_thin(free, line_ * 4 / 10));
+      else
+        left.push_back(std::move(region));
+    }
+    if (!ragged_) return void(falling_ = std::move(left));
+    falling_ = std::move(left);
     edge_.reset();
-    ragged_ = true, less_[k] = 1;
+    less_[k] = 1;
   }
   const geometry::SegmentIndex& edge() {
     if (!edge_) edge_.emplace(falling_);
@@ -377,7 +398,7 @@ class Falling {
         rest_on(room_, stack_.levels[k], levels_[k - 1], levels_[k]);
         const double lost_mm2 = area_mm2(all) - area_mm2(levels_[k]);
         if (lost_mm2 > least_toe_mm2) {
-          std::erase_if(all, [&](const Region& r) { return !geometry::intersect({r}, levels_[k]).empty(); });
+          std::erase_if(all, [&](const Region& r) { return any_of_it_is_left(r, levels_[k]); });
           add_toes(k, all);
         }
         less_below = less || lost_mm2 > 0;
@@ -385,6 +406,14 @@ class Falling {
         less_below = less;
       }
     }
+  }
+  /// @param left  whole regions, or pieces of them
+  static bool any_of_it_is_left(const Region& region, const Regions& left) {
+    if (std::find(left.begin(), left.end(), region) != left.end()) return true;
+    const Box box = box_of(region.outer);
+    return std::any_of(left.begin(), left.end(), [&](const Region& piece) {
+      return box.overlaps(box_of(piece.outer)) && !geometry::intersect({region}, {piece}).empty();
+    });
   }
   /// Over a steep slope a column hangs: it is kept off it further sideways than it may sag. There it reaches out to
   /// where the slope is near below, no nearer to it than contacts are.

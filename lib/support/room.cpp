@@ -130,7 +130,6 @@ Regions Room::part_near(Um low, Um high, const Place& place, Um within) const {
   return out;
 }
 
-/// The part less than a gap above or below, and what else is not to be entered.
 Regions Room::kept_out(const Stack::Level& level, const Place& place, const Regions& part_beside) const {
   Regions out;
   const Um above = top_gap(s_), below = bottom_gap(s_);
@@ -148,7 +147,9 @@ Regions Room::kept_out(const Stack::Level& level, const Place& place, const Regi
 Regions Room::barred(const Stack::Level& level, const Place& place, const Regions& contacts,
                      const Regions* above) const {
   const Regions part = part_near(level.bottom(), level.z, place, beside_ + 3 * outline_bound);
-  Regions barred = kept_out(level, place, part), nearer;  // where the part is come nearer than elsewhere
+  Regions barred = kept_out(level, place, part);
+  if (part.empty()) return barred;
+  Regions nearer;  // where the part is come nearer than elsewhere
   const auto keep_off = [&](Um distance) {
     const Regions off = kept_off(part, distance);
     append(barred, nearer.empty() ? off : geometry::subtract(off, nearer));

@@ -66,7 +66,10 @@ class Room {
   };
   /// The part in that height, as far as it comes as near to a place.
   Regions part_near(Um low, Um high, const Place& place, Um within) const;
+  /// The part less than a gap above or below, and what else is not to be entered.
   Regions kept_out(const Stack::Level& level, const Place& place, const Regions& part_beside) const;
+  /// Where no support may be on a level, near a place: what is further from contacts than a nozzle keeps
+  /// support_xy_distance, what is beside them support_xy_distance_overhang.
   Regions barred(const Stack::Level& level, const Place& place, const Regions& contacts, const Regions* above) const;
   Regions stair(const Stack::Level& level, const Box& near) const;
 
