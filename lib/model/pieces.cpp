@@ -124,7 +124,6 @@ class Course {
   double way(std::size_t i) const { return moments_[i].way; }
   double distance2(std::size_t i, std::size_t j) const { return distance2_of(path_[i], path_[j]); }
   Nearest nearest(std::size_t i, std::size_t j) const { return {moments_[i], moments_[j], even_}; }
-  Nearest nearest(Place from, Place to) const { return {moments(from), moments(to), even_}; }
   /// How many moves one of its own pieces becomes.
   double moves(std::size_t i) const {
     return even_ ? 1 : Nearest::moves_for(std::abs(path_[i + 1].band - path_[i].band), way(i + 1) - way(i));
@@ -138,19 +137,20 @@ class Course {
     const double length = p.from + 1 < size() ? way(p.from + 1) - way(p.from) : 0;
     return {p.from, length > 0 ? (p.way - way(p.from)) / length : 0};
   }
+  const PathVertex& vertex(std::size_t i) const { return path_[i]; }
   PathVertex vertex(Place p) const {
     const Stop at = stop(p);
     const PathVertex& a = path_[at.from];
     return at.t > 0 ? lerp(a, path_[at.from + 1], at.t) : a;
   }
-
- private:
-  Moments moments(Place p) const {
+  /// As far as a place, at which that vertex is.
+  Moments moments(Place p, const PathVertex& there) const {
     Moments out = moments_[p.from];
-    if (p.way > out.way) out.go_on(path_[p.from], vertex(p), p.way - out.way, even_);
+    if (p.way > out.way) out.go_on(path_[p.from], there, p.way - out.way, even_);
     return out;
   }
 
+ private:
   VertexPath path_;
   std::vector<Moments> moments_;
   bool even_;
@@ -172,16 +172,19 @@ std::vector<std::size_t> worth_most(const Course& course, double most) {
       if (sum < cost[j]) cost[j] = sum, from[j] = i;
     };
     if (course.distance2(i, i + 1) >= least_piece * least_piece) take(i + 1, cost[i] + course.moves(i));
+    double least = 0;  // what any longer piece is off
     for (std::size_t j = i + 2; j <= last; ++j) {
       const double worth = (cost[j] - cost[i] - 1) * worth_of_a_move;
-      if (worth <= 0 || course.distance2(i, j) < least_piece * least_piece) continue;
+      if (worth <= least || course.distance2(i, j) < least_piece * least_piece) continue;
       const Nearest nearest = course.nearest(i, j);
       const double bound = std::min(most, worth);
       if (nearest.is_off_by_more(bound)) {
         if (bound == most || nearest.is_off_by_more(most)) break;  // the longer the more
+        least = bound;
         continue;
       }
-      take(j, cost[i] + nearest.moves() + nearest.misfit() / worth_of_a_move);
+      least = nearest.misfit();
+      take(j, cost[i] + nearest.moves() + least / worth_of_a_move);
     }
   }
   if (cost[last] >= never) return {};
@@ -217,7 +220,8 @@ bool none_is_saved(const VertexPath& path) {
 class Ends {
  public:
   Ends(const Course& course, const std::vector<std::size_t>& at) : course_(course) {
-    for (const std::size_t i : at) ends_.push_back({i, course.way(i)});
+    ends_.reserve(at.size());
+    for (const std::size_t i : at) ends_.push_back(end_at({i, course.way(i)}));
     beads_.resize(at.size() - 1), rooms_.resize(at.size() - 1);
     free_.assign(at.size(), 0);
     for (std::size_t k = 0; k + 1 < at.size(); ++k)
@@ -231,98 +235,108 @@ class Ends {
     constexpr int rounds = 4;  // each halves what is left
     for (int round = 0; round < rounds; ++round) {
       for (std::size_t k = 0; k < beads_.size(); ++k)
-        if (round > 0 ? moves_[k] || moves_[k + 1] : free_[k] || free_[k + 1]) fit(k);
-      std::vector<Course::Place> next = ends_;
+        if (moves_[k] || moves_[k + 1]) fit(k);
+      next_.clear();
       for (std::size_t k = 1; k + 1 < ends_.size(); ++k)
-        if (free_[k] && (moves_[k - 1] || moves_[k] || moves_[k + 1])) next[k] = best(k);
-      stay_where_too_short(next);
+        if (free_[k] && (moves_[k - 1] || moves_[k] || moves_[k + 1]))
+          if (const Course::Place to = best(k); to.way != ends_[k].at.way) next_.push_back({k, ends_[k]}), move(k, to);
+      stay_where_too_short();
+      std::fill(moves_.begin(), moves_.end(), std::uint8_t{0});
       bool any = false;
-      for (std::size_t k = 0; k < ends_.size(); ++k) {
+      for (const auto& [k, before] : next_) {
         constexpr double least_um = 2;
-        moves_[k] = std::abs(next[k].way - ends_[k].way) > least_um;
+        moves_[k] = std::abs(before.at.way - ends_[k].at.way) > least_um;
         any = any || moves_[k];
       }
-      ends_ = std::move(next);
       if (!any) break;
     }
-    return course_.even() ? std::move(ends_) : with_ramps();
+    return places();
   }
 
  private:
+  struct End {
+    Course::Place at;
+    PathVertex vertex;
+    Moments moments;  ///< of the path as far as there
+  };
+  struct Moved {
+    std::size_t k;
+    End before;
+  };
+
+  End end_at(Course::Place at) const {
+    const PathVertex v = course_.vertex(at);
+    return {at, v, course_.moments(at, v)};
+  }
+  void move(std::size_t k, Course::Place to) { ends_[k] = end_at(to); }
+  double apart2(std::size_t k) const { return distance2_of(ends_[k].vertex, ends_[k + 1].vertex); }
+
   /// Where beads meet whose bands differ by more than a step, a short piece leads from one to the other: else their
   /// whole length would.
-  std::vector<Course::Place> with_ramps() const {
-    std::vector<Course::Place> out{ends_.front()};
-    const auto apart2 = [&](const Course::Place& a, const Course::Place& b) {
-      return distance2_of(course_.vertex(a), course_.vertex(b));
-    };
+  std::vector<Course::Place> places() const {
+    std::vector<Course::Place> out;
+    out.reserve(ends_.size());
     constexpr double least2 = least_piece * least_piece, slack = 1 - 1e-6;
-    for (std::size_t k = 1; k + 1 < ends_.size(); ++k) {
-      const auto &before = ends_[k - 1], &here = ends_[k], &behind = ends_[k + 1];
-      if (!free_[k]) {
-        out.push_back(here);
-        continue;
+    for (std::size_t k = 0; k < ends_.size(); ++k) {
+      const Course::Place here = ends_[k].at;
+      if (free_[k] && !course_.even()) {
+        const double change = 2 * std::abs(beads_[k - 1].half_at(here.way) - beads_[k].half_at(here.way));
+        const bool room = std::min(apart2(k - 1), apart2(k)) > 4 * least2;  // for their ramps, too
+        if (change > tolerances::band_step && room) {
+          const auto from = course_.place(here.way - least_piece / 2), to = course_.place(here.way + least_piece / 2);
+          if (distance2_of(course_.vertex(from), course_.vertex(to)) > least2 * slack) {
+            out.push_back(from), out.push_back(to);
+            continue;
+          }
+        }
       }
-      const double change = 2 * std::abs(beads_[k - 1].half_at(here.way) - beads_[k].half_at(here.way));
-      const bool room = std::min(apart2(before, here), apart2(here, behind)) > 4 * least2;  // for their ramps, too
-      const auto from = course_.place(here.way - least_piece / 2), to = course_.place(here.way + least_piece / 2);
-      if (change > tolerances::band_step && room && apart2(from, to) > least2 * slack)
-        out.push_back(from), out.push_back(to);
-      else
-        out.push_back(here);
+      out.push_back(here);
     }
-    out.push_back(ends_.back());
     return out;
   }
   /// Where a path turns back, an end that moves on may come nearer to the one before.
-  void stay_where_too_short(std::vector<Course::Place>& next) const {
+  void stay_where_too_short() {
     const auto too_short = [&](std::size_t k) {
-      return distance2_of(course_.vertex(next[k]), course_.vertex(next[k + 1])) < least_piece * least_piece;
+      return (k > 0 && apart2(k - 1) < least_piece * least_piece) ||
+             (k + 1 < ends_.size() && apart2(k) < least_piece * least_piece);
     };
     for (bool any = true; any;) {
-      any = false;
-      std::vector<std::size_t> stay;
-      for (std::size_t k = 0; k + 1 < next.size(); ++k)
-        if (too_short(k)) stay.push_back(k), stay.push_back(k + 1);
-      for (const std::size_t k : stay) {
-        any = any || next[k].way != ends_[k].way;
-        next[k] = ends_[k];
-      }
+      const auto stay =
+          std::stable_partition(next_.begin(), next_.end(), [&](const Moved& m) { return !too_short(m.k); });
+      any = stay != next_.end();
+      for (auto m = stay; m != next_.end(); ++m) ends_[m->k] = m->before;
+      next_.erase(stay, next_.end());
     }
   }
   void fit(std::size_t k) {
-    beads_[k] = course_.nearest(ends_[k], ends_[k + 1]).bead();
-    const double length = std::sqrt(distance2_of(course_.vertex(ends_[k]), course_.vertex(ends_[k + 1])));
-    rooms_[k] = std::max(0.0, (length - least_piece) / 2);
+    beads_[k] = Nearest(ends_[k].moments, ends_[k + 1].moments, course_.even()).bead();
+    rooms_[k] = std::max(0.0, (std::sqrt(apart2(k)) - least_piece) / 2);
   }
   Course::Place best(std::size_t k) const {
     const StraightBead &before = beads_[k - 1], &behind = beads_[k];
-    const auto more_off_before = [&](Course::Place at) {
-      const PathVertex p = course_.vertex(at);
-      return before.off2(p, at.way) - behind.off2(p, at.way);
+    const auto more_off_before = [&](const PathVertex& p, double way) {
+      return before.off2(p, way) - behind.off2(p, way);
     };
-    Course::Place at = ends_[k];
-    double here = more_off_before(at);
+    Course::Place at = ends_[k].at;
+    double here = more_off_before(ends_[k].vertex, at.way);
     const bool back = here > 0;
     const double end = back ? at.way - rooms_[k - 1] : at.way + rooms_[k];
     while (at.way != end) {
-      Course::Place next = at;
-      if (back) {
-        if (course_.way(next.from) == next.way) --next.from;
-        next.way = std::max(end, course_.way(next.from));
-      } else {
-        next.way = std::min(end, course_.way(next.from + 1));
-      }
-      const double there = more_off_before(next);
-      if ((there > 0) != back) return {next.from, at.way + (next.way - at.way) * here / (here - there)};
-      if (!back && next.way == course_.way(next.from + 1)) ++next.from;
-      at = next, here = there;
+      if (back && course_.way(at.from) == at.way) --at.from;
+      const std::size_t to = back ? at.from : at.from + 1;
+      const double way = back ? std::max(end, course_.way(to)) : std::min(end, course_.way(to));
+      const bool whole = way == course_.way(to);
+      const double there = more_off_before(whole ? course_.vertex(to) : course_.vertex({at.from, way}), way);
+      if ((there > 0) != back) return {at.from, at.way + (way - at.way) * here / (here - there)};
+      if (!back && whole) ++at.from;
+      at.way = way, here = there;
     }
     return at;
   }
 
   const Course& course_;
-  std::vector<Course::Place> ends_;
+  std::vector<End> ends_;
+  std::vector<Moved> next_;  // what was moved last, as it was
   std::vector<StraightBead> beads_;
   std::vector<double> rooms_;       // by how much each end of a piece may be moved that it is not too short
   std::vector<std::uint8_t> free_;  // whether a piece beside the end is of several of the path: others are exact
