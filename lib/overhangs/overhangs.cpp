@@ -14,9 +14,11 @@
 namespace weft::overhangs {
 namespace {
 
-constexpr double step_um = 400;       // between looks: about a bead's width
-constexpr double shortest_um = 1000;  // of a piece
-constexpr double least_share = 0.1;   // of the width: less is the roughness of a wall
+constexpr double step_um = 400;            // between looks: about a bead's width
+constexpr double edge_um = 50;             // how exactly edges below are found
+constexpr double shortest_um = 1000;       // of a piece
+constexpr double shortest_whole_um = 500;  // of one that lies on nothing: more than a bead's width of it curls
+constexpr double least_share = 0.1;        // of the width: less is the roughness of a wall
 constexpr double whole_share = 0.95;
 
 /// How a place of a bead lies: 0 on what is below, 1 … 4 quarters over air, `whole` all over air.
@@ -50,6 +52,26 @@ void add(const Run& run, std::vector<Run>& runs) {
     runs.push_back(run);
 }
 
+/// How a place of a segment lies.
+struct Look {
+  double along = 0, share = 0;
+};
+
+/// Where what lies below begins or ends at once between two looks: how long a run is decides about it, and between
+/// looks it is not known. Where the share changes slowly, halfway is as good.
+template <class LookAt>
+std::optional<double> edge_between(Look here, Look there, double length_um, const LookAt& look) {
+  const auto steps = [](const Look& a, const Look& b) {
+    return std::abs(static_cast<int>(level_of(a.share)) - static_cast<int>(level_of(b.share)));
+  };
+  if (steps(here, there) < 2) return std::nullopt;
+  while ((there.along - here.along) * length_um > edge_um) {
+    const Look middle = look((here.along + there.along) / 2);
+    (steps(here, middle) <= steps(middle, there) ? here : there) = middle;
+  }
+  return (here.along + there.along) / 2;
+}
+
 /// How the bead lies all along.
 std::vector<Run> runs_of(const std::vector<Junction>& path, Air& air) {
   std::vector<Run> runs;
@@ -66,18 +88,29 @@ std::vector<Run> runs_of(const std::vector<Junction>& path, Air& air) {
     }
     const int looks = static_cast<int>(std::ceil(length / step_um));
     const double nx = -(b.at.y - a.at.y) / length, ny = (b.at.x - a.at.x) / length;
-    for (int k = 0; k < looks; ++k) {
-      const double along = (k + 0.5) / looks, half = (a.width + along * (b.width - a.width)) / 2;
-      const double share = air.share(lerp(a.at, b.at, along), {rounded(half * nx), rounded(half * ny)});
-      add({{i, static_cast<double>(k) / looks},
-           {i, (k + 1.0) / looks},
-           length / looks,
-           share * length / looks,
-           level_of(share)},
-          runs);
+    const auto look = [&](double along) {
+      const double half = (a.width + along * (b.width - a.width)) / 2;
+      return Look{along, air.share(lerp(a.at, b.at, along), {rounded(half * nx), rounded(half * ny)})};
+    };
+    double from = 0;
+    Look last = look(0.5 / looks);
+    const auto end_at = [&](double to) {
+      const double um = (to - from) * length;
+      add({{i, from}, {i, to}, um, last.share * um, level_of(last.share)}, runs);
+      from = to;
+    };
+    for (int k = 1; k < looks; ++k) {
+      const Look next = look((k + 0.5) / looks);
+      end_at(edge_between(last, next, length, look).value_or(static_cast<double>(k) / looks));
+      last = next;
     }
+    end_at(1);
   }
   return runs;
+}
+
+bool is_short(const Run& run) {
+  return run.length_um < (run.level == whole ? shortest_whole_um : shortest_um);
 }
 
 int unlike(const Run& a, const Run& b) {
@@ -88,7 +121,6 @@ int unlike(const Run& a, const Run& b) {
 /// lies as they do on the mean: each alone would go to its neighbours.
 std::vector<Run> with_short_ones_joined(const std::vector<Run>& runs) {
   std::vector<Run> out;
-  const auto is_short = [](const Run& run) { return run.length_um < shortest_um; };
   for (auto at = runs.begin(); at != runs.end();) {
     const auto end = std::find_if_not(at, runs.end(), is_short);
     const Level beside =
@@ -117,7 +149,7 @@ std::vector<Run> without_short(const std::vector<Run>& runs) {
     add(runs[i], out);
     Run& last = out.back();
     const bool first = out.size() == 1, end = i + 1 == runs.size();
-    if (last.length_um >= shortest_um || (first && end)) continue;
+    if (!is_short(last) || (first && end)) continue;
     const auto before = [&] { return out[out.size() - 2]; };
     const bool back =
         end ||
@@ -127,10 +159,14 @@ std::vector<Run> without_short(const std::vector<Run>& runs) {
       last.level = runs[i + 1].level;
       continue;
     }
-    const Run short_one = last;
+    Run short_one = last;
     out.pop_back();
-    out.back().to = short_one.to, out.back().length_um += short_one.length_um;
+    short_one.level = out.back().level;
+    add(short_one, out);
   }
+  // Where something bears it in between again and again, it does not lie on nothing.
+  for (Run& run : out)
+    if (const Level mean = level_of(run.in_air_um / run.length_um); run.level == whole && mean < 4) run.level = mean;
   return out;
 }
 
@@ -174,7 +210,7 @@ void find_strands(const Extrude& bead, const Strand& strand, std::vector<Run>& r
   const bool joined = round && runs.front().level == whole && runs.back().level == whole;
   const Um within = strand.nozzle / 2;
   for (std::size_t i = 0; i < count; ++i) {
-    if (runs[i].level != whole || (joined && (i == 0 || i + 1 == count))) continue;
+    if (runs[i].level != whole || runs[i].length_um < shortest_um || (joined && (i == 0 || i + 1 == count))) continue;
     if (!round && (i == 0 || i + 1 == count)) continue;
     const Run &before = runs[(i + count - 1) % count], &after = runs[(i + 1) % count];
     runs[i].strand = holds(before) && holds(after) && straight(piece_of(bead.path, runs[i]), within);

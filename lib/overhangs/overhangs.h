@@ -25,7 +25,8 @@ Regions worth_keeping(Regions over_air);
 /// strand: round, of the nozzle's diameter. What is held at one end, or not at all, keeps its width: what stuck to its
 /// neighbour as a wall would be pulled from it as a strand. Pieces shorter than a millimetre are joined with each other
 /// where they follow each other, and lie as they do on the mean; single ones go to the piece beside that is most like
-/// them: a nozzle does not change its speed, nor a fan its own, for less.
+/// them: a nozzle does not change its speed, nor a fan its own, for less. What lies on nothing is told from half a
+/// millimetre on: a corner that sticks out so far curls.
 /// @param strands by scope (Extrude::scope); a scope that is not there has the first's. Pre: not empty
 /// @param over_air where nothing of the layer below lies, on the plate. Pre: orientation as Region says.
 /// Post: no bead is touched whose scope does not ask for it (Strand::marked), none that has less than a tenth of its

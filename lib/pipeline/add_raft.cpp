@@ -17,9 +17,13 @@ namespace {
 
 using namespace weft::literals;
 
+Um width_of(const adhesion::RaftLayer& layer, Um nozzle) {
+  return flow::automatic_width(nozzle, layer.height);
+}
+
 /// A loop around, and lines inside; those of neighbouring layers cross each other.
 Beads raft_beads(const adhesion::RaftLayer& layer, const Regions& area, Um nozzle, bool across, Point origin) {
-  const Um band = flow::band(flow::automatic_width(nozzle, layer.height), layer.height);
+  const Um band = flow::band(width_of(layer, nozzle), layer.height);
   const double angle = across ? std::numbers::pi / 2 : 0;
   const Role role = layer.part == adhesion::RaftPart::surface ? Role::support_interface : Role::support;
   Beads beads;
@@ -59,11 +63,16 @@ std::vector<adhesion::RaftLayer> layers_of(const Settings& settings) {
 }  // namespace
 
 PrintedLayers make_raft(const Settings& settings, const RaftScopes& scopes, const Regions& standing) {
-  const Um half_bead = settings.machine.nozzle_diameter;  // the widest line of a raft is two nozzles wide
-  Regions room = geometry::offset({{print_surface(settings.machine), {}}}, {.by = -half_bead});
+  // A part at the border stands there on the raft as well: of the beads only what bulges lies beyond the area.
+  constexpr Um rounding = 10;  // what the audit takes for it
+  Um beyond = rounding;
+  for (const auto& layer : layers_of(settings))
+    beyond = std::max(
+        beyond, rounding + rounded(flow::bulge_um(width_of(layer, settings.machine.nozzle_diameter), layer.height, 1)));
+  Regions room = geometry::offset({{print_surface(settings.machine), {}}}, {.by = -beyond});
   Regions no_go;
   for (const Ring& ring : settings.machine.bed_exclude_areas) no_go.push_back({ring, {}});
-  if (!no_go.empty()) room = geometry::subtract(room, geometry::offset(geometry::unite(no_go), {.by = half_bead}));
+  if (!no_go.empty()) room = geometry::subtract(room, geometry::offset(geometry::unite(no_go), {.by = beyond}));
   const Regions area = adhesion::raft_area(settings.raft, standing, room);
   const Box box = box_of(area);
   PrintedLayers out;

@@ -19,6 +19,7 @@
 #include "pipeline/stages.h"
 #include "pipeline/stopwatch.h"
 #include "pipeline/support_object.h"
+#include "pipeline/swaying.h"
 #include "slice/slice.h"
 #include "tasks/parallel.h"
 #include "walls/walls.h"
@@ -47,6 +48,48 @@ void append(Notices& to, std::vector<PlacedNotice> from, Point offset) {
 }
 
 using Walls = ResultOf<Stage::walls>;
+
+/// What walls tell of an object, one notice a kind: of its first place, and how many more there are.
+void tell_walls(const std::string& object, Walls& walls, Point offset, Notices& to) {
+  struct Kind {
+    PlacedNotice first;
+    std::size_t count = 0;
+    std::size_t last_layer = 0;
+  };
+  std::vector<Kind> kinds;
+  for (std::size_t i = 0; i < walls.size(); ++i)
+    for (auto& notice : walls[i].notices) {
+      auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.first.code == notice.code; });
+      if (kind == kinds.end()) kind = kinds.insert(kinds.end(), Kind{std::move(notice)});
+      ++kind->count, kind->last_layer = i;
+    }
+  for (auto& [first, count, last_layer] : kinds) {
+    const Point at = first.at + offset;
+    auto message = fmt::format("{}: {}, at {:.2f}, {:.2f}", object, first.message, to_mm(at.x), to_mm(at.y));
+    if (count > 1)
+      message +=
+          fmt::format(", and so in {} more place{} up to layer {}", count - 1, count == 2 ? "" : "s", last_layer);
+    to.push_back({std::move(first.code), std::move(message)});
+  }
+}
+
+/// What the nozzle would bend aside, above all that support holds.
+void tell_swaying(const Settings& settings, const Object& object, const Cuts& cuts, const std::vector<Regions>& held,
+                  Notices& to) {
+  const auto above = std::find_if(held.rbegin(), held.rend(), [](const Regions& r) { return !r.empty(); });
+  const Um nozzle = settings.machine.nozzle_diameter;
+  const auto found =
+      most_swaying(cuts, static_cast<std::size_t>(held.rend() - above),
+                   length_or(settings.walls.wall_line_width_0, nozzle, flow::automatic_outer_width(nozzle)));
+  if (!found) return;
+  const Point at = found->at + object.copies.front();
+  to.push_back(
+      {"part_sways",
+       fmt::format("{}: {:.1f} mm of it stand on {:.2f} mm² at ({:.3f}, {:.3f}, {:.3f}) and give way to the "
+                   "nozzle; lay it down (--orient auto), or hold it with support (--support-mesh)",
+                   object.name, found->height_mm, found->area_mm2, to_mm(at.x), to_mm(at.y), to_mm(found->z))});
+}
+
 using Fills = ResultOf<Stage::infill>;
 using WallHands = HandedTo<Stage::walls>;
 
@@ -330,10 +373,10 @@ void tell_scopes(const Areas& areas, const std::vector<std::uint32_t>& inner_bea
 
 /// @param at where the object's first copy stands: places are told as they are on the bed
 /// @param held of each layer, what rests on support; empty: nothing does
-PrintedLayers put_together(Cuts cuts, const std::vector<Areas>& areas, Walls walls, Fills fills,
-                           const std::vector<Regions>& held, Point at, Notices& notices) {
+PrintedLayers put_together(const std::string& object, Cuts cuts, const std::vector<Areas>& areas, Walls walls,
+                           Fills fills, const std::vector<Regions>& held, Point at, Notices& notices) {
   PrintedLayers out(cuts.size());
-  for (auto& layer : walls) append(notices, std::move(layer.notices), at);
+  tell_walls(object, walls, at, notices);
   for (std::size_t i = 0; i < out.size(); ++i) {
     auto& layer = cuts[i].layer;
     auto& fill = fills[i];
@@ -351,6 +394,11 @@ PrintedLayers put_together(Cuts cuts, const std::vector<Areas>& areas, Walls wal
     std::move(fill.notices.begin(), fill.notices.end(), std::back_inserter(notices));
   }
   return out;
+}
+
+/// Tips are thinner than any bead: the print ends where the last one is laid, not where the mesh does.
+void drop_empty_top(const Sample& sample, PrintedLayers& layers) {
+  while (layers.size() > 1 && sample.has(layers.size() - 1) && layers.back().beads.empty()) layers.pop_back();
 }
 
 }  // namespace
@@ -380,6 +428,8 @@ PrintedLayers print_object(const Running& job, const Scopes& all_scopes, const T
   });
 
   tell_missing_support(job, all_scopes, scopes, object, *sliced, *walled);
+  tell_swaying(all_scopes[all_scopes.above_first_layer(scopes.front().of_mix.front())], object, *sliced, support.held,
+               notices);
   const auto fill_hands = hand<Stage::infill>(all_scopes);
   const auto looked_at = [&](const std::vector<infill::LayerAreas>& parts) {
     if (!job.sample.all()) measure(job, wall_hands, *sliced, areas, parts, object.copies.size());
@@ -400,8 +450,9 @@ PrintedLayers print_object(const Running& job, const Scopes& all_scopes, const T
   });
   auto cuts = std::move(sliced).take();
   move_outlines(wall_hands, all_scopes, areas, cuts);
-  auto out = put_together(std::move(cuts), areas, std::move(walled).take(), std::move(filled).take(), support.held, at,
-                          notices);
+  auto out = put_together(object.name, std::move(cuts), areas, std::move(walled).take(), std::move(filled).take(),
+                          support.held, at, notices);
+  drop_empty_top(job.sample, out);
   for (auto& layer : out) tools.tell(layer.beads, all_scopes);
   if (job.sample.all()) tell_infill(all_scopes[scopes.front().of_mix.front()], out, job.report);
   return out;

@@ -58,12 +58,24 @@ ToolScopes::ToolScopes(const Settings& plate) : overlays_(tool_overlays(plate)),
     }
 }
 
+namespace {
+
+/// The highest tool that anything of an object is printed with.
+int highest_tool_of(const Settings& settings) {
+  const auto own = tools_of(settings.tools);
+  return std::max({int{*own.rbegin()}, settings.support.support_infill_extruder_nr.value_or(0),
+                   settings.support.support_interface_extruder_nr.value_or(0)});
+}
+
+}  // namespace
+
 ScopeId ToolScopes::area(const Object& object, const std::vector<const Overlay*>& overlays, Scopes& scopes) {
   const ScopeId plain = scopes.with(0, overlays);
   const auto own = tools_of(scopes[plain].tools);
-  if (*own.rbegin() >= count())
+  const int highest = highest_tool_of(scopes[plain]);
+  if (highest >= static_cast<int>(count()))
     throw Error{Error::Kind::settings,
-                fmt::format("object '{}': there is no tool {}, the printer has {}", object.name, *own.rbegin(),
+                fmt::format("object '{}': there is no tool {}, the printer has {}", object.name, highest,
                             count() == 1 ? "T0 alone" : fmt::format("T0 … T{}", count() - 1)),
                 {},
                 "extruders_enabled_count says how many there are"};

@@ -126,10 +126,9 @@ void lay_foreign(const ForeignSettings& said, const Settings& plate, const std::
     }
     IniEntry line{{}, key, value, static_cast<int>(lines.size()) + 1};
     if (said.dialect == Dialect::orca && key != "extruder") {
-      if (const auto ours = prusaslicer::ours_of_orca(key, value)) {
-        layer.ours(ours->first, ours->second, key);
-        continue;
-      }
+      const auto own = prusaslicer::ours_of_orca(key, value);
+      for (const auto& [our_key, text] : own) layer.ours(our_key, text, key);
+      if (!own.empty()) continue;
       const auto theirs = prusaslicer::from_orca(key, value);
       if (!theirs) {
         layer.left_out(key, value, "weft does not know it");

@@ -58,7 +58,34 @@ constexpr std::array rows{
     OrcaKey{"support_interface_top_layers", "support_material_interface_layers"},
     OrcaKey{"support_base_pattern_spacing", "support_material_spacing"},
     OrcaKey{"enforce_support_layers", "support_material_enforce_layers"},
+    OrcaKey{"bridge_no_support", "dont_support_bridges"},
+    OrcaKey{"support_angle", "support_material_angle"},
+    OrcaKey{"support_base_pattern", "support_material_pattern"},
+    OrcaKey{"support_bottom_z_distance", "support_material_bottom_contact_distance"},
+    OrcaKey{"support_interface_bottom_layers", "support_material_bottom_interface_layers"},
+    OrcaKey{"support_interface_pattern", "support_material_interface_pattern"},
+    OrcaKey{"support_interface_spacing", "support_material_interface_spacing"},
+    OrcaKey{"support_interface_speed", "support_material_interface_speed"},
+    OrcaKey{"support_interface_loop_pattern", "support_material_interface_contact_loops"},
+    OrcaKey{"support_filament", "support_material_extruder"},
+    OrcaKey{"support_interface_filament", "support_material_interface_extruder"},
+    OrcaKey{"independent_support_layer_height", "support_material_synchronize_layers"},
+    // Of their two kinds of branches the organic ones are weft's; those come later in a file, and hold.
+    OrcaKey{"tree_support_branch_angle", "support_tree_angle"},
+    OrcaKey{"tree_support_branch_angle_organic", "support_tree_angle"},
+    OrcaKey{"tree_support_branch_diameter", "support_tree_branch_diameter"},
+    OrcaKey{"tree_support_branch_diameter_organic", "support_tree_branch_diameter"},
+    OrcaKey{"tree_support_branch_diameter_angle", "support_tree_branch_diameter_angle"},
+    OrcaKey{"tree_support_tip_diameter", "support_tree_tip_diameter"},
+    OrcaKey{"tree_support_top_rate", "support_tree_top_rate"},
+    OrcaKey{"tree_support_angle_slow", "support_tree_angle_slow"},
     OrcaKey{"raft_layers", "raft_layers"},
+    OrcaKey{"raft_contact_distance", "raft_contact_distance"},
+    OrcaKey{"raft_expansion", "raft_expansion"},
+    OrcaKey{"raft_first_layer_density", "raft_first_layer_density"},
+    OrcaKey{"raft_first_layer_expansion", "raft_first_layer_expansion"},
+    OrcaKey{"flush_into_infill", "wipe_into_infill"},
+    OrcaKey{"flush_into_objects", "wipe_into_objects"},
     OrcaKey{"xy_contour_compensation", "xy_size_compensation"},
     OrcaKey{"elefant_foot_compensation", "elefant_foot_compensation"},
     OrcaKey{"seam_position", "seam_position"},
@@ -138,6 +165,7 @@ struct OwnKey {
 };
 constexpr std::array own_rows{
     OwnKey{"xy_hole_compensation", "hole_xy_offset"},
+    OwnKey{"max_bridge_length", "support_max_bridge_length"},
     OwnKey{"brim_object_gap", "brim_gap"},
     OwnKey{"brim_ears_max_angle", "brim_ears_max_angle"},
     OwnKey{"interlocking_beam", "interlocking_enable"},
@@ -148,13 +176,32 @@ constexpr std::array own_rows{
     OwnKey{"interlocking_boundary_avoidance", "interlocking_boundary_avoidance"},
 };
 
-/// Values that are a setting of weft's.
+/// Values that are settings of weft's, a row for each.
 struct OwnValue {
   std::string_view theirs, value, ours, text;
 };
 constexpr std::array own_values{
     OwnValue{"brim_type", "brim_ears", "brim_ears", "on"},
     OwnValue{"brim_type", "auto_brim", "brim_narrow_width", "8"},
+    // manual: what is painted or marked, and nothing else
+    OwnValue{"support_type", "normal(auto)", "support_structure", "normal"},
+    OwnValue{"support_type", "normal(auto)", "support_auto", "true"},
+    OwnValue{"support_type", "normal(manual)", "support_structure", "normal"},
+    OwnValue{"support_type", "normal(manual)", "support_auto", "false"},
+    OwnValue{"support_type", "tree(auto)", "support_structure", "tree"},
+    OwnValue{"support_type", "tree(auto)", "support_auto", "true"},
+    OwnValue{"support_type", "tree(manual)", "support_structure", "tree"},
+    OwnValue{"support_type", "tree(manual)", "support_auto", "false"},
+    OwnValue{"support_type", "hybrid(auto)", "support_structure", "hybrid"},
+    OwnValue{"support_type", "hybrid(auto)", "support_auto", "true"},
+    OwnValue{"support_style", "default", "support_normal_shape", "grid"},
+    OwnValue{"support_style", "grid", "support_normal_shape", "grid"},
+    OwnValue{"support_style", "snug", "support_normal_shape", "snug"},
+    OwnValue{"support_style", "organic", "support_tree_style", "organic"},
+    OwnValue{"support_style", "tree_slim", "support_tree_style", "slim"},
+    OwnValue{"support_style", "tree_strong", "support_tree_style", "strong"},
+    // columns under what is large and flat: weft's branches carry a roof there
+    OwnValue{"support_style", "tree_hybrid", "support_tree_style", "organic"},
 };
 
 /// Values that are called otherwise; everything else is called the same.
@@ -172,6 +219,13 @@ constexpr std::array values{
     OrcaValue{"complete_objects", "by object", "1"},
     OrcaValue{"complete_objects", "by layer", "0"},
     OrcaValue{"complete_objects", "as_obj_list", "0"},
+    OrcaValue{"support_material_pattern", "default", "rectilinear"},
+    OrcaValue{"support_material_pattern", "lightning", "rectilinear"},
+    OrcaValue{"support_material_pattern", "hollow", "rectilinear"},
+    OrcaValue{"support_material_interface_pattern", "rectilinear_interlaced", "rectilinear"},
+    OrcaValue{"support_material_interface_pattern", "grid", "rectilinear"},
+    OrcaValue{"support_material_synchronize_layers", "0", "1"},  // it says the opposite
+    OrcaValue{"support_material_synchronize_layers", "1", "0"},
 };
 
 }  // namespace
@@ -185,13 +239,15 @@ std::optional<std::pair<std::string, std::string>> from_orca(std::string_view ke
   return std::pair(std::string(row->prusaslicer), std::string(named == values.end() ? value : named->value));
 }
 
-std::optional<std::pair<std::string, std::string>> ours_of_orca(std::string_view key, std::string_view value) {
+std::vector<std::pair<std::string, std::string>> ours_of_orca(std::string_view key, std::string_view value) {
+  std::vector<std::pair<std::string, std::string>> out;
   for (const auto& row : own_values)
-    if (row.theirs == key && row.value == value) return std::pair(std::string(row.ours), std::string(row.text));
+    if (row.theirs == key && row.value == value) out.emplace_back(row.ours, row.text);
   const auto row = std::find_if(own_rows.begin(), own_rows.end(), [&](const OwnKey& r) { return r.theirs == key; });
-  if (row == own_rows.end()) return std::nullopt;
+  if (row == own_rows.end()) return out;
   const bool flag = row->ours.ends_with("_enable");
-  return std::pair(std::string(row->ours), std::string(!flag ? value : value == "1" ? "true" : "false"));
+  out.emplace_back(row->ours, !flag ? value : value == "1" ? "true" : "false");
+  return out;
 }
 
 namespace {
@@ -227,8 +283,8 @@ OrcaConfiguration orca_configuration(const std::vector<std::pair<std::string, st
   for (const auto& [key, value] : all) {
     if (value.empty() || value == "nil") continue;
     if (locked.take(key, value)) continue;
-    if (auto ours = ours_of_orca(key, value)) {
-      out.ours.push_back(std::move(*ours));
+    if (const auto ours = ours_of_orca(key, value); !ours.empty()) {
+      out.ours.insert(out.ours.end(), ours.begin(), ours.end());
       continue;
     }
     const auto theirs = from_orca(key, value);

@@ -12,8 +12,8 @@ namespace weft::prusaslicer {
 /// PrusaSlicer has no such thing. Source: both programs' settings as their documentation and their projects name them.
 std::optional<std::pair<std::string, std::string>> from_orca(std::string_view key, std::string_view value);
 
-/// A setting of theirs that PrusaSlicer has no word for, in weft's: key and value. Nothing when weft has no such thing.
-std::optional<std::pair<std::string, std::string>> ours_of_orca(std::string_view key, std::string_view value);
+/// A setting of theirs that PrusaSlicer has no word for, in weft's: keys and values. Empty when weft has no such thing.
+std::vector<std::pair<std::string, std::string>> ours_of_orca(std::string_view key, std::string_view value);
 
 /// A whole configuration of theirs as an ini of PrusaSlicer's: what a project says of the plate.
 struct OrcaConfiguration {

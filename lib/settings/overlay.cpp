@@ -52,6 +52,18 @@ bool may_hold_for(const CatalogueEntry& row, Scope place) {
   return may_differ(scope, place);
 }
 
+/// What is meant where somebody asks one place for what only the machine has.
+struct Meant {
+  std::string_view key, hint;
+};
+constexpr std::string_view tool_of_a_place = "extruder_nr says which tool prints it";
+constexpr std::array meant_there{Meant{"tool_select", tool_of_a_place}, Meant{"tool_nozzles", tool_of_a_place},
+                                 Meant{"extruders_enabled_count", tool_of_a_place}};
+std::string_view hint_of(std::string_view key) {
+  const auto meant = std::find_if(meant_there.begin(), meant_there.end(), [&](const Meant& m) { return m.key == key; });
+  return meant == meant_there.end() ? "set it there" : meant->hint;
+}
+
 const CatalogueEntry& known(const std::string& key, const std::string& where) {
   if (const auto* entry = find_setting(key)) return *entry;
   const auto near = nearest_setting(key, [](std::string_view) { return std::string_view(); });
@@ -69,7 +81,7 @@ void Overlay::add(const std::string& key, const std::string& text, const std::st
   const auto& row = known(key, where);
   if (!may_hold_for(row, scope))
     throw Error{Error::Kind::settings, fmt::format("{}: {} holds for {}", what, row.key, holder_of(scope_of(row))),
-                where, "set it there"};
+                where, std::string(hint_of(row.key))};
   values.push_back({&row, read_value(row, text, where), {where, text, {}}});
 }
 

@@ -39,25 +39,45 @@ void keep_within(std::vector<Vertex>& path, double most) {
   }
 }
 
+struct Stretch {
+  double from = 0;  ///< along the line
+  std::vector<Vertex> path{};
+};
+
 /// The stretches of a line at least `least` wide; ends lie where the width passes it.
-std::vector<std::vector<Vertex>> thick_stretches(const std::vector<Vertex>& path, double least) {
-  std::vector<std::vector<Vertex>> out;
+std::vector<Stretch> thick_stretches(const std::vector<Vertex>& path, double least) {
+  std::vector<Stretch> out;
+  double along = 0;
   bool open = false;
   auto between = [&](const Vertex& a, const Vertex& b) {
     return Vertex{lerp(a.at, b.at, (least - a.width) / (b.width - a.width)), least};
   };
   for (std::size_t i = 0; i < path.size(); ++i) {
+    if (i > 0) along += distance(path[i - 1].at, path[i].at);
     const bool thick = path[i].width >= least;
     if (thick && !open) {
-      out.emplace_back();
-      if (i > 0) out.back().push_back(between(path[i - 1], path[i]));
+      out.push_back({along});
+      if (i > 0) {
+        out.back().path.push_back(between(path[i - 1], path[i]));
+        out.back().from -= distance(out.back().path.back().at, path[i].at);
+      }
     } else if (!thick && open) {
-      out.back().push_back(between(path[i - 1], path[i]));
+      out.back().path.push_back(between(path[i - 1], path[i]));
     }
-    if (thick) out.back().push_back(path[i]);
+    if (thick) out.back().path.push_back(path[i]);
     open = thick;
   }
   return out;
+}
+
+/// The place so far along a path.
+Place at_length(const std::vector<Vertex>& path, double along) {
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const double piece = distance(path[i - 1].at, path[i].at);
+    if (along <= piece && piece > 0) return lerp(path[i - 1].at, path[i].at, along / piece);
+    along -= piece;
+  }
+  return path.back().at;
 }
 
 }  // namespace
@@ -86,7 +106,7 @@ void append_bead(const Line& line, const FinishOptions& o, Beads& out) {
   if (bead.path.size() >= 2) out.push_back(std::move(bead));
 }
 
-void finish(Line line, const FinishOptions& o, std::vector<Line>& out, double& dropped_mm) {
+void finish(Line line, const FinishOptions& o, std::vector<Line>& out, LeftOut& left_out) {
   if (line.path.size() < 2) return;
   if (line.closed) line.path.push_back(line.path.front());
   const bool all_thick =
@@ -97,13 +117,18 @@ void finish(Line line, const FinishOptions& o, std::vector<Line>& out, double& d
     out.push_back(std::move(line));
     return;
   }
-  const double whole = length_of(line.path);
-  double kept = 0;
+  double done = 0;  // what lies before it along the line is laid, or told
+  const auto leave_out = [&](double to) {
+    if (to <= done) return;
+    const Place middle = at_length(line.path, (done + to) / 2);
+    left_out.add((to - done) / 1000, {o.origin.x + rounded(middle.x), o.origin.y + rounded(middle.y)});
+  };
   const bool tip = o.has_walls && line.inset == 0;
-  for (auto& stretch : thick_stretches(line.path, o.least_feature)) {
+  for (auto& [from, stretch] : thick_stretches(line.path, o.least_feature)) {
     const double length = length_of(stretch);
     if (stretch.size() < 2 || !worth_a_bead(o, tip, length, area_of(stretch))) continue;
-    kept += length;
+    leave_out(from);
+    done = from + length;
     bool first_meets = line.first_meets && distance(stretch.front().at, line.path.front().at) < 1;
     bool last_meets = line.last_meets && distance(stretch.back().at, line.path.back().at) < 1;
     // A bead begins at its thin end: what swells behind the nozzle there is least.
@@ -115,7 +140,7 @@ void finish(Line line, const FinishOptions& o, std::vector<Line>& out, double& d
     simplify(stretch, false, o.reach);
     out.push_back({std::move(stretch), false, line.inset, first_meets, last_meets});
   }
-  dropped_mm += (whole - kept) / 1000;
+  leave_out(length_of(line.path));
 }
 
 void put_in_order(Beads& beads, WallOrder order) {

@@ -2,6 +2,7 @@
 #pragma once
 #include "model/bead.h"
 #include "settings/groups/walls.h"
+#include "walls/part.h"
 #include "walls/trace.h"
 
 /// Private to walls: from lines in fractional microns to beads on the lattice.
@@ -30,8 +31,8 @@ inline bool worth_a_bead(const FinishOptions& o, bool tip, double length_um, dou
   return o.least_length == 0 || area_um2 >= o.least_area || (!tip && area_um2 >= thin_um * length_um);
 }
 
-/// Appends what is laid of a line, in the direction in which it is; `dropped_mm` grows by the length that was left out.
-void finish(Line line, const FinishOptions& options, std::vector<Line>& out, double& dropped_mm);
+/// Appends what is laid of a line, in the direction in which it is, and adds what is not to `left_out`.
+void finish(Line line, const FinishOptions& options, std::vector<Line>& out, LeftOut& left_out);
 
 /// Appends the bead of a finished line, on the lattice; none if its points are one.
 void append_bead(const Line& line, const FinishOptions& options, Beads& out);

@@ -28,6 +28,7 @@ std::optional<Part> KindsOfParts::again(const Region& region, std::uint32_t part
       for (Junction& j : bead.path) j.at = j.at + by;
     }
     out.inside = moved(std::move(out.inside), by);
+    out.left_out.at = out.left_out.at + by;
     return out;
   }
   return {};

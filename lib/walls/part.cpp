@@ -123,7 +123,7 @@ Part part_of(const WallSettings& settings, const Widths& widths, const Region& r
   for (auto* lines : {&pairs, &middles})
     for (Line& line : *lines) {
       stop_if_asked();
-      finish(std::move(line), finishing, finished, out.dropped_mm);
+      finish(std::move(line), finishing, finished, out.left_out);
     }
   stop_if_asked();
   out.inside = rest_of(skeleton, laying, axis.origin);

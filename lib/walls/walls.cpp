@@ -64,6 +64,21 @@ void keep_flow(const WallSettings& settings, Beads& beads) {
       if (j.flow != 1.F) j.flow = std::clamp(j.flow, least, most);
 }
 
+/// The place of the outline that is nearest to the middle of its box: a part that winds does not lie there.
+Point middle_of(const Ring& outline) {
+  const Point centre = box_of(outline).centre();
+  Point out = outline.front();
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Point a = outline[i], b = outline[(i + 1) % outline.size()];
+    const Point along = b - a, to = centre - a;
+    const double length2 = static_cast<double>(along.x) * along.x + static_cast<double>(along.y) * along.y;
+    const double share = (static_cast<double>(along.x) * to.x + static_cast<double>(along.y) * to.y) / length2;
+    const Point here = lerp(a, b, std::clamp(share, 0.0, 1.0));
+    if (distance(here, centre) < distance(out, centre)) out = here;
+  }
+  return out;
+}
+
 /// The walls of a part whose outermost beads end where the settings say.
 Part whole_part(const WallSettings& settings, Widths widths, const Region& region, const WallInput& input,
                 std::uint32_t index) {
@@ -74,7 +89,10 @@ Part whole_part(const WallSettings& settings, Widths widths, const Region& regio
       Part part = part_of(settings, widths, piece, input.nozzle_diameter, index);
       std::move(part.beads.begin(), part.beads.end(), std::back_inserter(out.beads));
       std::move(part.inside.begin(), part.inside.end(), std::back_inserter(out.inside));
-      out.dropped_mm += part.beads.empty() && part.inside.empty() ? perimeter_of(piece.outer) / 2000 : part.dropped_mm;
+      if (part.beads.empty() && part.inside.empty())
+        out.left_out.add(perimeter_of(piece.outer) / 2000, middle_of(piece.outer));
+      else
+        out.left_out.add(part.left_out);
       out.valid = out.valid && part.valid;
     }
   };
@@ -126,18 +144,22 @@ bool single_wall(const WallSettings& settings, const WallInput& input) {
          (settings.top_one_wall != OneWall::none && input.above == nullptr);
 }
 
-PlacedNotice notice_of(const char* code, const WallInput& input, const Region& region, const std::string& what) {
-  return {code, fmt::format("layer {} (z {:.3f}): {}", input.index, to_mm(input.layer.z), what),
-          box_of(region.outer).centre()};
+PlacedNotice notice_of(const char* code, const WallInput& input, Point at, const std::string& what) {
+  return {code, fmt::format("layer {} (z {:.3f}): {}", input.index, to_mm(input.layer.z), what), at};
 }
 
-/// A part too small for any bead. Specks are no news.
-void add_left_out(const WallInput& input, const Region& region, std::vector<PlacedNotice>& out) {
+/// What of a part is too thin or too small for any bead, where that is worth telling.
+void tell_left_out(const WallInput& input, const Region& region, const Part& part, std::vector<PlacedNotice>& out) {
+  constexpr double tips_mm = 0.5;  // the last bit of every tip is thinner than any bead
   constexpr Um speck = 0.1_mm;
   const Point size = box_of(region.outer).size();
-  if (std::max(size.x, size.y) < speck) return;
-  out.push_back(notice_of("thin_feature_dropped", input, region,
-                          fmt::format("a part of {:.3f} x {:.3f} mm is left out", to_mm(size.x), to_mm(size.y))));
+  if (part.left_out.mm > tips_mm)
+    out.push_back(
+        notice_of("thin_feature_dropped", input, part.left_out.at,
+                  fmt::format("{:.2f} mm of a part too thin for a bead of its own are left out", part.left_out.mm)));
+  else if (part.beads.empty() && part.inside.empty() && std::max(size.x, size.y) >= speck)
+    out.push_back(notice_of("thin_feature_dropped", input, middle_of(region.outer),
+                            fmt::format("a part of {:.3f} x {:.3f} mm is left out", to_mm(size.x), to_mm(size.y))));
 }
 
 }  // namespace
@@ -154,7 +176,6 @@ Regions outlines_of(const WallSettings& settings, const WallInput& input) {
 }
 
 WallLayer build(const WallSettings& settings, const WallInput& input) {
-  constexpr double worth_a_notice_mm = 0.5;  // the last bit of every tip is thinner than any bead
   WallLayer out;
   Widths widths = widths_of(settings, input.nozzle_diameter, input.layer.height, input.index);
   if (widths.walls > 1 && single_wall(settings, input)) widths.walls = 1;
@@ -180,15 +201,10 @@ WallLayer build(const WallSettings& settings, const WallInput& input) {
     if (!again && extra[i] == 0 && !looks_up) kinds.add(regions[i], part);
     put_in_order(part.beads, settings.wall_order);
     if (!part.valid)
-      out.notices.push_back(notice_of("walls_without_medial_axis", input, regions[i],
+      out.notices.push_back(notice_of("walls_without_medial_axis", input, box_of(regions[i].outer).centre(),
                                       "no medial axis of the outline; its walls are concentric and thin places stay "
                                       "empty"));
-    if (part.dropped_mm > worth_a_notice_mm)
-      out.notices.push_back(
-          notice_of("thin_feature_dropped", input, regions[i],
-                    fmt::format("{:.2f} mm of a part too thin for a bead of its own are left out", part.dropped_mm)));
-    else if (part.beads.empty() && part.inside.empty())
-      add_left_out(input, regions[i], out.notices);
+    tell_left_out(input, regions[i], part, out.notices);
     std::move(part.beads.begin(), part.beads.end(), std::back_inserter(out.beads));
     std::move(part.inside.begin(), part.inside.end(), std::back_inserter(out.inside));
   }

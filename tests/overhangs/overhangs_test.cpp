@@ -94,7 +94,7 @@ TEST_CASE("overhangs: a lintel is a free strand between what holds it, and nothi
   CHECK(pieces[1].role == Role::overhang_wall);
   CHECK(pieces[1].air_quarters == 4);
   CHECK(is_strand(pieces[1]));
-  CHECK(length_of(pieces[1]) == Approx(9).margin(0.8));  // looked at every 0.4 mm
+  CHECK(length_of(pieces[1]) == Approx(9).margin(0.05));
   CHECK(pieces[2].role == Role::outer_wall);
   CHECK(pieces[2].path.back() == loop.path.back());
 }
@@ -166,12 +166,40 @@ TEST_CASE("overhangs: short stretches that follow each other are one, a single o
     return air;
   };
   const Extrude bead = wall({{0, 0}, {30000, 0}});
-  CHECK(marked({bead}, comb(1)).size() == 1);
+  CHECK(marked({bead}, {rectangle(10000, 0, 10800, 1000)}).size() == 1);  // half of its width
   const auto pieces = marked({bead}, comb(8));
   check_whole(bead, pieces);
   REQUIRE(pieces.size() == 3);
   CHECK(pieces[1].air_quarters == 3);  // two thirds
   CHECK(length_of(pieces[1]) == Approx(9.2).margin(1));
+}
+
+TEST_CASE("overhangs: what lies on nothing is told from half a millimetre on, and is a strand from one on",
+          "[overhangs]") {
+  for (Um begin = 10000; begin < 10400; begin += 130) {  // wherever it lies between looks
+    const Extrude bead = wall({{0, 0}, {30000, 0}});
+    const auto over = [&](Um um) { return marked({bead}, {rectangle(begin, -1000, begin + um, 1000)}); };
+    CHECK(over(400).size() == 1);
+    for (const Um um : {700, 1200}) {
+      INFO("air from " << begin << " µm on, " << um << " µm long");
+      const auto pieces = over(um);
+      check_whole(bead, pieces);
+      REQUIRE(pieces.size() == 3);
+      CHECK(pieces[1].role == Role::overhang_wall);
+      CHECK(length_of(pieces[1]) == Approx(um / 1000.0).margin(0.06));
+      CHECK(is_strand(pieces[1]) == (um > 1000));
+    }
+  }
+}
+
+TEST_CASE("overhangs: a corner that sticks out is told", "[overhangs]") {
+  const Extrude loop = wall({{0, 0}, {20000, 0}, {20000, 10000}, {0, 10000}}, true);
+  const auto pieces = marked({loop}, {rectangle(19300, 9300, 21000, 11000)});
+  check_whole(loop, pieces);
+  REQUIRE(pieces.size() == 3);
+  CHECK(pieces[1].role == Role::overhang_wall);
+  CHECK(!is_strand(pieces[1]));
+  CHECK(length_of(pieces[1]) == Approx(1.4).margin(0.06));
 }
 
 TEST_CASE("overhangs: what does not hang is not touched", "[overhangs][law]") {

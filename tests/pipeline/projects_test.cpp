@@ -386,6 +386,24 @@ TEST_CASE("project: OrcaSlicer's own configuration holds where no profile is nam
   CHECK_THAT(told, Contains("some_new_thing") && Contains("the project's own settings hold"));
 }
 
+TEST_CASE("project: a tool that there is not is refused for an object's support, too") {
+  const Folder folder;
+  const auto file = folder.write("o.3mf", of_orca({body}, {}));
+  for (const char* key : {"support_infill_extruder_nr", "support_interface_extruder_nr"}) {
+    Job job = plain_job(file);
+    job.settings.support.support_enable = true;
+    job.by_name.settings = {{{"thing", {}, {}}, key, "3", {}}};
+    Report report;
+    try {
+      (void)run(job, {}, report);
+      FAIL_CHECK("nothing was thrown");
+    } catch (const Error& error) {
+      CHECK(error.kind() == Error::Kind::settings);
+      CHECK_THAT(error.what(), Contains("object 'thing': there is no tool 3, the printer has T0 alone"));
+    }
+  }
+}
+
 TEST_CASE("project: what weft does not know or cannot have there is left out and told by name") {
   const Folder folder;
   auto dense = plug;

@@ -338,6 +338,35 @@ TEST_CASE("import: OrcaSlicer's locked zigzag is a density by the distance from 
   CHECK(densities({{"sparse_infill_pattern", "grid"}, skin}).empty());
 }
 
+TEST_CASE("import: OrcaSlicer's support is what its names say, and by hand where it is manual") {
+  using Words = std::vector<std::pair<std::string, std::string>>;
+  const auto read = [](const Words& words) {
+    auto out = prusaslicer::orca_configuration(words);
+    CHECK(out.left_out.empty());
+    return out;
+  };
+  const auto tree = read({{"support_style", "tree_strong"}, {"support_type", "tree(manual)"}});
+  CHECK(tree.ours == Words{{"support_tree_style", "strong"}, {"support_structure", "tree"}, {"support_auto", "false"}});
+  const auto normal = read({{"support_style", "snug"}, {"support_type", "normal(auto)"}});
+  CHECK(normal.ours ==
+        Words{{"support_normal_shape", "snug"}, {"support_structure", "normal"}, {"support_auto", "true"}});
+  const auto said = translated(read({{"bridge_no_support", "0"},
+                                     {"independent_support_layer_height", "0"},
+                                     {"raft_contact_distance", "0.25"},
+                                     {"support_base_pattern", "default"},
+                                     {"support_bottom_z_distance", "0.3"},
+                                     {"support_interface_pattern", "rectilinear_interlaced"},
+                                     {"tree_support_branch_angle", "45"},
+                                     {"tree_support_branch_angle_organic", "38"}})
+                                   .ini);
+  CHECK(value_of(said, "support_bridges") == "true");
+  CHECK(value_of(said, "support_synchronize_layers") == "true");
+  CHECK(value_of(said, "raft_airgap") == "0.25");
+  CHECK(value_of(said, "support_pattern") == "zigzag");
+  CHECK(value_of(said, "support_bottom_distance") == "0.3");
+  CHECK(value_of(said, "support_tree_angle") == "38");
+}
+
 TEST_CASE("prusaslicer: anchors of infill are as long as the profile says, and weft's own where it says nothing") {
   const auto said = translated(
       "fill_density = 15%\ninfill_extrusion_width = 0.45\ninfill_anchor = 600%\n"

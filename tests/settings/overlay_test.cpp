@@ -49,6 +49,8 @@ TEST_CASE("overlay: a value where it may not differ is refused, and the message 
              Contains("lid.3mf: object 'lid': build_volume_temperature holds for the whole plate; set it there"));
   CHECK_THAT(refused(of_object(), "machine_width", "100"), Contains("machine_width holds for the whole machine"));
   CHECK_THAT(refused(of_object(), "retraction_amount", "1"), Contains("retraction_amount holds for a whole tool"));
+  CHECK_THAT(refused(of_object(), "tool_select", "1"),
+             Contains("tool_select holds for the whole machine; extruder_nr says which tool prints it"));
   const Overlay range{.what = "height range 1 … 2", .scope = Scope::layer};
   CHECK_THAT(refused(range, "slicing_mode", "even_odd"),
              Contains("height range 1 … 2: slicing_mode holds for a whole object"));

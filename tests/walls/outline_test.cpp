@@ -93,6 +93,8 @@ TEST_CASE("walls: with wall_outline = widest what is thinner than min_feature_si
   const auto walls = built_at(height, {{fin, {}}}, settings);
   REQUIRE(walls.notices.size() == 1);
   CHECK(walls.notices[0].message.find("mm of a part too thin for a bead of its own") != std::string::npos);
+  CHECK(walls.notices[0].at.x == Approx(6'500).margin(60));  // the middle of the fin, not of the part
+  CHECK(walls.notices[0].at.y == Approx(2'015).margin(15));
   CHECK(rightmost_um(walls, height) == Approx(5'000).margin(40));
   const Ring kept{{0, 0}, {5_mm, 0}, {5_mm, 2_mm}, {8_mm, 2_mm}, {8_mm, 2060}, {5_mm, 2060}, {5_mm, 4_mm}, {0, 4_mm}};
   const auto whole = built_at(height, {{kept, {}}}, settings);
