@@ -193,6 +193,11 @@ void CustomCode::check(const Variables& variables) const {
   for (const auto* code : all()) code->check(variables, globals);
 }
 
+bool CustomCode::names_any() const {
+  const auto texts = all();
+  return std::any_of(texts.begin(), texts.end(), [](const auto* text) { return !text->names().empty(); });
+}
+
 std::vector<const macro::Template*> CustomCode::all() const {
   return {&start, &before_layer, &layer, &tool_change, &load, &unload, &pause, &color_change, &between_objects, &end};
 }
@@ -244,9 +249,9 @@ void add_place(std::size_t tools, Variables& out) {
 
 }  // namespace
 
-Variables print_variables(const Job& job) {
-  auto out = variables_of(job.settings);
-  add_tools(job, out);
+Variables print_variables(const Job& job, bool with_settings) {
+  Variables out;
+  if (with_settings) out = variables_of(job.settings), add_tools(job, out);
   add_boxes(job, out);
   add_figures(job, out);
   add_shares(job, out);

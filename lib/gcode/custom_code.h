@@ -21,12 +21,16 @@ struct CustomCode {
 
   /// @throws Error{settings} for names and functions that do not exist, in branches not taken too
   void check(const macro::Variables& variables) const;
+
+  /// Whether any of it names a variable.
+  bool names_any() const;
 };
 
 /// Settings, and what is known of the whole print. There is no date and no time of day but where the settings say one
 /// (pipeline/made_at.h): the same input gives the same bytes. layer_num, layer_z and the numbers of the tools are those
 /// of the start; set_layer changes them.
-macro::Variables print_variables(const Job& job);
+/// @param with_settings whether anybody asks: each of hundreds becomes text
+macro::Variables print_variables(const Job& job, bool with_settings = true);
 void set_layer(macro::Variables& variables, std::size_t index, Um z);
 
 /// The tool that prints first.

@@ -30,6 +30,14 @@ std::uint64_t seed_of(std::string_view text) {
   return hash;
 }
 
+/// Whether any custom G-code names a variable.
+bool names_any(const CustomCode& code, const std::vector<CustomCode>& of_tools, const ToolSettings& tools) {
+  return code.names_any() ||
+         std::any_of(of_tools.begin(), of_tools.end(), [](const CustomCode& own) { return own.names_any(); }) ||
+         std::any_of(tools.gcode_at_heights.begin(), tools.gcode_at_heights.end(),
+                     [](const HeightMark& mark) { return !template_of(mark).names().empty(); });
+}
+
 }  // namespace
 
 Writer::Writer(const Job& job, bool lenient)
@@ -67,12 +75,13 @@ void Writer::begin_where_start_ends() {
 
 void Writer::expand_custom_code() {
   const CustomCode code(job_.settings.gcode);
-  auto variables = print_variables(job_);
+  std::vector<CustomCode> of_tools;
+  for (const auto& tool : job_.tools) of_tools.emplace_back(tool.gcode);
+  auto variables = print_variables(job_, names_any(code, of_tools, job_.settings.tools));
   code.check(variables);
   macro::Scope scope{{}, seed_of(job_.settings.gcode.machine_start_gcode), lenient_};
   const auto expanded = [&](const macro::Template& t) { return with_newline(t.expand(variables, scope)); };
-  std::vector<CustomCode> of_tools;
-  for (const auto& tool : job_.tools) of_tools.emplace_back(tool.gcode), of_tools.back().check(variables);
+  for (const auto& own : of_tools) own.check(variables);
   const auto of_tool = [&](ToolId tool) -> const CustomCode& { return tool < of_tools.size() ? of_tools[tool] : code; };
   if (!used_.empty()) {
     set_tool_change(variables, used_.front(), used_.front(), 0);
@@ -87,8 +96,7 @@ void Writer::expand_custom_code() {
   const auto& g = job_.settings.gcode;
   const auto& layers = job_.plan.layers;
   before_layer_.resize(layers.size()), after_layer_.resize(layers.size()), tool_changes_.resize(layers.size());
-  pauses_.resize(layers.size());
-  loaded_.resize(layers.size());
+  pauses_.resize(layers.size()), loaded_.resize(layers.size());
   std::optional<ToolId> loaded = used_.empty() ? std::optional<ToolId>(0) : std::nullopt;
   for (std::size_t i = 0; i < layers.size(); ++i) {
     stop_if_asked();
