@@ -3,6 +3,7 @@
 
 #include "adhesion/adhesion.h"
 #include "pipeline/add_raft.h"
+#include "pipeline/nozzles.h"
 #include "settings/exact.h"
 
 #include <algorithm>
@@ -87,9 +88,10 @@ void add_to_rise(const Settings& settings, const Around& around, std::span<trave
     }
   }
   const Ring surface = print_surface(settings.machine);
-  auto built = adhesion::build(
-      around.plate,
-      {.layers = plate, .nozzle = settings.machine.nozzle_diameter, .print_surface = &surface, .feet = feet.all()});
+  auto built = adhesion::build(around.plate, {.layers = plate,
+                                              .nozzle = nozzle_of(settings, settings.tools.adhesion_extruder_nr),
+                                              .print_surface = &surface,
+                                              .feet = feet.all()});
   for (std::size_t i = 0; i < built.layers.size(); ++i) {
     bottoms[i]->adhesion = std::move(built.layers[i]);
     for (auto& bead : bottoms[i]->adhesion) bead.scope = bottoms[i]->scope;

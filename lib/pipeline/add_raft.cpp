@@ -8,6 +8,7 @@
 #include "infill/solid.h"
 #include "infill/sparse.h"
 #include "model/flow.h"
+#include "pipeline/nozzles.h"
 
 #include <algorithm>
 #include <numbers>
@@ -56,19 +57,23 @@ Beads raft_beads(const adhesion::RaftLayer& layer, const Regions& area, Um nozzl
   return beads;
 }
 
+Um nozzle_of_raft(const Settings& settings) {
+  return nozzle_of(settings, settings.tools.adhesion_extruder_nr);
+}
+
 std::vector<adhesion::RaftLayer> layers_of(const Settings& settings) {
-  return adhesion::raft_layers(settings.raft, settings.machine.nozzle_diameter, settings.layers.layer_height);
+  return adhesion::raft_layers(settings.raft, nozzle_of_raft(settings), settings.layers.layer_height);
 }
 
 }  // namespace
 
 PrintedLayers make_raft(const Settings& settings, const RaftScopes& scopes, const Regions& standing) {
+  const Um nozzle = nozzle_of_raft(settings);
   // A part at the border stands there on the raft as well: of the beads only what bulges lies beyond the area.
   constexpr Um rounding = 10;  // what the audit takes for it
   Um beyond = rounding;
   for (const auto& layer : layers_of(settings))
-    beyond = std::max(
-        beyond, rounding + rounded(flow::bulge_um(width_of(layer, settings.machine.nozzle_diameter), layer.height, 1)));
+    beyond = std::max(beyond, rounding + rounded(flow::bulge_um(width_of(layer, nozzle), layer.height, 1)));
   Regions room = geometry::offset({{print_surface(settings.machine), {}}}, {.by = -beyond});
   Regions no_go;
   for (const Ring& ring : settings.machine.bed_exclude_areas) no_go.push_back({ring, {}});
@@ -80,8 +85,7 @@ PrintedLayers make_raft(const Settings& settings, const RaftScopes& scopes, cons
     auto& made = out.emplace_back();
     made.z = layer.z, made.height = layer.height;
     made.outline = area;
-    made.beads = raft_beads(layer, area, settings.machine.nozzle_diameter, out.size() % 2 == 0,
-                            box.empty() ? Point{} : box.centre());
+    made.beads = raft_beads(layer, area, nozzle, out.size() % 2 == 0, box.empty() ? Point{} : box.centre());
     const ScopeId scope = layer.part == adhesion::RaftPart::base      ? scopes.base
                           : layer.part == adhesion::RaftPart::between ? scopes.between
                                                                       : scopes.surface;

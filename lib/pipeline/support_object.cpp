@@ -8,6 +8,7 @@
 #include "pipeline/cached.h"
 #include "pipeline/fill_support.h"
 #include "pipeline/key_bytes.h"
+#include "pipeline/nozzles.h"
 #include "pipeline/stopwatch.h"
 #include "pipeline/tell_marks.h"
 #include "slice/shadow.h"
@@ -239,13 +240,16 @@ StageKey support_key(const std::string& settings, const std::vector<std::string>
   return key;
 }
 
-Supports make_supports(const Settings& settings, const Object& object, const std::vector<slice::Cut>& cuts,
-                       SupportOf& of) {
-  const auto marks = read_marks(settings, object, cuts, of);
-  auto outlines = outlines_of(settings, cuts);
+/// @param of_object  how the object is printed
+/// @param settings   how its support is
+Supports make_supports(const Settings& of_object, const Settings& settings, const Object& object,
+                       const std::vector<slice::Cut>& cuts, SupportOf& of) {
+  const auto marks = read_marks(of_object, object, cuts, of);
+  auto outlines = outlines_of(of_object, cuts);
   std::vector<SlicedLayer> without_specks;
-  leave_out_specks(settings, outlines, without_specks);
+  leave_out_specks(of_object, outlines, without_specks);
   auto& o = outlines.object;
+  o.nozzle = settings.machine.nozzle_diameter;
   o.floor = of.floor, o.on_raft = of.on_raft, o.room = of.bounded ? &of.room : nullptr;
   o.enforced = of.enforced, o.blocked = of.blocked, o.given = of.given;
   of.over_air = tasks::parallel_map(cuts.size(), [&](std::size_t i) { return over_air_of(cuts, i); });
@@ -287,8 +291,12 @@ std::vector<SupportOf> rooms_of(const Scopes& scopes, const Plate& plate) {
   for (std::size_t i = 0; i < scopes.size(); ++i)
     for (const auto& object : objects) any = any || supports(scopes[static_cast<ScopeId>(i)], object);
   if (!any) return out;
-  const Um width = length_or(settings.support.support_line_width, settings.machine.nozzle_diameter,
-                             settings.machine.nozzle_diameter);
+  Um width = 0;  // the widest of any scope
+  for (std::size_t i = 0; i < scopes.size(); ++i) {
+    const Settings own = of_support(settings, scopes[static_cast<ScopeId>(i)]);
+    width = std::max(
+        width, length_or(own.support.support_line_width, own.machine.nozzle_diameter, own.machine.nozzle_diameter));
+  }
   const Um half_bead = (width + 1) / 2 + 10;  // and what the audit takes for rounding
   for (std::size_t i = 0; i < objects.size(); ++i) {
     out[i].on_raft = settings.adhesion.adhesion_type == AdhesionType::raft;
@@ -316,9 +324,14 @@ void support_object(const Running& job, const Scopes& all, const ObjectScopes& s
                                                object.name)});
     return;
   }
+  const Settings own_settings = of_support(all[0], settings);
+  const auto read = [&] {
+    const auto& reads = row_of<Stage::support>().reads;
+    return reads.bytes_of(settings) + reads.bytes_of(own_settings);
+  };
   auto made = run_stage<Stage::support>(
-      job, [&] { return support_key(row_of<Stage::support>().reads.bytes_of(settings), sliced_by(), object, out); },
-      [&] { return make_supports(settings, object, cuts, out); });
+      job, [&] { return support_key(read(), sliced_by(), object, out); },
+      [&] { return make_supports(settings, own_settings, object, cuts, out); });
   tell_marks(settings, object, cuts, out, job.report.warnings);
   tell(settings, object, (*made).figures, job.report);
   job.report.support.layers += (*made).layers.size();

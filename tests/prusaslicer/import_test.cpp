@@ -350,7 +350,8 @@ TEST_CASE("import: OrcaSlicer's support is what its names say, and by hand where
   const auto normal = read({{"support_style", "snug"}, {"support_type", "normal(auto)"}});
   CHECK(normal.ours ==
         Words{{"support_normal_shape", "snug"}, {"support_structure", "normal"}, {"support_auto", "true"}});
-  const auto said = translated(read({{"bridge_no_support", "0"},
+  const auto said = translated(read({{"name", "project_settings"},
+                                     {"bridge_no_support", "0"},
                                      {"independent_support_layer_height", "0"},
                                      {"raft_contact_distance", "0.25"},
                                      {"support_base_pattern", "default"},
