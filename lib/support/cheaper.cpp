@@ -30,6 +30,7 @@ class Guess {
     constexpr Um step = 2_mm, coarse = 0.1_mm;
     double mm3 = 0, by_mm = 0;
     Regions falling;
+    Lean lean(s_, line_, stack_.levels[patch.contacts.back().first].z - room_.object().floor);
     Um height = 0;
     bool changed = false;  // since by_mm was reckoned: most columns fall far as they are
     auto next = patch.contacts.rbegin();
@@ -46,10 +47,11 @@ class Guess {
       mm3 += lost(k, falling, cut);
       if (changed || cut) {
         by_mm = 0;
-        for (const Region& region : falling) by_mm += column_mm3(s_, line_, region, 1_mm);
+        for (const Region& region : falling) by_mm += column_mm3(s_, room_.object().nozzle, region, 1_mm);
       }
-      changed = cut;
       mm3 += by_mm * to_mm(height);
+      const int levels = std::max(1, height / stack_.levels[k].height);
+      changed = (s_.support_conical_enabled && lean.narrow(height, falling, levels)) || cut;
       height = 0;
     }
     return mm3 + foot_mm3(falling) - roof_mm3(patch);
@@ -90,7 +92,7 @@ class Guess {
       for (const Region& region : regions) loops_mm += perimeter_of(region.outer) / 1000;
     }
     return mm2 * to_mm(s_.support_roof_height) * s_.support_infill_rate / 100 -
-           (wide_mm2 * (1 - joists) - loops_mm * to_mm(line_)) * to_mm(room_.object().nozzle) / 2;
+           (wide_mm2 * (1 - joists) - loops_mm * to_mm(line_)) * to_mm(most_height(s_, room_.object().nozzle));
   }
 
   const Room& room_;
@@ -105,7 +107,7 @@ class Guess {
 /// @param columns_mm3  what columns take, if it had to be reckoned
 bool for_columns_alone(const SupportSettings& settings, const Guess& guess, const Patch& patch,
                        std::optional<double>& columns_mm3) {
-  constexpr double tips_mm3_by_mm = 1.65;  // of a strip's outline
+  constexpr double tips_mm3_by_mm = 1.35;  // of a strip's outline
   double mm2 = 0, round_mm = 0;
   for (const auto& [k, regions] : patch.contacts) mm2 += area_mm2(regions), round_mm += geometry::outline_mm(regions);
   if (2 * mm2 >= round_mm * to_mm(branch_style(settings).tip)) return false;
@@ -143,7 +145,7 @@ Split cheaper(const Room& room, const Stack& stack, const std::vector<Regions>& 
       });
   });
   // Where both take about the same, columns are done sooner and stand firmer; neither is reckoned better than that.
-  constexpr double about_the_same = 0.8;
+  constexpr double about_the_same = 0.9;
   for (const std::size_t i : asked)
     for (const auto& [k, regions] : all[i].contacts)
       append((by_branches_mm3[i] < about_the_same * *columns_mm3[i] ? out.for_branches : out.for_columns)[k], regions);

@@ -132,11 +132,11 @@ Regions Lean::narrower(const Regions& falling, Um by) const {
   return geometry::simplified(without_thin(out, line_ * 4 / 10), coarse_outline);
 }
 
-bool Lean::narrow(Um height, Regions& falling) {
+bool Lean::narrow(Um height, Regions& falling, int levels) {
   const Um most = line_ * 6 / 10;  // more would hang
   left_ += height * std::tan(s_.support_conical_angle * std::numbers::pi / 180);
   if (left_ >= 0 && left_ < most) return false;  // levels that are alike are done once
-  const Um by = std::clamp(rounded(left_), -8 * most, most);
+  const Um by = std::clamp(rounded(left_), -8 * most * levels, most * levels);
   left_ -= by;
   if (by > 0 && std::all_of(falling.begin(), falling.end(), [&](const Region& region) {
         const Point size = box_of(region.outer).size();
@@ -300,7 +300,8 @@ class Falling {
         towers_(s_),
         levels_(stack.levels.size()),
         less_(stack.levels.size(), 0) {
-    if (!s_.support_conical_enabled && !s_.support_use_towers) steady_.emplace(line_);
+    const bool wider = s_.support_conical_enabled && s_.support_conical_angle < 0;
+    if (!wider && !s_.support_use_towers) steady_.emplace(line_);
   }
 
   /// From the highest level down.

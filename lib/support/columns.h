@@ -20,8 +20,9 @@ class Lean {
   /// @param height  of the column
   Lean(const SupportSettings& settings, Um line, Um height);
 
-  /// On a level of that height, the next one down: what lies above still rests. @return whether anything was done
-  bool narrow(Um height, Regions& falling);
+  /// On levels of that height together, the next ones down: what lies above still rests. @return whether anything was
+  /// done
+  bool narrow(Um height, Regions& falling, int levels = 1);
 
  private:
   /// By that much at each side; wider below 0. What lines fill gets narrower along them only, or those at its side

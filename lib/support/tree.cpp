@@ -7,6 +7,7 @@
 #include "support/branch_areas.h"
 #include "support/field.h"
 #include "support/lengths.h"
+#include "support/plastic.h"
 #include "support/roofs.h"
 #include "support/tips.h"
 #include "tasks/parallel.h"
@@ -42,7 +43,8 @@ struct Node {
   Um from_z = 0;      ///< where it is now
   bool plate = true;  ///< it gets down to the plate
   bool gone = false;
-  Shares shares{};  ///< whose it is
+  Shares shares{};     ///< whose it is
+  double outside = 1;  ///< of its rim, the share that lies in no other branch
 };
 
 class Grower {
@@ -234,6 +236,7 @@ class Grower {
       return;
     }
     const auto nearest = nearest_of(slab);
+    if (patches_ != nullptr) find_outside(nearest);
     std::vector<Node> next;
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       Node& node = nodes_[i];
@@ -305,17 +308,27 @@ class Grower {
     }
   }
 
+  /// Branches that lean together meet long before they are one: what lies in the other has no loop.
+  void find_outside(const std::vector<std::size_t>& nearest) {
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      nodes_[i].outside = 1;
+      if (nearest[i] >= nodes_.size()) continue;
+      const double apart = distance(nodes_[i].at, nodes_[nearest[i]].at),
+                   both = nodes_[i].radius + nodes_[nearest[i]].radius;
+      if (apart < both) nodes_[i].outside = 1 - std::acos(apart / both) / std::numbers::pi;
+    }
+  }
   /// What a branch takes on its way, for those whose it is.
   void reckon(const Node& from, const Node& to) {
     double tips = 0;
     for (const auto& share : from.shares) tips += share.second;
     if (tips <= 0) return;
-    const double line = line_width(s_, o_.nozzle) / 1000.0, radius = (from.radius + to.radius) / 2000;
+    const double line = to_mm(usual_band(s_, o_.nozzle)), radius = (from.radius + to.radius) / 2000;
     const double thick = to_mm(s_.support_tree_branch_diameter_double_wall) / 2;
     const int loops = s_.support_wall_count.value_or(thick > 0 && radius > thick ? 2 : 1);
     const double round_mm2 = std::numbers::pi * radius * radius;
     double mm3 = std::min(round_mm2, loops * 2 * std::numbers::pi * std::max(radius - line / 2, 0.0) * line) *
-                 to_mm(from.from_z - to.from_z);
+                 to_mm(from.from_z - to.from_z) * from.outside;
     if (to.from_z == o_.floor) {
       const double foot = foot_radius(to) / 1000;
       mm3 +=

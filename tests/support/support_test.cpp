@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "body.h"
 #include "support/plastic.h"
+#include "support/steady.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,6 +61,38 @@ double floating(const support::Plan& plan, const Body& body, Um aside) {
   }
   return mm2;
 }
+
+/// Of columns: the greatest height of what stands on an area by its width there, where it bends most easily. What
+/// stands on several stands on the widest, and the others carry but themselves.
+double slenderest(const support::Plan& plan) {
+  struct Standing {
+    Region region;
+    Box box;
+    double width_um = 0;
+    Um top = 0;
+  };
+  double most = 0;
+  std::vector<Standing> above;
+  for (std::size_t k = plan.layers.size(); k-- > 0;) {
+    const auto& level = plan.layers[k];
+    std::vector<Standing> here;
+    for (const Region& region : all_of(level))
+      here.push_back({region, box_of(region.outer), support::stiff_width_um(region), level.z});
+    for (const Standing& upper : above) {
+      Standing* widest = nullptr;
+      for (Standing& lower : here)
+        if (lower.box.overlaps(upper.box) && (widest == nullptr || lower.width_um > widest->width_um) &&
+            !geometry::intersect({lower.region}, {upper.region}).empty())
+          widest = &lower;
+      if (widest != nullptr) widest->top = std::max(widest->top, upper.top);
+    }
+    for (const Standing& one : here) most = std::max(most, (one.top - level.z) / one.width_um);
+    above = std::move(here);
+  }
+  return most;
+}
+constexpr double steady = 11.5;  // ten, and what is missing where steps are coarse
+constexpr double stands = 20;    // height by width: what is more slender falls over
 
 const auto every_structure = {SupportStructure::normal, SupportStructure::tree, SupportStructure::hybrid};
 
@@ -304,6 +337,7 @@ TEST_CASE("support: columns on the part stand on feet as high as a bead may sag,
 TEST_CASE("support: conical columns get narrower downwards and keep their least width") {
   auto body = tee(100);
   auto s = on();
+  s.support_conical_enabled = false;
   const auto straight = planned(s, body);
   s.support_conical_enabled = true, s.support_brim_width = 0;
   s.support_conical_min_width = 4000;
@@ -314,6 +348,20 @@ TEST_CASE("support: conical columns get narrower downwards and keep their least 
   CHECK(floating(leaning, body, 300) < 0.01);
   s.support_conical_angle = -20;
   CHECK(area(planned(s, body), 1) > 1.2 * area(straight, 1));
+}
+
+TEST_CASE("support: conical columns that are high stand as wide as they need, and slender ones get wider") {
+  for (const int post : {50, 200, 400, 700}) {
+    auto body = tee(post);
+    auto s = on();
+    s.support_conical_enabled = true, s.support_brim_width = 0;
+    INFO("post of " << post << " layers");
+    CHECK(slenderest(planned(s, body)) < 9);
+    Body arm;  // a bracket 2 mm wide
+    arm.add(post, {rectangle(-2000, -2000, 2000, 2000)});
+    arm.add(10, {rectangle(-2000, -1000, 20000, 1000)});
+    CHECK(slenderest(planned(s, arm)) < steady);
+  }
 }
 
 TEST_CASE("support: a tiny overhang stands on a tower as thick as is set, whose top is as steep as is set") {
@@ -550,11 +598,19 @@ TEST_CASE("support: random bodies keep the laws") {
       if (structure == SupportStructure::normal) by_columns = plan.figures.left_mm2;
       CHECK(plan.figures.left_mm2 <= by_columns + 0.02 * plan.figures.needed_mm2 + 0.5);
     }
-    auto leaning = on(SupportStructure::normal);
-    leaning.support_conical_enabled = true;
-    const auto plan = planned(leaning, body);
-    INFO("body " << n << ", columns that get narrower downwards");
+    auto straight = on(SupportStructure::normal);
+    straight.support_conical_enabled = false;
+    const auto plan = planned(straight, body);
+    INFO("body " << n << ", columns as wide below as above");
     CHECK(too_near(plan, body, 195) == 0);
     CHECK(floating(plan, body, 300) < 0.05);
+    // What is between walls has no room to stand on a wider foot.
+    auto leaning = straight;
+    leaning.support_conical_enabled = true;
+    const auto conical = planned(leaning, body);
+    INFO("and narrower below");
+    CHECK(too_near(conical, body, 195) == 0);
+    CHECK(floating(conical, body, 300) < 0.05);
+    CHECK(slenderest(conical) <= std::max(stands, 1.02 * slenderest(plan)));
   }
 }
