@@ -290,12 +290,14 @@ constexpr Um corner_bound = 40_um;
 class Falling {
  public:
   /// @param height  of the highest of them
-  Falling(const Room& room, const Stack& stack, const std::vector<Regions>& shadow, Um height)
+  /// @param lost    seen from above, where columns before these had nothing below: there they slide down slopes
+  Falling(const Room& room, const Stack& stack, const std::vector<Regions>& shadow, Um height, Regions lost)
       : s_(room.settings()),
         room_(room),
         stack_(stack),
         shadow_(shadow),
         line_(line_width(s_, room.object().nozzle)),
+        sliding_(grown(lost, 2 * line_)),
         lean_(s_, line_, height),
         towers_(s_),
         levels_(stack.levels.size()),
@@ -304,8 +306,8 @@ class Falling {
     if (!wider && !s_.support_use_towers) steady_.emplace(line_);
   }
 
-  /// From the highest level down.
-  std::vector<Regions> under(const Patch& patch, const std::vector<Regions>* given) && {
+  /// From the highest level down, once.
+  std::vector<Regions> under(const Patch& patch, const std::vector<Regions>* given) {
     auto next = patch.contacts.rbegin();
     static const Regions none;
     for (std::size_t k = stack_.levels.size(); k-- > 0;) {
@@ -320,6 +322,8 @@ class Falling {
     let_rest();
     return std::move(levels_);
   }
+  /// What had nothing below, seen from above.
+  const Regions& lost() const { return lost_; }
 
  private:
   /// What begins on that level, and what comes down from above.
@@ -354,22 +358,42 @@ class Falling {
       return;
     if (ragged_ || !contacts.empty()) falling_ = geometry::simplified(falling_, corner_bound), edge_.reset();
     ragged_ = false;
-    const bool shaded = !shadow_.empty() && !shadow_[k].empty();
+    const bool shaded = !shadow_.empty() && !shadow_[k].empty(), slides = !sliding_.empty() && contacts.empty();
+    const Regions above = slides ? falling_ : Regions();
+    const Um least = line_ * 4 / 10;
     Regions left;
     for (Region& region : falling_) {
       bool cut = shaded;
       Regions free = room_.free_part({region}, level, close_, cut ? nullptr : &cut, &above_);
       if (shaded) free = geometry::subtract(free, shadow_[k]);
       ragged_ = ragged_ || cut;
-      if (cut)
-        append(left, without_thin(free, line_ * 4 / 10));
-      else
+      if (!cut)
         left.push_back(std::move(region));
+      else
+        append(left, slides ? std::move(free) : without_thin(free, least));
     }
     if (!ragged_) return void(falling_ = std::move(left));
+    if (slides) slide(k, above, left), left = without_thin(left, least);
     falling_ = std::move(left);
     edge_.reset();
     less_[k] = 1;
+  }
+  /// Beside a slope too steep to stand on a column gets thinner level by level, until nothing is left to stand on:
+  /// what is thinner than two lines there gets as much wider on its other side as lets what is above rest on it, and so
+  /// slides down along the slope.
+  void slide(std::size_t k, const Regions& above, Regions& left) {
+    const Regions wide = geometry::offset(geometry::offset(left, {.by = -line_}), {.by = line_ + 20});
+    const Regions thin = geometry::subtract(left, wide);
+    if (thin.empty()) return;
+    const Regions cut_beside = grown(geometry::opening(geometry::subtract(above, left), 10), 2 * line_);
+    const Regions squeezed = geometry::intersect(geometry::intersect(thin, cut_beside), sliding_);
+    if (squeezed.empty()) return;
+    Regions more = room_.free_part(grown(squeezed, line_ / 2), stack_.levels[k], close_, nullptr, &above_);
+    if (!shadow_.empty() && !shadow_[k].empty()) more = geometry::subtract(more, shadow_[k]);
+    append(left, more);
+    left = geometry::unite(left);
+    append(sliding_, more);
+    sliding_ = geometry::unite(sliding_);
   }
   const geometry::SegmentIndex& edge() {
     if (!edge_) edge_.emplace(falling_);
@@ -400,6 +424,7 @@ class Falling {
         const double lost_mm2 = area_mm2(all) - area_mm2(levels_[k]);
         if (lost_mm2 > least_toe_mm2) {
           std::erase_if(all, [&](const Region& r) { return any_of_it_is_left(r, levels_[k]); });
+            lost_ = geometry::unite(lost_, all);
           add_toes(k, all);
         }
         less_below = less || lost_mm2 > 0;
@@ -438,6 +463,7 @@ class Falling {
   const Stack& stack_;
   const std::vector<Regions>& shadow_;
   Um line_;
+  Regions lost_, sliding_;  ///< seen from above: what had nothing below, and where columns slide
   Lean lean_;
   std::optional<Steady> steady_;  ///< where nothing else is set of how wide columns are
   Towers towers_;
@@ -469,6 +495,19 @@ std::vector<Regions> columns(const Room& room, const Stack& stack, const std::ve
     const std::size_t top = patch.contacts.empty() ? stack.levels.size() - 1 : patch.contacts.back().first;
     return stack.levels[top].z - room.object().floor;
   };
+  // What slides takes more than what stands on the slope with toes, so only where that leaves something.
+  const auto leaves_some = [&](const Patch& patch, const std::vector<Regions>& levels) {
+    double left_mm2 = 0;
+    for (const auto& [k, held] : patch.contacts)
+      left_mm2 += area_mm2(geometry::subtract(held, grown(levels[k], reached)));
+    return left_mm2 > s.minimum_support_area;
+  };
+  const auto under = [&](const Patch& patch, const std::vector<Regions>* drawn_there) {
+    Falling falling(room, stack, shadow, height_of(patch), {});
+    auto levels = falling.under(patch, drawn_there);
+    if (falling.lost().empty() || !leaves_some(patch, levels)) return levels;
+    return Falling(room, stack, shadow, height_of(patch), falling.lost()).under(patch, drawn_there);
+  };
   // What gets wider on the way down meets others.
   const bool wider = drawn || s.support_normal_shape == SupportShape::grid || s.support_use_towers ||
                      (s.support_conical_enabled && s.support_conical_angle < 0);
@@ -476,13 +515,11 @@ std::vector<Regions> columns(const Room& room, const Stack& stack, const std::ve
     Patch all;
     for (std::size_t k = 0; k < contacts.size(); ++k)
       if (!contacts[k].empty()) all.contacts.push_back({k, contacts[k]});
-    return Falling(room, stack, shadow, height_of(all)).under(all, drawn ? &given : nullptr);
+    return under(all, drawn ? &given : nullptr);
   }
   const Patches patches(contacts, apart(s, room.object().nozzle));
-  auto of_patch = tasks::parallel_map(patches.all().size(), [&](std::size_t i) {
-    const Patch& patch = patches.all()[i];
-    return Falling(room, stack, shadow, height_of(patch)).under(patch, nullptr);
-  });
+  auto of_patch =
+      tasks::parallel_map(patches.all().size(), [&](std::size_t i) { return under(patches.all()[i], nullptr); });
   std::vector<Regions> out(stack.levels.size());
   for (auto& levels : of_patch)
     for (std::size_t k = 0; k < levels.size(); ++k)
