@@ -25,11 +25,11 @@ struct Hung {
   Strands resting, held;
 };
 
-Hung hung(const Region& gap, const Mask& below, double angle_rad) {
+Hung hung(const Regions& gaps, const Mask& below, double angle_rad) {
   constexpr double spacing = 400;                 // about a strand
   const double beyond = 2.5 * below.grid().cell;  // how far past its end a strand must find support: the grid's doubt
-  const Frame frame(angle_rad, gap.outer.front());
-  const Outline outline(gap, frame);
+  const Frame frame(angle_rad, gaps.front().outer.front());
+  const Outline outline(gaps, frame);
   const double height = outline.greatest_y() - outline.least_y();
   const int count = std::clamp(static_cast<int>(height / spacing), 4, 200);
   const LineSet lines{outline.least_y() + height / count / 2, height / count, count};
@@ -71,10 +71,21 @@ std::vector<Crossing> crossings(const Beads& beads, const Frame& frame, const Li
   return out;
 }
 
+/// Whether a strand that ends there, or runs on out of what hangs, ends over nothing.
+bool ends_in_air(Turned end, double along, const Frame& frame, const OverSparse& around) {
+  constexpr int most_cells = 30;  // until it leaves what hangs: else it runs along the edge
+  const double cell = around.open.grid().cell;
+  for (int k = 0; k < most_cells; ++k, end.x += along * cell)
+    if (!around.hanging.at(frame.back(end))) return around.open.at(frame.back({end.x + along * cell, end.y}));
+  return false;
+}
+
 /// The mean free way of strands in that direction, µm, weighted by its length cubed: sag grows with the third power of
 /// a span and more, so the long ones decide.
-double mean_span_um(const Regions& areas, const Beads& held_by, double angle_rad) {
+double mean_span_um(const Regions& areas, const OverSparse& around, const Beads& held_by, double angle_rad) {
   constexpr double spacing = 400;  // about a strand
+  constexpr double stands_out =
+      2.6;  // a beam held at one end sags as one so much longer that is held at both: (384/8)^¼
   const Frame frame(angle_rad, areas.front().outer.front());
   const Outline outline(areas, frame);
   const double height = outline.greatest_y() - outline.least_y();
@@ -88,26 +99,30 @@ double mean_span_um(const Regions& areas, const Beads& held_by, double angle_rad
   for (const Interval& i : outline.cut(lines)) {
     if (i.line != line)
       line = i.line, at = std::find_if(at, met.end(), [&](const Crossing& c) { return c.line >= line; });
-    double from = i.from;
+    const double y = lines.y(line);
+    double from = i.from, first = ends_in_air({i.from, y}, -1, frame, around) ? stands_out : 1;
     for (; at != met.end() && at->line == line && at->x < i.to; ++at)
-      if (at->x > from) span(at->x - from), from = at->x;
-    span(i.to - from);
+      if (at->x > from) span(std::exchange(first, 1) * (at->x - from)), from = at->x;
+    span(first * (i.to - from) * (ends_in_air({i.to, y}, 1, frame, around) ? stands_out : 1));
   }
   return cubes > 0 ? fourths / cubes : 0;
 }
 
 }  // namespace
 
-std::optional<double> internal_bridge_angle_rad(const Region& area, const SparseStyle& below, Um nozzle) {
+std::optional<double> internal_bridge_angle_rad(const Region& area, const OverSparse& around, const SparseStyle& below,
+                                                Um nozzle) {
   constexpr int directions = 18;
   constexpr double short_way = 3;   // strands: lines that hang no further in any direction do not sag
   constexpr double clearly = 0.95;  // of a span: directions that are as good as the infill's own give way to it
   Beads infill;
-  fill_sparse(area, below, infill);
+  SparseStyle lines = below;
+  lines.connect = false;  // its lines turn along the edge of the sparse area, not of this one
+  fill_sparse(area, lines, infill);
   // A strand beside the edge, where no line of the infill ends yet, lies on what holds the edge.
   Regions inner = geometry::offset({area}, {.by = -2 * nozzle});
   if (inner.empty()) inner = {area};
-  const auto span_at = [&](double angle) { return mean_span_um(inner, infill, angle); };
+  const auto span_at = [&](double angle) { return mean_span_um(inner, around, infill, angle); };
   double best = below.angle_rad, least = span_at(best), most = least;
   for (int d = 1; d < directions; ++d) {
     stop_if_asked();
@@ -119,14 +134,14 @@ std::optional<double> internal_bridge_angle_rad(const Region& area, const Sparse
   return best;
 }
 
-std::optional<Held> held_over(const Region& gap, const Mask& below) {
+std::optional<Held> held_over(const Regions& gaps, const Mask& below) {
   constexpr int directions = 36;
   constexpr double least_share = 0.5;   // below it most strands would end in air
   constexpr double nearly_best = 0.05;  // directions that rest as well as the best are told apart by their spans
   std::vector<Hung> found;
   for (int d = 0; d < directions; ++d) {
     stop_if_asked();
-    found.push_back(hung(gap, below, d * std::numbers::pi / directions));
+    found.push_back(hung(gaps, below, d * std::numbers::pi / directions));
   }
   for (const auto strands : {&Hung::resting, &Hung::held}) {
     double best_share = 0;
@@ -137,7 +152,7 @@ std::optional<Held> held_over(const Region& gap, const Mask& below) {
       if ((h.*strands).share >= best_share - nearly_best &&
           (best == nullptr || (h.*strands).long_span_um < (best->*strands).long_span_um))
         best = &h;
-    return Held{best->angle_rad, strands == &Hung::held};
+    return Held{best->angle_rad, strands == &Hung::held, (best->*strands).long_span_um};
   }
   return std::nullopt;
 }

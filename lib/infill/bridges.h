@@ -11,20 +11,28 @@ namespace weft::infill {
 struct Held {
   double angle_rad = 0;
   bool ledge = false;  ///< most of them are held at one end only
+  double span_um = 0;  ///< of the strands that are held so: their mean, weighted by length cubed
 };
 
-/// The direction in which strands over `gap` hang between two supports most often, and among those the one with the
-/// shortest spans. Where few strands would rest on both ends it is a ledge: the direction in which lines are held at
-/// one end most often, and stand out least. Nothing where few are held at all.
+/// The direction in which strands over all `gaps` hang between two supports most often, and among those the one with
+/// the shortest spans. Where few strands would rest on both ends it is a ledge: the direction in which lines are held
+/// at one end most often, and stand out least. Nothing where few are held at all.
 /// @param below  the layer that the strands can rest on
-/// Cost: 36 directions, each a scan of the gap.
-std::optional<Held> held_over(const Region& gap, const Mask& below);
+/// Cost: 36 directions, each a scan of the gaps. Pre: there is one
+std::optional<Held> held_over(const Regions& gaps, const Mask& below);
 
-/// The direction in which strands over the sparse infill below `area` span the shortest free ways from line to line;
-/// what is around the area holds them too. Nothing where no way is
-/// long in any direction: there ordinary lines do.
+/// Where strands over sparse infill hang, and what of that layer's edge holds none: there it is sparse infill as well.
+struct OverSparse {
+  const Mask& hanging;
+  const Mask& open;
+};
+
+/// The direction in which strands over the sparse infill below `area` span the shortest free ways from line to line.
+/// What is around the area holds them too, but where it is open: a strand that ends there stands out from the last
+/// line. Nothing where no way is long in any direction: there ordinary lines do.
 /// @param nozzle diameter
 /// Cost: the infill of the area, and 18 scans of it.
-std::optional<double> internal_bridge_angle_rad(const Region& area, const SparseStyle& below, Um nozzle);
+std::optional<double> internal_bridge_angle_rad(const Region& area, const OverSparse& around, const SparseStyle& below,
+                                                Um nozzle);
 
 }  // namespace weft::infill

@@ -2,6 +2,8 @@
 #pragma once
 #include "core/polygon.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -26,6 +28,11 @@ struct Grid {
   int column_of(Um x) const { return (x - origin.x) / cell; }
   int row_of(Um y) const { return (y - origin.y) / cell; }
 };
+
+/// That length in whole cells, at least one.
+inline int cells(double um, const Grid& grid) {
+  return std::max(1, static_cast<int>(std::lround(um / grid.cell)));
+}
 
 /// One bit a cell. All binary operations need operands of the same grid.
 class Mask {

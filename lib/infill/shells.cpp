@@ -4,8 +4,8 @@
 #include "core/stop.h"
 #include "geometry/boolean.h"
 #include "geometry/simplify.h"
-#include "infill/bridges.h"
 #include "infill/exact_areas.h"
+#include "infill/hanging.h"
 #include "model/flow.h"
 
 #include <algorithm>
@@ -75,10 +75,6 @@ Reach reach_of(const ShellSettings& settings, std::span<const ShellLayer> layers
          bottom_of(index) - bottom_of(index - reach.below) + rounding < settings.bottom_thickness)
     ++reach.below;
   return reach;
-}
-
-int cells(double um, const Grid& grid) {
-  return std::max(1, static_cast<int>(std::lround(um / grid.cell)));
 }
 
 /// Nothing where that reaches beyond the object's ends.
@@ -168,63 +164,6 @@ Split split_of(const ShellSettings& settings, const InfillSettings& infill, cons
   return out;
 }
 
-Regions regions_of(const Mask& cells) {
-  std::vector<Ring> rings = cells.outlines();
-  for (Ring& ring : rings) ring = geometry::simplified(ring, cells.grid().cell);
-  return geometry::regions_from_rings(rings);
-}
-
-/// A bridge takes what it covers from the other kinds.
-void add_bridge(Kinds& kinds, Hanging bridge) {
-  for (const Hanging& other : kinds.hanging) bridge.area -= other.area;
-  if (!bridge.area.any()) return;
-  kinds.solid -= bridge.area, kinds.top -= bridge.area;
-  if (kinds.sparse) *kinds.sparse -= bridge.area;
-  kinds.hanging.push_back(std::move(bridge));
-}
-
-/// Bottoms over air that hang between supports become bridges, wide ones that are held at one side ledges. Their ends
-/// rest on what is below, also where there would be sparse infill beside the bottom.
-void find_bridges(const ShellSettings& settings, Kinds& kinds, const Mask& air, const Mask& below, double line,
-                  Um nozzle) {
-  constexpr double narrowest_ledge = 3;  // lines: what is narrower hangs on the wall beside it, whichever way it runs
-  const Grid& grid = kinds.inside.grid();
-  const Mask gaps = air.opened(cells(nozzle / 2.0, grid));
-  if (!gaps.any()) return;
-  for (const Region& gap : regions_of(gaps)) {
-    stop_if_asked();
-    std::optional<Held> held = held_over(gap, below);
-    if (!held) continue;
-    const Mask area =
-        Mask(grid, {&gap, 1}).grown(1) & gaps;  // edges that pass through the middles of cells: all of them
-    if (held->ledge && (settings.skin_angle || !area.opened(cells(narrowest_ledge / 2 * line, grid)).any())) continue;
-    if (settings.bridge_angle && !held->ledge) held->angle_rad = *settings.bridge_angle * std::numbers::pi / 180;
-    add_bridge(kinds, {area.grown(cells(settings.bridge_anchor, grid)) & kinds.inside, held->angle_rad, held->ledge});
-  }
-}
-
-/// Solid over sparse infill hangs from line to line of it: strands run across the shortest free spans.
-void find_internal_bridges(const ShellSettings& settings, const SparseStyle& below, Kinds& kinds,
-                           const std::optional<Mask>& sparse, double line, Um nozzle) {
-  if (!sparse) return;
-  constexpr double narrowest = 1.5;  // lines: a narrower belt is held from its sides
-  const Grid& grid = kinds.inside.grid();
-  const Mask hanging = (kinds.solid & *sparse).opened(cells(narrowest / 2 * line, grid));
-  if (!hanging.any()) return;
-  for (const Region& area : regions_of(hanging)) {
-    stop_if_asked();
-    std::optional<double> angle = internal_bridge_angle_rad(area, below, nozzle);
-    if (!angle) continue;
-    if (settings.bridge_angle) angle = *settings.bridge_angle * std::numbers::pi / 180;
-    Mask bridge = Mask(grid, {&area, 1}).grown(cells(settings.bridge_anchor, grid)) & kinds.solid;
-    // Strips that its anchors leave of the solid beside it would be slivers along their ends.
-    const Mask rest = kinds.solid - bridge;
-    if (rest.any())
-      bridge |= (rest - rest.opened(cells(narrowest / 2 * line, grid))) & bridge.grown(cells(narrowest * line, grid));
-    add_bridge(kinds, {std::move(bridge), *angle});
-  }
-}
-
 /// Narrow solid beside sparse infill is as wide as its lines; what is too short for one is sparse.
 /// @param thin of what is sparse: what belts may close
 void lay_belts(const Regions& inside, const Mask& thin, const LayersInReach& layers, double line, Um band,
@@ -283,6 +222,7 @@ Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, cons
                const Window& window, std::size_t index, Split split, const std::optional<Mask>& sparse_below) {
   const Grid& grid = window.grid();
   const double line = split.line;
+  const HangingLayer hanging{line, object.nozzle};
   Kinds kinds{window.inside(index), Mask(grid), std::move(split.solid), {}, std::move(split.sparse), {}};
   if (split.seen_above.any())
     kinds.top = split.seen_above.opened(cells(0.4 * line, grid)).grown(cells(0.5 * line, grid)) & kinds.solid;
@@ -294,9 +234,9 @@ Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, cons
       const Regions* on_support = object.layers[index].held;
       if (on_support != nullptr && !on_support->empty()) {
         const Mask held(grid, *on_support);
-        find_bridges(settings, kinds, split.air_below - held, window.outline(index - 1) | held, line, object.nozzle);
+        find_bridges(settings, hanging, split.air_below - held, window.outline(index - 1) | held, kinds);
       } else {
-        find_bridges(settings, kinds, split.air_below, window.outline(index - 1), line, object.nozzle);
+        find_bridges(settings, hanging, split.air_below, window.outline(index - 1), kinds);
       }
     }
     kinds.top = seen & kinds.solid;
@@ -313,7 +253,7 @@ Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, cons
                                                     .nozzle = object.nozzle,
                                                     .origin = object.box.centre(),
                                                     .turned_rad = object.turned_rad});
-    find_internal_bridges(settings, style, kinds, sparse_below, line, object.nozzle);
+    find_internal_bridges(settings, hanging, style, sparse_below, kinds);
   }
   const Um height = object.layers[index].height;
   if (kinds.sparse)

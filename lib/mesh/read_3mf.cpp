@@ -62,6 +62,11 @@ class Build {
     lay_beside(says, contents);
     for (const auto& part : document_.parts.unread)
       contents.notices.push_back({"project_part_left_out", fmt::format("{}: {} is not read", source_.path, part)});
+    for (const auto& kind : document_.parts.unknown_kinds)
+      contents.notices.push_back(
+          {"project_kind_unknown",
+           fmt::format("{}: weft does not know volumes of the kind '{}'; one is printed as a part", source_.path,
+                       kind)});
     contents.author = document_.parts.author;
     for (const auto& plate : document_.parts.plates)
       contents.plates.push_back({plate.number, plate.name, plate.instances.size()});

@@ -68,7 +68,10 @@ void read_prusaslicer(Archive& archive, const std::string& path, ThreeMfParts& o
                    if (name != "metadata" || !object) return;
                    const auto key = attributes.find("key").value_or(""), value = attributes.find("value").value_or("");
                    if (!volume) return take(*object, key, value);
-                   if (key == "volume_type") volume->kind = kind_called(value, &MarkName::prusaslicer);
+                   if (key == "volume_type") {
+                     volume->kind = kind_called(value, &MarkName::prusaslicer);
+                     if (!volume->kind && value != "ModelPart") out.unknown_kinds.emplace_back(value);
+                   }
                    if (key == "modifier" && value == "1" && !volume->kind) volume->kind = MarkKind::modifier;
                    take(*volume, key, value);
                  },
@@ -105,7 +108,10 @@ void read_orca(Archive& archive, const std::string& path, ThreeMfParts& out) {
                      const std::size_t place = object->components.size();
                      volume = &object->components[*number];
                      volume->number = place;
-                     volume->kind = kind_called(attributes.find("subtype").value_or(""), &MarkName::orca);
+                     const auto subtype = attributes.find("subtype").value_or("");
+                     volume->kind = kind_called(subtype, &MarkName::orca);
+                     if (!volume->kind && !subtype.empty() && subtype != "normal_part")
+                       out.unknown_kinds.emplace_back(subtype);
                    }
                    if (name != "metadata") return;
                    const auto key = attributes.find("key").value_or(""), value = attributes.find("value").value_or("");

@@ -43,7 +43,8 @@ struct ThreeMfParts {
   std::map<std::uint32_t, std::vector<RangeOfItem>> ranges{};  ///< by the object's place among objects, from 1
   std::map<std::uint32_t, std::vector<HeightAt>> heights{};    ///< likewise
   std::vector<PlateSaid> plates{};
-  std::vector<std::string> unread{};  ///< parts that say something and are not read
+  std::vector<std::string> unread{};         ///< parts that say something and are not read
+  std::vector<std::string> unknown_kinds{};  ///< of volumes, which count as parts
 
   const ObjectSaid* of(std::uint32_t object) const;
   /// The volume of triangle `t` of that object; null where nothing is said of it.

@@ -124,9 +124,11 @@ std::vector<Level> levels_of(std::span<const travel::LayerInput> layers) {
         add(level(object.height > 0 ? object.height : layer.height),
             {object.support ? Owner::Kind::support : Owner::Kind::object, object.object}, bead);
     for (const auto& bead : layer.adhesion) {
-      // Infill that is purged into is printed first of its layer, and an object's all the same.
+      // Infill and support that are purged into are printed first of their layer, and an object's all the same. A raft
+      // has layers to itself.
       const auto kind = row_of(bead.role).kind;
       if (kind == RoleKind::wall || kind == RoleKind::skin || kind == RoleKind::fill) continue;
+      if (kind == RoleKind::support && !layer.objects.empty()) continue;
       add(level(layer.height), {Owner::Kind::adhesion, static_cast<std::uint32_t>(bead.role)}, bead);
     }
     std::vector<Level> out;

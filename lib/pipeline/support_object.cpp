@@ -9,6 +9,7 @@
 #include "pipeline/fill_support.h"
 #include "pipeline/key_bytes.h"
 #include "pipeline/stopwatch.h"
+#include "pipeline/tell_marks.h"
 #include "slice/shadow.h"
 #include "support/support.h"
 #include "tasks/parallel.h"
@@ -63,11 +64,14 @@ constexpr double worth_telling_mm2 = 0.5;
 
 void tell(const Settings& settings, const Object& object, const support::Figures& figures, Report& report) {
   auto& total = report.support;
-  total.needed_mm2 += figures.needed_mm2, total.bridged_mm2 += figures.bridged_mm2;
-  total.left_mm2 += figures.left_mm2;
-  total.contact_mm2 += figures.contact_mm2, total.on_part_mm2 += figures.on_part_mm2;
-  total.trapped_mm3 += figures.trapped_mm3;
-  total.islands += figures.islands, total.tips += figures.tips, total.trunks += figures.trunks;
+  const std::size_t copies = object.copies.size();  // as plastic and seconds are those of all
+  const auto times = static_cast<double>(copies);
+  total.needed_mm2 += times * figures.needed_mm2, total.bridged_mm2 += times * figures.bridged_mm2;
+  total.left_mm2 += times * figures.left_mm2;
+  total.contact_mm2 += times * figures.contact_mm2, total.on_part_mm2 += times * figures.on_part_mm2;
+  total.trapped_mm3 += times * figures.trapped_mm3;
+  total.islands += copies * figures.islands, total.tips += copies * figures.tips;
+  total.trunks += copies * figures.trunks;
   total.slenderest = std::max(total.slenderest, figures.slenderest);
   if (figures.left_mm2 < worth_telling_mm2) return;
   const Point at = Point{figures.left_at.x, figures.left_at.y} + object.copies.front();
@@ -315,6 +319,7 @@ void support_object(const Running& job, const Scopes& all, const ObjectScopes& s
   auto made = run_stage<Stage::support>(
       job, [&] { return support_key(row_of<Stage::support>().reads.bytes_of(settings), sliced_by(), object, out); },
       [&] { return make_supports(settings, object, cuts, out); });
+  tell_marks(settings, object, cuts, out, job.report.warnings);
   tell(settings, object, (*made).figures, job.report);
   job.report.support.layers += (*made).layers.size();
   for (const auto mark : (*made).idle_enforcers)

@@ -129,11 +129,6 @@ void spread_first(const Room& room, const Stack& stack, SupportLayer& first) {
   first.branches.clear();
 }
 
-/// Whether the underside of a layer is so near to the bed that no support has room between them.
-bool on_the_bed(const Object& object, const SlicedLayer& layer) {
-  return !object.on_raft && layer.z - layer.height <= object.layers.front()->z;
-}
-
 /// What is wanted, by how much of it support is near to.
 struct Near {
   Regions whole, partly;
@@ -173,12 +168,8 @@ void note_reached(const Object& object, const Stack& stack, const Demand& demand
     if (demand[i].wanted.empty()) return out;
     out.needed_mm2 = area_mm2(demand[i].wanted);
     const auto& contact = stack.contacts[i];
-    if (contact.level == Stack::none) {
-      // What hangs no higher above the bed than support could be thin lies down on it.
-      if (!on_the_bed(object, *object.layers[i])) out.left_mm2 = out.needed_mm2;
-      if (out.left_mm2 > 0) out.left_at = demand[i].wanted.front().outer.front();
-      return out;
-    }
+    // What hangs above the bed, or the raft, by no more than its gap and a layer lies down on it.
+    if (contact.level == Stack::none) return out;
     Regions all = all_areas(plan.layers[contact.level]);
     append(all, caps.of[i]);
     const Near near = near_to(demand[i].wanted, all);

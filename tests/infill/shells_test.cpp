@@ -224,6 +224,22 @@ TEST_CASE("shells: a gap between two supports is bridged along its shorter span"
   CHECK(bridged(areas[11]) == 0);
 }
 
+TEST_CASE("shells: gaps whose anchors meet are one bridge, unless its strands would hang far for that", "[infill]") {
+  const auto ceiling = [](Um length, Um width, Um apart) {  // over a pit along x, and one along y beside it
+    Region below = with_hole(rectangle(0, 0, 60000, 50000), 5000, 5000, 5000 + length, 5000 + width);
+    const Um y = 5000 + width + apart;
+    below.holes.push_back(with_hole(rectangle(0, 0, 60000, 50000), 5000, y, 5000 + width, y + length).holes.front());
+    std::vector<Regions> outlines(6, {below});
+    outlines.insert(outlines.end(), 6, {rectangle(0, 0, 60000, 50000)});
+    return Object(std::move(outlines)).areas({})[6][0].bridges;
+  };
+  const auto one = ceiling(4500, 2000, 2000);
+  REQUIRE(one.size() == 1);
+  CHECK(one[0].regions.size() == 1);
+  CHECK(ceiling(20000, 12000, 2000).size() == 2);  // strands of both would hang 17 mm
+  CHECK(ceiling(20000, 2000, 6000).size() == 2);   // no strand is of both
+}
+
 TEST_CASE("shells: a ceiling over a pit is bridged, a ledge is not", "[infill]") {
   std::vector<Regions> pit(6, {with_hole(rectangle(0, 0, 30000, 20000), 5000, 5000, 25000, 15000)});
   pit.insert(pit.end(), 6, {rectangle(0, 0, 30000, 20000)});
@@ -276,6 +292,25 @@ TEST_CASE("shells: solid over sparse infill is a bridge across the lines of the 
   for (const std::size_t other : {3U, 17U, 18U, 19U}) CHECK(bridged(areas[other]) == 0);
 }
 
+TEST_CASE("shells: strands over infill do not end where it goes on", "[infill]") {
+  // lines along y below, 4.5 mm apart; solid along x that is held at its long sides, or has infill beside them
+  const auto angle = [](bool open_sides) {
+    Object block(std::vector<Regions>(20, {rectangle(0, 0, 60000, open_sides ? 30000 : 6000)}));
+    InfillSettings infill;
+    infill.infill_pattern = InfillPattern::lines;
+    infill.infill_sparse_density = 10, infill.infill_angle = 0;
+    const Regions open{rectangle(1000, 1000, 59000, 13000), rectangle(1000, 17000, 59000, 29000)};
+    if (open_sides) block.layers[16].open = &open;
+    auto shell = skin(4, 4, 0, 0);
+    if (open_sides) shell.top_layers = 0;
+    const auto areas = block.areas(shell, infill);
+    REQUIRE(areas[16][0].bridges.size() == 1);
+    return areas[16][0].bridges[0].angle_rad;
+  };
+  CHECK(std::abs(std::sin(angle(true))) < std::sin(degrees(6)));  // along x, over the lines, however near its sides are
+  CHECK(std::abs(std::sin(angle(false))) > std::sin(degrees(40)));
+}
+
 TEST_CASE("shells: a strip of solid that the anchors of a bridge over infill would leave is of the bridge",
           "[infill]") {
   InfillSettings infill;
@@ -306,7 +341,7 @@ TEST_CASE("shells: dense infill carries ordinary lines, and bridges are laid onl
   for (const LayerAreas& layer : block.areas(none, infill)) CHECK(bridged(layer) == 0);
 }
 
-TEST_CASE("shells: a belt of solid narrower than a line and a half hangs on its own sides, wider ones are bridges",
+TEST_CASE("shells: a belt of solid narrower than two lines hangs on its own sides, wider ones are bridges",
           "[infill]") {
   const auto widest_bridge = [](Um step) {  // a roof that falls by that much a layer
     std::vector<Regions> outlines;
@@ -319,6 +354,7 @@ TEST_CASE("shells: a belt of solid narrower than a line and a half hangs on its 
     return mm2;
   };
   CHECK(widest_bridge(300) == 0);
+  CHECK(widest_bridge(800) == 0);
   CHECK(widest_bridge(2000) > 2 * 18);
 }
 

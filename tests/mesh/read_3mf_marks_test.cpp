@@ -85,6 +85,21 @@ TEST_CASE("mesh: a part of OrcaSlicer's and BambuStudio's that is none is a mark
   }
 }
 
+TEST_CASE("mesh: a volume of a kind that nobody knows is a part, and told", "[mesh][3mf]") {
+  const auto read_with = [](const std::string& kind) {
+    return read(three_mf(model("<object id=\"1\">" + part.mesh() + "</object>"),
+                         {{"Metadata/Slic3r_PE_model.config",
+                           "<config><object id=\"1\"><volume firstid=\"0\" lastid=\"3\"><metadata type=\"volume\" "
+                           "key=\"volume_type\" value=\"" +
+                               kind + "\"/></volume></object></config>"}}));
+  };
+  CHECK(read_with("ModelPart").notices.empty());
+  const auto unknown = read_with("Frobnicator");
+  CHECK(unknown.objects.size() == 1);
+  REQUIRE(unknown.notices.size() == 1);
+  CHECK_THAT(unknown.notices[0].message, Contains("'Frobnicator'"));
+}
+
 TEST_CASE("mesh: painted facets are marks, in both dialects, and damaged paint is told with its triangle",
           "[mesh][3mf]") {
   for (const std::string name : {"slic3rpe:custom_supports", "paint_supports"}) {

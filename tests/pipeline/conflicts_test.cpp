@@ -192,3 +192,14 @@ TEST_CASE("conflicts: two supports that meet are told and not refused") {
   CHECK(notices[0].code == "paths_touch");
   CHECK_THAT(notices[0].message, Contains("the support of 'a' and the support of 'b' overlap"));
 }
+
+TEST_CASE("conflicts: support that is purged into first is no other than the rest of it") {
+  const Bead purged = bead({{{0, 0}, 400}, {{9'000, 0}, 400}}, Role::support);
+  auto one = layer(200, {{}}, {purged});
+  one.objects[0].support = true;
+  one.objects[0].beads = {bead({{{0, 100}, 400}, {{9'000, 100}, 400}}, Role::support_interface)};
+  CHECK(conflicts_in(std::vector{one}, 100).empty());
+  // A raft lies on a layer of its own, and the tower not in it.
+  auto raft = layer(200, {}, {purged, bead({{{0, 100}, 400}, {{9'000, 100}, 400}}, Role::wipe_tower)});
+  CHECK(conflicts_in(std::vector{raft}, 100).size() == 1);
+}

@@ -65,6 +65,64 @@ TEST_CASE("support: on, it holds what is printed first above a tip that is too t
   CHECK(told(job, "support_missing").empty());
 }
 
+TEST_CASE("support: what hangs by its gap above the bed lies on it, and is not told as out of reach") {
+  // A shelf whose underside is 0.2 mm above the bed: thin layers begin to hang there, and the gap is as wide.
+  const ModelOfBoxes model({{0, 0, 0, 10, 20, 4}, {9, 0, 0.2, 24, 20, 4}});
+  Job job = job_of(model);
+  job.settings.support.support_enable = true;
+  job.settings.layers.layer_height = 100;
+  Report report;
+  REQUIRE(run(job, {}, report));
+  CHECK(report.support.needed_mm2 > 200);
+  CHECK(report.support.left_mm2 == 0);
+  CHECK(told(job, "support_left").empty());
+}
+
+TEST_CASE("support: what of a support mesh has no room is told, and what has is not") {
+  const ModelOfBoxes model(gallows(1));
+  struct Row {
+    const char* mesh;
+    const char* says;
+  };
+  const Row rows[] = {{"box:-3,6,0,3,10,12", ""},
+                      {"box:-3,6,0,3,10,60", "what is higher than 24 mm lies above"},
+                      {"box:-3,6,0,300,10,12", "lies beyond the print surface"}};
+  for (const auto& [mesh, what] : rows) {
+    INFO(mesh);
+    Job job = job_of(model);
+    job.placement.centre = {100'000, 100'000};
+    job.marks = {{.model = 0, .kind = mesh::MarkKind::support, .source = mesh}};
+    const auto lines = told(job, "support_mesh_cut");
+    CHECK(lines.size() == (*what ? 1U : 0U));
+    if (*what) CHECK(says(lines, what));
+  }
+}
+
+TEST_CASE("support: by hand, it is told when nothing is marked") {
+  const ModelOfBoxes model(gallows(1));
+  Job job = job_of(model);
+  job.settings.support.support_enable = true;
+  CHECK(told(job, "support_unasked").empty());
+  job.settings.support.support_auto = false;
+  CHECK(says(told(job, "support_unasked"), "there is no enforcer"));
+  job.marks = {{.model = 0, .kind = mesh::MarkKind::support_enforcer, .source = "box:5,-2,19,10,2,21"}};
+  CHECK(told(job, "support_unasked").empty());
+}
+
+TEST_CASE("support: of copies the report tells what all of them need, as it tells their plastic") {
+  const ModelOfBoxes model(gallows(1));
+  Job job = job_of(model);
+  job.settings.support.support_enable = true;
+  Report one, three;
+  REQUIRE(run(job, {}, one));
+  job.placement.copies = 3;
+  REQUIRE(run(job, {}, three));
+  CHECK(three.support.needed_mm2 == Approx(3 * one.support.needed_mm2));
+  CHECK(three.support.contact_mm2 == Approx(3 * one.support.contact_mm2));
+  CHECK(three.support.islands == 3 * one.support.islands);
+  CHECK(three.support.tips == 3 * one.support.tips);
+}
+
 TEST_CASE("support: an enforcer that meets no downward face is told, and one that does is not", "[support]") {
   const ModelOfBoxes model(gallows(1));
   for (const auto& [mark, idle] : {std::pair{"box:-1,-1,30,1,1,31", true}, std::pair{"box:5,-2,19,10,2,21", false}}) {
