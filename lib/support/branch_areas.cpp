@@ -132,14 +132,35 @@ void let_rest(const Room& room, const Stack::Level& level, Pieces& here, const P
 
 }  // namespace
 
+namespace {
+
+struct Direction {
+  double x, y;
+};
+constexpr int fewest_corners = 18, most_corners = 72;
+
+/// The corners of rounds of radius 1, by how many they have.
+std::vector<std::vector<Direction>> all_rounds() {
+  std::vector<std::vector<Direction>> out;
+  for (int corners = fewest_corners; corners <= most_corners; ++corners) {
+    auto& round = out.emplace_back();
+    for (int i = 0; i < corners; ++i) {
+      const double angle = 2 * std::numbers::pi * i / corners;
+      round.push_back({std::cos(angle), std::sin(angle)});
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
 Ring circle_around(const Disc& disc) {
-  const int corners = std::clamp(static_cast<int>(10 * std::sqrt(disc.radius / 100)), 18, 72);
+  static const auto rounds = all_rounds();
+  const int corners = std::clamp(static_cast<int>(10 * std::sqrt(disc.radius / 100)), fewest_corners, most_corners);
   const double outside = disc.radius / std::cos(std::numbers::pi / corners);
   Ring out;
-  for (int i = 0; i < corners; ++i) {
-    const double angle = 2 * std::numbers::pi * i / corners;
-    out.push_back({disc.at.x + rounded(outside * std::cos(angle)), disc.at.y + rounded(outside * std::sin(angle))});
-  }
+  for (const Direction to : rounds[static_cast<std::size_t>(corners - fewest_corners)])
+    out.push_back({disc.at.x + rounded(outside * to.x), disc.at.y + rounded(outside * to.y)});
   return out;
 }
 

@@ -32,14 +32,15 @@ double distance_between(const geometry::Segment& s, const geometry::Segment& t) 
 /// Whether any of a ring lies in what an edge goes around, or comes as near to the edge.
 bool is_near(const Ring& ring, const geometry::SegmentIndex& edge, Um within) {
   std::vector<std::uint32_t> met;
-  const Box reach = edge.box().grown(within);
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const geometry::Segment side{ring[i], ring[i + 1 < ring.size() ? i + 1 : 0]};
-    const Box box = side.box();
-    if (!box.overlaps(reach)) continue;
-    edge.near(box.grown(within), met);
-    if (std::any_of(met.begin(), met.end(),
-                    [&](std::uint32_t m) { return distance_between(side, edge.segments()[m]) <= within; }))
+    const Box box = side.box().grown(within);
+    if (!box.overlaps(edge.box())) continue;
+    edge.near(box, met);
+    if (std::any_of(met.begin(), met.end(), [&](std::uint32_t m) {
+          const geometry::Segment& other = edge.segments()[m];
+          return box.overlaps(other.box()) && distance_between(side, other) <= within;
+        }))
       return true;
   }
   return edge.winding(ring.front()).value_or(1) != 0;
