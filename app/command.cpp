@@ -404,8 +404,10 @@ Command parse_command(const std::vector<std::string>& words, const po::options_d
   const auto settings = setting_options();
   const auto foreign = prusaslicer_options(settings);
   po::options_description theirs;  // what the verb itself understands means that
+  std::set<std::string> own;       // asking the descriptions hundreds of times is a fifth of reading the command line
+  for (const auto& option : verb_options.options()) own.insert(option->long_name());
   for (const auto& option : foreign.options())
-    if (!verb_options.find_nothrow(option->long_name(), false)) theirs.add(option);
+    if (own.count(option->long_name()) == 0) theirs.add(option);
   all.add(common_options()).add(verb_options).add(hidden).add(settings).add(theirs);
   po::positional_options_description positional;
   positional.add("input", -1);

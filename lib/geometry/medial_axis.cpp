@@ -18,14 +18,6 @@ double length_of(double x, double y) {  // std::hypot guards against overflow th
   return std::sqrt(x * x + y * y);
 }
 
-/// Distance from p to the line of a site's edge, or to its corner: inside a cell of the diagram the nearest point of
-/// the edge is never one of its ends.
-double distance_to(const Site& site, Place p) {
-  if (site.corner) return distance(site.a, p);
-  const double ux = site.b.x - site.a.x, uy = site.b.y - site.a.y;
-  return std::abs(ux * (p.y - site.a.y) - uy * (p.x - site.a.x)) / length_of(ux, uy);
-}
-
 bool same(Place p, Place q) {
   return p.x == q.x && p.y == q.y;
 }
@@ -51,9 +43,34 @@ struct Vortex {
 };
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
+/// What distances to a site are reckoned with, once for all vertices around it.
+struct Edge {
+  double ux = 0, uy = 0, length = 0;  ///< of an edge; a corner has none
+  double nx = 0, ny = 0;              ///< its normal, to the left, of length 1
+
+  explicit Edge(const Site& s) {
+    if (s.corner) return;
+    ux = s.b.x - s.a.x, uy = s.b.y - s.a.y, length = length_of(ux, uy);
+    nx = -uy / length, ny = ux / length;
+  }
+};
+
 struct Diagram {
   std::vector<Site> sites;
+  std::vector<Edge> edges;  ///< of the sites
   std::vector<Vortex> vertices;
+
+  /// To the line of the site's edge, times its length: left of it positive. Pre: it is an edge.
+  double aside(std::uint32_t site, Place p) const {
+    const Place a = sites[site].a;
+    const Edge& e = edges[site];
+    return e.ux * (p.y - a.y) - e.uy * (p.x - a.x);
+  }
+  /// Distance from p to the line of a site's edge, or to its corner: inside a cell of the diagram the nearest point of
+  /// the edge is never one of its ends.
+  double distance_to(std::uint32_t site, Place p) const {
+    return sites[site].corner ? distance(sites[site].a, p) : std::abs(aside(site, p)) / edges[site].length;
+  }
 };
 
 /// Distances that differ by less are equal, µm: what is left of the outline's shaking after the first step of
@@ -68,16 +85,18 @@ void refine(const Diagram& diagram, Vortex& v) {
     double worst = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       const Site& s = diagram.sites[v.site[i]];
-      double gx, gy;
+      double gx, gy, distance_um;
       if (s.corner) {
-        const double d = std::max(1e-9, distance(s.a, v.at));
+        distance_um = distance(s.a, v.at);
+        const double d = std::max(1e-9, distance_um);
         gx = (v.at.x - s.a.x) / d, gy = (v.at.y - s.a.y) / d;
       } else {
-        const double ux = s.b.x - s.a.x, uy = s.b.y - s.a.y, length = length_of(ux, uy);
-        const double side = ux * (v.at.y - s.a.y) - uy * (v.at.x - s.a.x) < 0 ? -1 : 1;
-        gx = -uy / length * side, gy = ux / length * side;
+        const Edge& e = diagram.edges[v.site[i]];
+        const double aside = diagram.aside(v.site[i], v.at), side = aside < 0 ? -1 : 1;
+        gx = e.nx * side, gy = e.ny * side;
+        distance_um = std::abs(aside) / e.length;
       }
-      const double error = v.clearance - distance_to(s, v.at);
+      const double error = v.clearance - distance_um;
       worst = std::max(worst, std::abs(error));
       m[i][0] = gx, m[i][1] = gy, m[i][2] = -1, m[i][3] = error;
     }
@@ -107,8 +126,8 @@ void locate(Diagram& diagram, Vortex& v) {
     }
     if (!s.corner) edge = &s;
   }
-  v.clearance = (distance_to(diagram.sites[v.site[0]], v.at) + distance_to(diagram.sites[v.site[1]], v.at) +
-                 distance_to(diagram.sites[v.site[2]], v.at)) /
+  v.clearance = (diagram.distance_to(v.site[0], v.at) + diagram.distance_to(v.site[1], v.at) +
+                 diagram.distance_to(v.site[2], v.at)) /
                 3;
   refine(diagram, v);
   if (edge == nullptr) return;
@@ -161,6 +180,7 @@ Diagram diagram_of(const detail::Outline& outline) {
     const auto site = v->site();
     const auto a = site.is_point() ? site.point() : site.source(), b = site.is_point() ? a : site.target();
     out.sites.push_back({unshaken(a.x(), a.y()), unshaken(b.x(), b.y()), site.is_point()});
+    out.edges.emplace_back(out.sites.back());
   }
   std::uint32_t count = 0;
   for (auto f = graph.all_faces_begin(); f != graph.all_faces_end(); ++f) f->number = count++;

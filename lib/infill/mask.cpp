@@ -19,6 +19,18 @@ constexpr Word bit_of(int column) {
   return Word{1} << (static_cast<unsigned>(column) % 64);
 }
 
+/// Calls f(word, cells of it) for the words of a row that hold some of [from, to), until it returns false.
+template <class F>
+void for_each_word(int from, int to, F&& f) {
+  const std::size_t first = word_of(from), last = word_of(to - 1);
+  for (std::size_t i = first; i <= last; ++i) {
+    Word cells = ~Word{0};
+    if (i == first) cells &= ~(bit_of(from) - 1);
+    if (i == last) cells &= bit_of(to - 1) | (bit_of(to - 1) - 1);
+    if (!f(i, cells)) return;
+  }
+}
+
 /// The middle of three neighbouring words, grown by `cells` to higher and lower columns. Pre: 0 < cells < 64
 Word grown_between(Word before, Word here, Word after, int cells) {
   if ((before | here | after) == 0 || ~here == 0) return here;
@@ -147,6 +159,49 @@ std::size_t Mask::count() const {
 void Mask::set(int column, int row_number) {
   if (column < 0 || row_number < 0 || column >= grid_.columns || row_number >= grid_.rows) return;
   row(row_number)[word_of(column)] |= bit_of(column);
+}
+
+void Mask::set(const CellRun& run) {
+  Word* const words = row(run.row);
+  for_each_word(run.from, run.to, [&](std::size_t i, Word cells) {
+    words[i] |= cells;
+    return true;
+  });
+}
+
+bool Mask::any_around(const CellRun& run) const {
+  const int from = std::max(0, run.from - 1), to = std::min(grid_.columns, run.to + 1);
+  bool found = false;
+  for (int r = std::max(0, run.row - 1); r <= std::min(grid_.rows - 1, run.row + 1) && !found; ++r) {
+    const Word* const words = row(r);
+    for_each_word(from, to, [&](std::size_t i, Word cells) {
+      found = (words[i] & cells) != 0;
+      return !found;
+    });
+  }
+  return found;
+}
+
+std::vector<CellRun> Mask::runs() const {
+  stop_if_asked();
+  std::vector<CellRun> out;
+  for (int r = 0; r < grid_.rows; ++r) {
+    bool open = false;
+    for (std::size_t i = 0; i < words_; ++i) {
+      // Each step goes to where the row changes next: from set to not set, or back.
+      Word ahead = ~Word{0};
+      while (const Word changes = (open ? ~row(r)[i] : row(r)[i]) & ahead) {
+        const int bit = std::countr_zero(changes), column = static_cast<int>(i) * 64 + bit;
+        if (open)
+          out.back().to = column;
+        else
+          out.push_back({r, column, grid_.columns});
+        open = !open;
+        ahead = ~((Word{1} << bit) - 1);
+      }
+    }
+  }
+  return out;
 }
 
 Mask& Mask::operator&=(const Mask& other) {

@@ -34,6 +34,12 @@ inline int cells(double um, const Grid& grid) {
   return std::max(1, static_cast<int>(std::lround(um / grid.cell)));
 }
 
+/// Cells [from, to) of a row.
+struct CellRun {
+  int row = 0, from = 0, to = 0;
+  friend bool operator==(const CellRun&, const CellRun&) = default;
+};
+
 /// One bit a cell. All binary operations need operands of the same grid.
 class Mask {
  public:
@@ -49,6 +55,10 @@ class Mask {
     return (row(r)[static_cast<unsigned>(column) / 64] >> (static_cast<unsigned>(column) % 64) & 1) != 0;
   }
   void set(int column, int row);
+  void set(const CellRun& run);               ///< Pre: within the grid
+  bool any_around(const CellRun& run) const;  ///< of its cells, and of those that touch them. Pre: within the grid
+  /// What is set, rows ascending, and columns in a row; no run goes on where another ends.
+  std::vector<CellRun> runs() const;
   /// The cell of that point; false outside of the grid.
   bool at(Point p) const {
     return p.x >= grid_.origin.x && p.y >= grid_.origin.y && at(grid_.column_of(p.x), grid_.row_of(p.y));

@@ -6,6 +6,7 @@
 #include "geometry/simplify.h"
 #include "infill/exact_areas.h"
 #include "infill/hanging.h"
+#include "infill/mask_parts.h"
 #include "model/flow.h"
 
 #include <algorithm>
@@ -109,14 +110,13 @@ Strips strips_of(const Mask& area, double line) {
   Strips out{area.opened(cells(0.75 * line, grid)) & area, Mask(grid), Mask(grid), Mask(grid)};
   out.all = area - out.wide;
   if (!out.all.any()) return out;
-  Regions ends, dabs;
-  for (Region& strip : geometry::regions_from_rings(out.all.outlines())) {
-    if (area_mm2(strip) >= short_strip * line * line * 1e-6) continue;
-    const Mask own(grid.window(weft::box_of(strip.outer), 2 * grid.cell), {&strip, 1});
-    (own.grown(1).meets(out.wide) ? ends : dabs).push_back(std::move(strip));
+  const MaskParts strips(out.all);
+  for (std::size_t i = 0; i < strips.size(); ++i) {
+    if (strips.mm2(i) >= short_strip * line * line * 1e-6) continue;
+    const auto runs = strips.runs(i);
+    const bool end = std::any_of(runs.begin(), runs.end(), [&](const auto& run) { return out.wide.any_around(run); });
+    for (const CellRun& run : runs) (end ? out.ends : out.dabs).set(run);
   }
-  if (!ends.empty()) out.ends = Mask(grid, ends);
-  if (!dabs.empty()) out.dabs = Mask(grid, dabs);
   return out;
 }
 
@@ -142,15 +142,24 @@ Split split_of(const ShellSettings& settings, const InfillSettings& infill, cons
   const Grid& grid = window.grid();
   const Mask& inside = window.inside(index);
   const Reach reach = reach_of(settings, object.layers, index);
-  const Mask none(grid);
-  Split out{static_cast<double>(flow::automatic_width(object.nozzle, layer.height)), inside, none, none, {}, {}, {}};
-  if (reach.above > 0) out.seen_above = index + 1 < object.layers.size() ? inside - window.outline(index + 1) : inside;
-  if (reach.below > 0 && index > 0) out.air_below = inside - window.outline(index - 1);
+  const auto beyond = [&](std::size_t other) {  // of the inside: what that layer does not cover
+    return other < object.layers.size() ? inside - window.outline(other) : inside;
+  };
+  Split out{static_cast<double>(flow::automatic_width(object.nozzle, layer.height)),
+            Mask(grid),
+            reach.above > 0 ? beyond(index + 1) : Mask(grid),
+            reach.below > 0 && index > 0 ? beyond(index - 1) : Mask(grid),
+            {},
+            {},
+            {}};
   const bool whole =
       settings.infill_solid_every_layers && index % static_cast<std::size_t>(*settings.infill_solid_every_layers) == 0;
-  if (infill.infill_sparse_density >= 100 || whole) return out;
-  std::optional<LayersInReach> layers = layers_in(reach, window, object.layers.size(), index);
-  if (!layers) return out;
+  std::optional<LayersInReach> layers;
+  if (infill.infill_sparse_density < 100 && !whole) layers = layers_in(reach, window, object.layers.size(), index);
+  if (!layers) {
+    out.solid = inside;
+    return out;
+  }
   out.layers = *std::move(layers);
   const Mask all = solid_cells(out.layers);
   out.solid = all.opened(cells(0.3 * out.line, grid));

@@ -6,6 +6,7 @@
 #include "infill/few_points.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace weft::infill {
@@ -83,6 +84,7 @@ void Web::add_lines(const Region& region, const Lines& of) {
     if (backwards) std::reverse(places.begin(), places.end()), std::swap(begin, end);
     add_piece(std::move(places), begin, end);
     family_.push_back(families_);
+    row_.push_back(std::lround((y - of.phase) / of.spacing));
   };
   StopNowAndThen stop(64);
   for (std::uint32_t k = 0, w = 0; k < intervals.size(); ++k) {

@@ -125,6 +125,7 @@ class Web {
   void join_far(double longest, double most_more);
   void anchor(double length);
   bool try_join(std::uint32_t a, std::uint32_t b, double longest);
+  bool turn_above_others(std::uint32_t a, std::uint32_t b) const;
   void part(std::uint32_t a);
   std::optional<std::vector<Place>> arc_between(std::uint32_t a, std::uint32_t b, double inset, double longest);
   std::optional<std::vector<Place>> arc_beside(std::uint32_t a, std::uint32_t b, double inset, double longest);
@@ -139,6 +140,7 @@ class Web {
   std::vector<Place> normals_;
   std::vector<Line> lines_;
   std::vector<int> family_;  // of lines that were added as such
+  std::vector<long> row_;    // the same: which of its family's lines it lies on
   int families_ = 0;
   std::vector<End> ends_;
   std::vector<std::vector<Place>> loops_;                   // curves that meet no edge

@@ -33,7 +33,16 @@ void Web::order_ends() {
       at_ring_[order_[k]] = static_cast<std::uint32_t>(r), in_order_[order_[k]] = static_cast<std::uint32_t>(k);
 }
 
-/// Joins ends that are neighbours along an edge, going around each ring once. Paths never close.
+/// Whether two neighbours turn into each other on that side wherever both are there: by their numbers, since it would
+/// change from layer to layer if it went by where the outline begins.
+bool Web::turn_above_others(std::uint32_t a, std::uint32_t b) const {
+  const std::size_t i = a / 2, j = b / 2;
+  if (std::max(i, j) >= row_.size() || family_[i] != family_[j] || a % 2 != b % 2) return false;
+  return std::abs(row_[i] - row_[j]) == 1 && (std::min(row_[i], row_[j]) % 2 == 0) == (a % 2 == 0);
+}
+
+/// Joins ends that are neighbours along an edge, going around each ring once; of lines that stand alone those first
+/// that turn above others. Paths never close.
 void Web::join(double longest) {
   joint_.assign(ends_.size(), nobody);
   arc_.assign(ends_.size(), {});
@@ -45,12 +54,16 @@ void Web::join(double longest) {
   if (order_.empty()) order_ends();
   if (longest <= 0) return;
   StopNowAndThen stop(64);
-  for (const auto& [i, last] : rings_)
-    for (std::size_t k = i; k < last; ++k) {
-      stop.step();
-      const std::uint32_t a = order_[k], b = order_[k + 1 < last ? k + 1 : i];
-      if (joint_[a] == nobody && joint_[b] == nobody) try_join(a, b, longest);
-    }
+  const auto join_those = [&](auto wanted) {
+    for (const auto& [first, last] : rings_)
+      for (std::size_t k = first; k < last; ++k) {
+        stop.step();
+        const std::uint32_t a = order_[k], b = order_[k + 1 < last ? k + 1 : first];
+        if (joint_[a] == nobody && joint_[b] == nobody && wanted(a, b)) try_join(a, b, longest);
+      }
+  };
+  if (style_.alone) join_those([&](std::uint32_t a, std::uint32_t b) { return turn_above_others(a, b); });
+  join_those([](std::uint32_t, std::uint32_t) { return true; });
 }
 
 /// Between two ends that stayed alone all joints may be moved on by one end, which makes one more of them.

@@ -10,6 +10,7 @@ namespace weft {
 namespace {
 
 constexpr double worth_of_a_move = 0.5 * tolerances::path * tolerances::path * tolerances::shortest_piece;  // µm³
+constexpr double moves_saved = 2;  // no piece saves so many, but beside those that would be too short
 
 double distance2_of(const PathVertex& a, const PathVertex& b) {
   const double x = b.x - a.x, y = b.y - a.y;
@@ -18,10 +19,10 @@ double distance2_of(const PathVertex& a, const PathVertex& b) {
 
 /// A straight bead, as wide as changes evenly along it.
 struct StraightBead {
-  double x, y, half_band;  ///< of its middle
-  double ux, uy;           ///< its direction
-  double wider;            ///< half its band, per µm of way
-  double way;              ///< of its path, to its middle
+  double x = 0, y = 0, half_band = 0;  ///< of its middle
+  double ux = 1, uy = 0;               ///< its direction
+  double wider = 0;                    ///< half its band, per µm of way
+  double way = 0;                      ///< of its path, to its middle
 
   /// Half its band, so far along the path.
   double half_at(double way_there) const { return half_band + wider * (way_there - way); }
@@ -41,49 +42,61 @@ struct Moments {
   double xy = 0, sw = 0;  ///< s is the way
 
   /// On along a straight that is l µm long. Places are told from the path's first vertex.
-  void go_on(const PathVertex& from, const PathVertex& to, double l) {
+  void go_on(const PathVertex& from, const PathVertex& to, double l, bool even) {
     const double half = l / 2, third = l / 3, sixth = l / 6, s = way, t = way + l;
-    const double u = from.x, v = from.y, q = from.band / 2, a = to.x, b = to.y, c = to.band / 2;
-    x += half * (u + a), y += half * (v + b), w += half * (q + c);
-    xx += third * (u * u + u * a + a * a), yy += third * (v * v + v * b + b * b), ww += third * (q * q + q * c + c * c);
-    xy += sixth * (u * (2 * v + b) + a * (v + 2 * b)), sw += sixth * (q * (2 * s + t) + c * (s + 2 * t));
+    const double u = from.x, v = from.y, a = to.x, b = to.y;
+    x += half * (u + a), y += half * (v + b);
+    xx += third * (u * u + u * a + a * a), yy += third * (v * v + v * b + b * b);
+    xy += sixth * (u * (2 * v + b) + a * (v + 2 * b));
     way = t;
+    if (even) return;
+    const double q = from.band / 2, c = to.band / 2;
+    w += half * (q + c), ww += third * (q * q + q * c + c * c), sw += sixth * (q * (2 * s + t) + c * (s + 2 * t));
   }
 };
 
 /// The straight bead that is nearest to a stretch of a path, from the moments of the path to the ends of the stretch.
+/// What many are asked for needs neither a division nor a root: moments are kept times the length.
 class Nearest {
  public:
-  Nearest(const Moments& from, const Moments& to)
-      : length_(to.way - from.way), per_(length_ > 0 ? 1 / length_ : 0), way_((from.way + to.way) / 2) {
-    const double x = to.x - from.x, y = to.y - from.y, w = to.w - from.w;
-    x_ = x * per_, y_ = y * per_, w_ = w * per_;
-    xx_ = to.xx - from.xx - x * x_, yy_ = to.yy - from.yy - y * y_, xy_ = to.xy - from.xy - x * y_;
-    ww_ = to.ww - from.ww - w * w_;
-    const double d = xx_ - yy_;
-    root_ = std::sqrt(d * d + 4 * xy_ * xy_);
-    wider_ = (to.sw - from.sw - w * way_) * 12 * per_ * per_ * per_;
+  Nearest(const Moments& from, const Moments& to, bool even)
+      : length_(to.way - from.way), way_((from.way + to.way) / 2), x_(to.x - from.x), y_(to.y - from.y) {
+    xx_ = length_ * (to.xx - from.xx) - x_ * x_;
+    yy_ = length_ * (to.yy - from.yy) - y_ * y_;
+    xy_ = length_ * (to.xy - from.xy) - x_ * y_;
+    if (even || length_ <= 0) return;
+    w_ = to.w - from.w, turns_ = (to.sw - from.sw - w_ * way_) / length_;
+    ww_ = std::max(0.0, length_ * (to.ww - from.ww) - w_ * w_ - 12 * turns_ * turns_);
   }
-  /// ∫ off2 ds over the stretch.
-  double misfit() const {
-    return std::max(0.0, (xx_ + yy_ - root_) / 2) +
-           std::max(0.0, ww_ - wider_ * wider_ * length_ * length_ * length_ / 12);
+  double length() const { return length_; }
+  /// Whether ∫ off2 ds over the stretch is more: whether the path's moments less that have no positive definite matrix.
+  bool is_off_by_more(double most) const {
+    const double rest = most * length_ - ww_, x = xx_ - rest, y = yy_ - rest;
+    return rest < 0 || (x > 0 && y > 0 && x * y > xy_ * xy_);
   }
+  /// That integral. Pre: length() > 0
+  double misfit() const { return (std::max(0.0, (xx_ + yy_ - root()) / 2) + ww_) / length_; }
   /// How many moves it becomes, not rounded: no choice hangs on a micron of width.
-  double moves() const {
-    const double change = 2 * std::abs(wider_) * length_;
-    return std::max(1.0, std::min(change / tolerances::band_step, length_ / tolerances::shortest_piece));
+  double moves() const { return moves_for(24 * std::abs(turns_) / length_, length_); }
+  static double moves_for(double change, double length) {
+    return std::max(1.0, std::min(change / tolerances::band_step, length / tolerances::shortest_piece));
   }
   StraightBead bead() const {
-    const double d = xx_ - yy_, x = d < 0 ? 2 * xy_ : d + root_, y = d < 0 ? root_ - d : 2 * xy_;
-    const double l = std::sqrt(x * x + y * y);
-    return {x_, y_, w_, l > 0 ? x / l : 1, l > 0 ? y / l : 0, wider_, way_};
+    if (length_ <= 0) return {};
+    const double d = xx_ - yy_, root_of = root();
+    const double x = d < 0 ? 2 * xy_ : d + root_of, y = d < 0 ? root_of - d : 2 * xy_;
+    const double l = std::sqrt(x * x + y * y), per = 1 / length_;
+    return {x_ * per, y_ * per, w_ * per, l > 0 ? x / l : 1, l > 0 ? y / l : 0, 12 * turns_ * per * per, way_};
   }
 
  private:
-  double length_, per_, way_;             // of its middle
-  double x_, y_, w_, xx_, yy_, xy_, ww_;  // means, and moments about them
-  double root_, wider_;
+  double root() const {
+    const double d = xx_ - yy_;
+    return std::sqrt(d * d + 4 * xy_ * xy_);
+  }
+  double length_, way_;               // way of its middle
+  double x_, y_, w_ = 0, turns_ = 0;  // integrals; of half the band, too, times the way from the middle, per length
+  double xx_, yy_, xy_, ww_ = 0;      // moments about the means, times the length
 };
 
 /// A path by the way along it, told from its first vertex.
@@ -95,19 +108,27 @@ class Course {
     double way;
   };
 
-  explicit Course(const VertexPath& path) : path_(path), moments_(path.size()) {
+  explicit Course(const VertexPath& path)
+      : path_(path),
+        moments_(path.size()),
+        even_(std::all_of(path.begin(), path.end(), [&](const PathVertex& v) { return v.band == path[0].band; })) {
     const PathVertex first = path.front();
     for (PathVertex& v : path_) v.x -= first.x, v.y -= first.y;
     for (std::size_t i = 1; i < path.size(); ++i) {
       moments_[i] = moments_[i - 1];
-      moments_[i].go_on(path_[i - 1], path_[i], std::sqrt(distance2_of(path_[i - 1], path_[i])));
+      moments_[i].go_on(path_[i - 1], path_[i], std::sqrt(distance2_of(path_[i - 1], path_[i])), even_);
     }
   }
   std::size_t size() const { return path_.size(); }
+  bool even() const { return even_; }
   double way(std::size_t i) const { return moments_[i].way; }
   double distance2(std::size_t i, std::size_t j) const { return distance2_of(path_[i], path_[j]); }
-  Nearest nearest(std::size_t i, std::size_t j) const { return {moments_[i], moments_[j]}; }
-  Nearest nearest(Place from, Place to) const { return {moments(from), moments(to)}; }
+  Nearest nearest(std::size_t i, std::size_t j) const { return {moments_[i], moments_[j], even_}; }
+  Nearest nearest(Place from, Place to) const { return {moments(from), moments(to), even_}; }
+  /// How many moves one of its own pieces becomes.
+  double moves(std::size_t i) const {
+    return even_ ? 1 : Nearest::moves_for(std::abs(path_[i + 1].band - path_[i].band), way(i + 1) - way(i));
+  }
   Place place(double way) const {
     const auto behind =
         std::upper_bound(moments_.begin(), moments_.end(), way, [](double w, const Moments& m) { return w < m.way; });
@@ -126,12 +147,13 @@ class Course {
  private:
   Moments moments(Place p) const {
     Moments out = moments_[p.from];
-    if (p.way > out.way) out.go_on(path_[p.from], vertex(p), p.way - out.way);
+    if (p.way > out.way) out.go_on(path_[p.from], vertex(p), p.way - out.way, even_);
     return out;
   }
 
   VertexPath path_;
   std::vector<Moments> moments_;
+  bool even_;
 };
 
 /// The vertices between which pieces are worth most, none of which is off by more than `most`; none at all if pieces
@@ -146,14 +168,20 @@ std::vector<std::size_t> worth_most(const Course& course, double most) {
   for (std::size_t i = 0; i < last; ++i) {
     stop.step();
     if (cost[i] >= never) continue;
-    for (std::size_t j = i + 1; j <= last; ++j) {
-      if (cost[i] + 1 >= cost[j] || course.distance2(i, j) < least_piece * least_piece) continue;
+    const auto take = [&](std::size_t j, double sum) {
+      if (sum < cost[j]) cost[j] = sum, from[j] = i;
+    };
+    if (course.distance2(i, i + 1) >= least_piece * least_piece) take(i + 1, cost[i] + course.moves(i));
+    for (std::size_t j = i + 2; j <= last; ++j) {
+      const double worth = (cost[j] - cost[i] - 1) * worth_of_a_move;
+      if (worth <= 0 || course.distance2(i, j) < least_piece * least_piece) continue;
       const Nearest nearest = course.nearest(i, j);
-      const double misfit = nearest.misfit();
-      if (misfit > most) break;  // the longer the more
-      if (cost[i] + 1 + misfit / worth_of_a_move >= cost[j]) continue;
-      if (const double sum = cost[i] + nearest.moves() + misfit / worth_of_a_move; sum < cost[j])
-        cost[j] = sum, from[j] = i;
+      const double bound = std::min(most, worth);
+      if (nearest.is_off_by_more(bound)) {
+        if (bound == most || nearest.is_off_by_more(most)) break;  // the longer the more
+        continue;
+      }
+      take(j, cost[i] + nearest.moves() + nearest.misfit() / worth_of_a_move);
     }
   }
   if (cost[last] >= never) return {};
@@ -164,10 +192,25 @@ std::vector<std::size_t> worth_most(const Course& course, double most) {
 }
 
 std::vector<std::size_t> worth_most(const Course& course) {
-  constexpr double moves = 2;  // no piece saves so many, but beside those that would be too short
-  for (double most = moves * worth_of_a_move; most < 1e15; most *= moves)
+  for (double most = moves_saved * worth_of_a_move; most < 1e15; most *= 2)
     if (auto out = worth_most(course, most); !out.empty()) return out;
   return {0, course.size() - 1};
+}
+
+/// Whether no piece of two of the path's is worth a move less: then none of more is.
+bool none_is_saved(const VertexPath& path) {
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const double length2 = distance2_of(path[i - 1], path[i]);
+    if (length2 < least_piece * least_piece) return false;
+    if (i == 1) continue;
+    Moments both;
+    const PathVertex &a = path[i - 2], from{0, 0, a.band};
+    const auto seen = [&](const PathVertex& v) { return PathVertex{v.x - a.x, v.y - a.y, v.band}; };
+    both.go_on(from, seen(path[i - 1]), std::sqrt(distance2_of(a, path[i - 1])), false);
+    both.go_on(seen(path[i - 1]), seen(path[i]), std::sqrt(length2), false);
+    if (!Nearest({}, both, false).is_off_by_more(moves_saved * worth_of_a_move)) return false;
+  }
+  return true;
 }
 
 /// Where ends of pieces are best.
@@ -202,7 +245,7 @@ class Ends {
       ends_ = std::move(next);
       if (!any) break;
     }
-    return with_ramps();
+    return course_.even() ? std::move(ends_) : with_ramps();
   }
 
  private:
@@ -290,9 +333,19 @@ class Ends {
 
 std::vector<Stop> ends_of_pieces(const VertexPath& path) {
   if (path.size() == 2) return {{0, 0}, {1, 0}};
+  if (none_is_saved(path)) {
+    std::vector<Stop> own;
+    for (std::size_t i = 0; i < path.size(); ++i) own.push_back({i, 0});
+    return own;
+  }
   const Course course(path);
+  const auto at = worth_most(course);
   std::vector<Stop> out;
-  for (const auto& end : Ends(course, worth_most(course)).moved()) out.push_back(course.stop(end));
+  out.reserve(at.size());
+  if (at.size() == path.size())
+    for (const std::size_t i : at) out.push_back({i, 0});
+  else
+    for (const auto& end : Ends(course, at).moved()) out.push_back(course.stop(end));
   return out;
 }
 

@@ -63,11 +63,22 @@ std::vector<std::size_t> standing_out(const VertexPath& path) {
   keep.front() = keep.back() = 1;
   // A vertex that stands out from its neighbours stays in any case, and spans between those are short.
   std::vector<Span> open;
+  // Long spans are cut evenly, from either end alike, so that each vertex is looked at a few times.
+  const auto add = [&](std::size_t first, std::size_t end) {
+    constexpr std::size_t short_enough = 16;
+    const std::size_t length = end - first, parts = length / short_enough | 1;
+    for (std::size_t k = 0, from = first; k < parts; ++k) {
+      const std::size_t to =
+          2 * k < parts - 1 ? first + (k + 1) * length / parts : end - (parts - 1 - k) * length / parts;
+      keep[to] = 1;
+      if (to > from + 1) open.push_back({from, to});
+      from = to;
+    }
+  };
   std::size_t last = 0;
   for (std::size_t i = 1; i < path.size(); ++i) {
     if (i + 1 < path.size() && !lies_off(path[i - 1], path[i], path[i + 1], 1)) continue;
-    keep[i] = 1;
-    if (i > last + 1) open.push_back({last, i});
+    add(last, i);
     last = i;
   }
   constexpr double equal = 1 + 1e-6;
@@ -165,23 +176,29 @@ class Projection {
     }
     return {std::move(diagonal), std::move(above), corner};
   }
-  /// `told(k, i, t)`: what is told at vertex i, a share t of the way along piece k.
-  template <class Told>
-  std::vector<double> of(const Tridiagonal& system, Told told) const {
-    std::vector<double> right(n_, 0.0);
+  /// `told(k, i, t)`: what is told at vertex i, a share t of the way along piece k: so many numbers.
+  template <std::size_t N, class Told>
+  std::array<std::vector<double>, N> of(const Tridiagonal& system, Told told) const {
+    std::array<std::vector<double>, N> right;
+    for (auto& r : right) r.assign(n_, 0.0);
     for (std::size_t k = 0; k < whole_.size(); ++k) {
       const double per = 1 / whole_[k];
-      double s = 0, t = 0, a = told(k, at_[k], 0), first = 0, second = 0;
+      double s = 0, t = 0;
+      std::array<double, N> a = told(k, at_[k], 0), first{}, second{};
       for (std::size_t i = at_[k]; i < at_[k + 1]; ++i) {
         s += lengths_[i];
-        const double u = s * per, b = told(k, i + 1, u), weight = lengths_[i] / 6;
-        first += weight * (a * (3 - 2 * t - u) + b * (3 - t - 2 * u));
-        second += weight * (a * (2 * t + u) + b * (t + 2 * u));
+        const double u = s * per, weight = lengths_[i] / 6;
+        const double at_a = weight * (2 * t + u), at_b = weight * (t + 2 * u), both = 3 * weight;
+        const std::array<double, N> b = told(k, i + 1, u);
+        for (std::size_t m = 0; m < N; ++m) {
+          const double more = a[m] * at_a + b[m] * at_b;
+          first[m] += both * (a[m] + b[m]) - more, second[m] += more;
+        }
         t = u, a = b;
       }
-      right[k] += first, right[next_of(k)] += second;
+      for (std::size_t m = 0; m < N; ++m) right[m][k] += first[m], right[m][next_of(k)] += second[m];
     }
-    system.solve(right);
+    for (auto& r : right) system.solve(r);
     return right;
   }
 
@@ -281,13 +298,11 @@ VertexPath projected(const VertexPath& path, const std::vector<std::size_t>& at,
   const VertexPath chords = out;
   const auto length = [&](std::size_t k) { return length_of(out[k], out[k + 1]); };
   const Tridiagonal places = projection.system(length);
-  const auto off = [&](double PathVertex::*axis) {
-    return projection.of(places, [&](std::size_t k, std::size_t i, double t) {
-      return path[i].*axis - chords[k].*axis - t * (chords[k + 1].*axis - chords[k].*axis);
-    });
-  };
   stop_if_asked();
-  const auto x = off(&PathVertex::x), y = off(&PathVertex::y);
+  const auto [x, y] = projection.of<2>(places, [&](std::size_t k, std::size_t i, double t) {
+    const PathVertex &p = path[i], &a = chords[k], &b = chords[k + 1];
+    return std::array{p.x - a.x - t * (b.x - a.x), p.y - a.y - t * (b.y - a.y)};
+  });
   stop_if_asked();
   // No piece gets too short, wherever the other end goes.
   const std::size_t pieces = at.size() - 1;
@@ -298,9 +313,16 @@ VertexPath projected(const VertexPath& path, const std::vector<std::size_t>& at,
     out[k].x += share * x[k], out[k].y += share * y[k];
   }
   if (closed) out.back() = out.front();
-  if (is_even(path)) return out;
-  const auto band =
-      projection.of(projection.system(length), [&](std::size_t, std::size_t i, double) { return path[i].band; });
+  if (is_even(path)) {  // … and stays even: a polygon around a curve is longer, and as much narrower
+    double whole = 0, now = 0;
+    for (std::size_t i = 1; i < path.size(); ++i) whole += length_of(path[i - 1], path[i]);
+    for (std::size_t k = 0; k < pieces; ++k) now += length(k);
+    if (now > whole)
+      for (PathVertex& v : out) v.band *= whole / now;
+    return out;
+  }
+  const auto [band] = projection.of<1>(projection.system(length),
+                                       [&](std::size_t, std::size_t i, double) { return std::array{path[i].band}; });
   // No wider nor narrower than what it stands for.
   std::vector<double> least(pieces), most(pieces);
   for (std::size_t k = 0; k < pieces; ++k) {

@@ -29,8 +29,8 @@ void smooth_widths(VertexPath& path, bool closed, double reach);
 
 /// Tells a path by the pieces that are worth their moves (pieces.h), none shorter than tolerances::least_move unless
 /// the whole is. Ends stay. Pieces lie in the middle of what they stand for and lay what was laid there, as nearly as
-/// places and widths that are linear between vertices can; an even band stays. Post: at least two vertices, three of a
-/// closed path. Returns, for each vertex, which one of the path as it was it is, or lies behind; a closed path may
+/// places and widths that are linear between vertices can; an even band stays even. Post: at least two vertices, three
+/// of a closed path. Returns, for each vertex, which one of the path as it was it is, or lies behind; a closed path may
 /// begin at another one than before. Cost: O(n log n) where the path turns evenly. Source: L² projection on hat
 /// functions.
 std::vector<std::size_t> simplify(VertexPath& path, bool closed);

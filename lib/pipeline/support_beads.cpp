@@ -14,6 +14,7 @@
 #include "support/lengths.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <numbers>
 #include <span>
@@ -84,7 +85,7 @@ class Filler {
       return std::move(beads_);
     }
     sparse(wide, share(), s_.support_pattern, s_.support_infill_angle, Role::support);
-    if (s_.support_pattern == SupportPattern::zigzag) widen_lone_lines(column);
+    if (s_.support_pattern == SupportPattern::zigzag) bend_lone_lines(column);
     if (reaches_further(column, wide, half))
       loops(geometry::opening(geometry::subtract({column}, coarsely(wide, half)), band_ / 4), 1, Role::support, true);
     return std::move(beads_);
@@ -103,15 +104,43 @@ class Filler {
   static double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
   /// A line of a zigzag that is joined to no other would stand there alone, as high as its column and as thin as a
-  /// bead, until the nozzle knocks it over: a loop around its share of the column is laid instead.
-  void widen_lone_lines(const Region& column) {
+  /// bead, until the nozzle knocks it over: it goes in waves. These cross their line every so often, and so lie on it
+  /// where it is still joined below; where they have no room, a loop around the line's share of the column is laid.
+  void bend_lone_lines(const Region& column) {
     const double apart = usual_band_ / share();
     if (apart < 2 * band_) return;  // lines that near lean on each other
     const auto lone = std::stable_partition(beads_.begin(), beads_.end(), [&](const Bead& b) { return !straight(b); });
-    const Beads lines(std::make_move_iterator(lone), std::make_move_iterator(beads_.end()));
+    Beads lines(std::make_move_iterator(lone), std::make_move_iterator(beads_.end()));
     beads_.erase(lone, beads_.end());
-    for (const Bead& line : lines)
-      loops(geometry::intersect({column}, {{around(line, rounded(apart / 2)), {}}}), 1, Role::support, true);
+    if (lines.empty()) return;
+    const geometry::SegmentIndex inside(geometry::offset({column}, {.by = -band_ / 2}));
+    for (Bead& line : lines) {
+      const Ring share_of_column = around(line, rounded(apart / 2));
+      bend(line, apart, inside);
+      if (straight(line))
+        loops(geometry::intersect({column}, {{share_of_column, {}}}), 1, Role::support, true);
+      else
+        beads_.push_back(std::move(line));
+    }
+  }
+  /// Bends a line to waves that lie on those of other layers, as wide as two thirds of the lines' distance.
+  void bend(Bead& line, double apart, const geometry::SegmentIndex& inside) const {
+    Junction from = line.path.front(), to = line.path.back();
+    if (to.at < from.at) std::swap(from, to);
+    const double length = std::max(distance(from.at, to.at), 1.0);
+    const double x = (to.at.x - from.at.x) / length, y = (to.at.y - from.at.y) / length;
+    const bool is_long = length > 2 * apart;
+    const double half_wave = is_long ? std::min<double>(apart, span_) : length / 2;
+    const double first = is_long ? (from.at.x - origin_.x) * x + (from.at.y - origin_.y) * y : 0;  // from the origin on
+    std::vector<Junction> path{from};
+    for (double n = std::ceil(first / half_wave - 0.5); (n + 0.5) * half_wave < first + length; ++n) {
+      const double along = (n + 0.5) * half_wave - first, aside = std::fmod(n, 2) == 0 ? apart / 3 : -apart / 3;
+      Junction bent = from;
+      bent.at = from.at + Point{rounded(along * x - aside * y), rounded(along * y + aside * x)};
+      if (inside.region_at(bent.at)) path.push_back(bent);
+    }
+    path.push_back(to);
+    line.path = std::move(path);
   }
   /// Whether no bend of a bead leaves its chord by more than a bead: seen along it, it is as thin as one.
   bool straight(const Bead& bead) const {

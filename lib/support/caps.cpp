@@ -69,11 +69,11 @@ class Capper {
     Regions roof = geometry::trimmed(base.roof, near);
     if (room_.settings().support_roof_enable) append(roof, geometry::trimmed(base.joists.area, near));
     const Regions barred = geometry::trimmed(others, near);
+    Regions free = room_.free_part(shape, lies, contact);
+    if (!barred.empty()) free = geometry::subtract(free, barred);
     const auto on = [&](const Regions& under) {
       if (under.empty()) return Regions{};
-      Regions here = room_.free_part(geometry::intersect(shape, geometry::unite(under)), lies, contact);
-      if (!barred.empty()) here = geometry::subtract(here, barred);
-      return opened(here, line_ * 4 / 10);
+      return opened(geometry::intersect(free, geometry::unite(under)), line_ * 4 / 10);
     };
     out.roof = on(roof);
     out.branches = on(geometry::trimmed(base.branches, near));

@@ -211,21 +211,20 @@ Regions without_thin(const Regions& area, Um radius) {
 
 namespace {
 
-/// What of a level hangs, but for slivers along edges: an area that was opened by 0.4 lines is none.
-Regions hanging(const Regions& here, const Regions& below) {
+/// What of an area hangs, but for slivers along edges: one that was opened by 0.4 lines is none.
+Regions hanging(const Region& region, const Regions& below) {
   constexpr double least_mm2 = 0.05;
   constexpr Um least_wide = 60;
+  const Regions under = geometry::trimmed(below, box_of(region.outer).grown(1));
+  if (std::find(under.begin(), under.end(), region) != under.end()) return {};
   Regions out;
-  const auto add = [&](const Region& piece) {
+  for (const Region& piece : under.empty() ? Regions{region} : geometry::subtract({region}, under)) {
     const double mm2 = area_mm2(piece);
-    if (mm2 < least_mm2) return;
-    if (2e6 * mm2 >= least_wide * perimeter_of(piece.outer)) return out.push_back(piece);
-    append(out, geometry::opening({piece}, least_wide / 2));  // what is wide may hang on to a long sliver
-  };
-  for (const Region& region : here) {
-    const Regions under = geometry::trimmed(below, box_of(region.outer).grown(1));
-    if (under.size() == 1 && under.front() == region) continue;
-    for (const Region& piece : under.empty() ? Regions{region} : geometry::subtract({region}, under)) add(piece);
+    if (mm2 < least_mm2) continue;
+    if (2e6 * mm2 >= least_wide * perimeter_of(piece.outer))
+      out.push_back(piece);
+    else
+      append(out, geometry::opening({piece}, least_wide / 2));  // what is wide may hang on to a long sliver
   }
   return out;
 }
@@ -247,27 +246,40 @@ Um reach_of(const Room& room, const Stack::Level& level) {
 
 }  // namespace
 
-void rest_on(const Room& room, const Stack::Level& level, const Regions& below, Regions& here) {
-  if (here.empty()) return;
-  const auto& s = room.settings();
-  const Regions hangs = hanging(here, below);
-  if (hangs.empty()) return;
+namespace {
+
+/// What of pieces of a level that hang over the one below has nothing near enough to hold it.
+Regions falls_down(const Room& room, const Stack::Level& level, const Regions& below, const Regions& hangs) {
   const Um reach = reach_of(room, level);
-  Regions free;
+  Regions out;
   for (const Region& piece : hangs) {
     const Box near = box_of(piece.outer).grown(2 * reach);
     Regions base = geometry::trimmed(below, near);
-    if (s.support_type == SupportType::everywhere) {  // what lies below it, and not walls beside
+    if (room.settings().support_type == SupportType::everywhere) {  // what lies below it, and not walls beside
       const Regions part = part_below(room, level, near);
       if (!part.empty()) append(base, geometry::intersect({piece}, part));
     }
     if (base.empty())
-      free.push_back(piece);
+      out.push_back(piece);
     else
-      append(free, geometry::subtract({piece}, grown(base, reach)));
+      append(out, geometry::subtract({piece}, grown(base, reach)));
   }
-  // Nothing rests on a hair that stays beside what goes.
-  if (!free.empty()) here = without_thin(geometry::subtract(here, free), line_width(s, room.object().nozzle) * 4 / 10);
+  return out;
+}
+
+}  // namespace
+
+void rest_on(const Room& room, const Stack::Level& level, const Regions& below, Regions& here) {
+  const Um hair = line_width(room.settings(), room.object().nozzle) * 4 / 10;
+  Regions left;
+  for (Region& region : here) {
+    const Regions free = falls_down(room, level, below, hanging(region, below));
+    if (free.empty())
+      left.push_back(std::move(region));
+    else  // nothing rests on a hair that stays beside what goes
+      append(left, without_thin(geometry::subtract({region}, free), hair));
+  }
+  here = std::move(left);
 }
 
 namespace {
@@ -336,32 +348,44 @@ class Falling {
   }
   void clear(std::size_t k, const Regions& contacts) {
     const auto& level = stack_.levels[k];
-    const Regions& close = beside_contacts(k, contacts);
+    look_above(k, contacts);
     if (contacts.empty() && (shadow_.empty() || shadow_[k].empty()) && room_.stands_free(falling_, edge(), level))
       return;
     if (ragged_ || !contacts.empty()) falling_ = geometry::simplified(falling_, corner_bound), edge_.reset();
     ragged_ = false;
-    bool cut = false;
-    Regions left = room_.free_part(falling_, level, close, &cut);
-    if (!shadow_.empty() && !shadow_[k].empty()) left = geometry::subtract(left, shadow_[k]), cut = true;
-    if (!cut && contacts.empty()) return;
-    falling_ = without_thin(left, line_ * 4 / 10);
+    const bool shaded = !shadow_.empty() && !shadow_[k].empty();
+    Regions left;
+    for (Region& region : falling_) {
+      bool cut = shaded;
+      Regions free = room_.free_part({region}, level, close_, cut ? nullptr : &cut, &above_);
+      if (shaded) free = geometry::subtract(free, shadow_[k]);
+      ragged_ = ragged_ || cut;
+      if (cut)
+        append(left, without_thin(free, line_ * 4 / 10));
+      else
+        left.push_back(std::move(region));
+    }
+    if (!ragged_) return void(falling_ = std::move(left));
+    falling_ = std::move(left);
     edge_.reset();
-    ragged_ = true, less_[k] = 1;
+    less_[k] = 1;
   }
   const geometry::SegmentIndex& edge() {
     if (!edge_) edge_.emplace(falling_);
     return *edge_;
   }
-  /// What is held as near beside the part as contacts are must come from further away, and leans towards it on the
-  /// last levels: the contacts of those above this one.
-  const Regions& beside_contacts(std::size_t k, const Regions& contacts) {
-    constexpr std::size_t leaning = 2;  // levels; what rests reaches about half a line further on each
-    if (!contacts.empty()) held_.push_back({k, contacts});
-    std::erase_if(held_, [k](const auto& held) { return held.first >= k + leaning; });
-    close_.clear();
-    for (const auto& held : held_) append(close_, held.second);
-    return close_;
+  /// What is held as near beside the part as contacts are must come from further away: it leans towards it in two
+  /// steps, on the last levels and where the roof above them begins. What rests reaches about half a line further on
+  /// each. Finds the contacts of those above a level, and its own.
+  void look_above(std::size_t k, const Regions& contacts) {
+    constexpr std::size_t last = 2;
+    if (!contacts.empty()) {
+      const bool has_roof = s_.support_roof_enable && s_.support_roof_height > 0;
+      held_.push_back({k, has_roof ? interface_levels(stack_, k, s_.support_roof_height) + 1 : last, contacts});
+    }
+    std::erase_if(held_, [k](const Held& held) { return held.level >= k + held.leaning; });
+    close_.clear(), above_.clear();
+    for (const Held& held : held_) append(held.level < k + last ? close_ : above_, held.contacts);
   }
   /// From the bottom up: where the level below is no less than this one, all of it rests.
   void let_rest() {
@@ -374,7 +398,7 @@ class Falling {
         rest_on(room_, stack_.levels[k], levels_[k - 1], levels_[k]);
         const double lost_mm2 = area_mm2(all) - area_mm2(levels_[k]);
         if (lost_mm2 > least_toe_mm2) {
-          std::erase_if(all, [&](const Region& r) { return !geometry::intersect({r}, levels_[k]).empty(); });
+          std::erase_if(all, [&](const Region& r) { return any_of_it_is_left(r, levels_[k]); });
           add_toes(k, all);
         }
         less_below = less || lost_mm2 > 0;
@@ -382,6 +406,14 @@ class Falling {
         less_below = less;
       }
     }
+  }
+  /// @param left  whole regions, or pieces of them
+  static bool any_of_it_is_left(const Region& region, const Regions& left) {
+    if (std::find(left.begin(), left.end(), region) != left.end()) return true;
+    const Box box = box_of(region.outer);
+    return std::any_of(left.begin(), left.end(), [&](const Region& piece) {
+      return box.overlaps(box_of(piece.outer)) && !geometry::intersect({region}, {piece}).empty();
+    });
   }
   /// Over a steep slope a column hangs: it is kept off it further sideways than it may sag. There it reaches out to
   /// where the slope is near below, no nearer to it than contacts are.
@@ -408,10 +440,14 @@ class Falling {
   Lean lean_;
   std::optional<Steady> steady_;  ///< where nothing else is set of how wide columns are
   Towers towers_;
-  Regions falling_, close_;
-  std::vector<std::pair<std::size_t, Regions>> held_;  ///< the last contacts, by level
-  std::optional<geometry::SegmentIndex> edge_;         ///< of what falls, once asked for
-  bool ragged_ = false;                                ///< it has corners of what was cut from it
+  struct Held {
+    std::size_t level = 0, leaning = 0;  ///< from theirs down, so many lean towards them
+    Regions contacts;
+  };
+  Regions falling_, close_, above_;
+  std::vector<Held> held_;                      ///< the last contacts
+  std::optional<geometry::SegmentIndex> edge_;  ///< of what falls, once asked for
+  bool ragged_ = false;                         ///< it has corners of what was cut from it
   std::vector<Regions> levels_;
   std::vector<char> less_;  ///< of each level, whether it is not all of what lies above it
 };

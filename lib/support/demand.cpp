@@ -2,6 +2,7 @@
 #include "core/disjoint_sets.h"
 #include "core/stop.h"
 #include "geometry/boolean.h"
+#include "geometry/trimmed.h"
 #include "support/bridged.h"
 #include "support/lengths.h"
 #include "support/support.h"
@@ -52,12 +53,6 @@ const Regions* known_over_air(const Object& object, std::size_t layer) {
   return layer < object.over_air.size() ? object.over_air[layer] : nullptr;
 }
 
-bool meets(const Region& region, const Box& box, const Regions& others) {
-  for (const Region& other : others)
-    if (box.overlaps(box_of(other.outer)) && !geometry::intersect({region}, {other}).empty()) return true;
-  return false;
-}
-
 class Layer {
  public:
   Layer(const SupportSettings& s, const Object& o, std::size_t i)
@@ -83,11 +78,10 @@ class Layer {
     }
     if (!starts.empty()) wanted = geometry::subtract(wanted, starts);
     if (!s_.support_bridges && !enforced_layer) leave_bridges(wanted, out.bridged_mm2);
-    const Regions far = wanted.empty() ? Regions{} : geometry::subtract(wanted, grown(below_, cantilever()));
     for (Region& region : wanted) {
       const Box box = box_of(region.outer);
       const double mm2 = area_mm2(region);
-      const bool always = enforced_layer || meets(region, box, far);
+      const bool always = enforced_layer || (mm2 < s_.minimum_support_area && reaches_far(region, box));
       out.patches.push_back({std::move(region), box, mm2, always});
     }
     add_always(starts, out);
@@ -107,12 +101,17 @@ class Layer {
     if (!s_.support_angle) return o_.outer_line / 2;
     return rounded(o_.layers[i_]->height * std::tan(*s_.support_angle * std::numbers::pi / 180));
   }
-  Um cantilever() const { return std::max<Um>(s_.support_cantilever_length, 1); }
+
+  bool reaches_far(const Region& region, const Box& box) const {
+    const Um far = std::max<Um>(s_.support_cantilever_length, 1);
+    return !geometry::subtract({region}, grown(geometry::trimmed(below_, box.grown(far + 1)), far)).empty();
+  }
 
   /// What reaches further than that beyond the layer below, grown back to it.
   Regions reaching_out(const Regions& step, Um by) const {
     if (by <= 0) return geometry::opening(step, 5);
-    const Regions over = geometry::subtract(step, grown(below_, by));
+    const Regions near = geometry::trimmed(below_, box_of(step).grown(by + 1));
+    const Regions over = geometry::subtract(step, grown(near, by));
     if (over.empty()) return {};
     return geometry::intersect(step, grown(over, by + 20));
   }

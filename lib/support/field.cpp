@@ -17,6 +17,11 @@ namespace {
 constexpr double most_cells = 4e6;  // of all slabs together: each is a byte, three times
 constexpr Um finest_cell = 0.3_mm;
 
+void lessen(std::vector<std::uint8_t>& to, const std::vector<std::uint8_t>& most) {
+  std::transform(to.begin(), to.end(), most.begin(), to.begin(),
+                 [](std::uint8_t a, std::uint8_t b) { return std::min(a, b); });
+}
+
 }  // namespace
 
 void Field::size_up(const SupportSettings& settings, const Object& object, const Stack& stack,
@@ -115,13 +120,13 @@ Field::Field(const SupportSettings& settings, const Object& object, const Stack&
       if (everywhere) any_.push_back(clear[0]);
       continue;
     }
-    auto down = spread(plate_.back(), reach_[slab]);
-    for (std::size_t i = 0; i < down.size(); ++i) down[i] = std::min(down[i], clear[slab][i]);
-    plate_.push_back(std::move(down));
+    plate_.push_back(spread(plate_.back(), reach_[slab]));
+    lessen(plate_.back(), clear[slab]);
     if (!everywhere) continue;
-    down = spread(any_.back(), reach_[slab]);
+    auto down = spread(any_.back(), reach_[slab]);
     for (std::size_t i = 0; i < down.size(); ++i)
-      down[i] = std::min(barred_[slab - 1][i] == 2 ? std::uint8_t{255} : down[i], clear[slab][i]);
+      if (barred_[slab - 1][i] == 2) down[i] = 255;
+    lessen(down, clear[slab]);
     any_.push_back(std::move(down));
   }
 }

@@ -70,9 +70,16 @@ class Interfaces {
       if (!out.roof.empty()) out.bottom = geometry::subtract(out.bottom, out.roof);
     }
     if (!out.roof.empty() || !out.bottom.empty()) {
-      Regions dense = out.roof;
+      Regions dense = out.roof, sparse;
       append(dense, out.bottom);
-      out.columns = without_thin(geometry::subtract(out.columns, dense), line_ * 4 / 10);
+      for (Region& column : out.columns) {
+        const Regions near = geometry::trimmed(dense, box_of(column.outer).grown(1));
+        if (near.empty())
+          sparse.push_back(std::move(column));
+        else if (near != Regions{column})
+          append(sparse, without_thin(geometry::subtract({column}, near), line_ * 4 / 10));
+      }
+      out.columns = std::move(sparse);
     }
     return out;
   }
@@ -113,13 +120,42 @@ void spread_first(const Room& room, const Stack& stack, SupportLayer& first) {
   Regions all = first.columns;
   append(all, first.roof), append(all, first.bottom);
   Regions wide = all.empty() ? all : grown(geometry::unite(all), room.settings().support_brim_width);
-  append(wide, first.branches);  // which have a foot of their own
-  if (wide.empty()) return;
-  wide = room.free_part(geometry::unite(wide), stack.levels.front(), {});
+  append(all, first.branches);  // which have a foot of their own
+  if (all.empty()) return;
+  if (!wide.empty()) wide = room.free_part(wide, stack.levels.front(), {});
+  append(wide, all);  // what leans towards contacts is nearer to the part
+  wide = geometry::unite(wide);
   Regions dense = first.roof;
   append(dense, first.bottom);
   first.columns = dense.empty() ? wide : geometry::subtract(wide, dense);
   first.branches.clear();
+}
+
+/// What is wanted, by how much of it support is near to.
+struct Near {
+  Regions whole, partly;
+  double contact_mm2 = 0;  ///< that support lies right under
+};
+
+Near near_to(const Regions& all_wanted, const Regions& support) {
+  Near out;
+  for (const Region& wanted : all_wanted) {
+    const Regions under = geometry::trimmed(support, box_of(wanted.outer).grown(1));
+    if (under.empty()) {
+      out.partly.push_back(wanted);
+      continue;
+    }
+    const Regions beside = geometry::subtract({wanted}, under);
+    const double covered_mm2 = area_mm2(wanted) - area_mm2(beside);
+    out.contact_mm2 += covered_mm2;
+    // Each piece of what is partly covered touches what covers it.
+    const bool all_reached = covered_mm2 > 0 && std::all_of(beside.begin(), beside.end(), [](const Region& piece) {
+                               const Point size = box_of(piece.outer).size();
+                               return std::hypot(size.x, size.y) < reached;
+                             });
+    (all_reached ? out.whole : out.partly).push_back(wanted);
+  }
+  return out;
 }
 
 /// What is held of each layer of the object, and what is not.
@@ -138,29 +174,22 @@ void note_reached(const Object& object, const Stack& stack, const Demand& demand
     if (contact.level == Stack::none) return out;
     Regions all = all_areas(plan.layers[contact.level]);
     append(all, caps.of[i]);
-    Regions left;
-    for (const Region& wanted : demand[i].wanted) {
-      const Box box = box_of(wanted.outer);
-      const Regions near = geometry::trimmed(all, box.grown(2 * reached));
-      if (near.empty()) {
-        left.push_back(wanted);
-        continue;
-      }
-      // It is a judgement of reach: beads' finer corners do not matter to it.
-      constexpr Um coarse = 80;
-      const Regions beside = geometry::subtract({wanted}, near);
-      const double covered_mm2 = area_mm2(wanted) - area_mm2(beside);
-      out.contact_mm2 += covered_mm2;
-      // Each piece of what is partly covered touches what covers it.
-      const bool all_reached = covered_mm2 > 0 && std::all_of(beside.begin(), beside.end(), [](const Region& piece) {
-                                 const Point size = box_of(piece.outer).size();
-                                 return std::hypot(size.x, size.y) < reached;
-                               });
-      const Regions wide = grown(geometry::simplified(all_reached ? Regions{wanted} : near, coarse), reached, coarse);
-      if (!all_reached) append(left, geometry::opening(geometry::subtract({wanted}, wide), coarse));
-      append(out.held, geometry::intersect(geometry::trimmed(object.layers[i]->regions, box.grown(reached)), wide));
+    const Near near = near_to(demand[i].wanted, all);
+    out.contact_mm2 = near.contact_mm2;
+    // It is a judgement of reach: beads' finer corners do not matter to it.
+    constexpr Um coarse = 80;
+    const auto around = [](const Regions& areas) {
+      return grown(geometry::simplified(areas, coarse), reached, coarse);
+    };
+    Regions left, wide = around(near.whole);
+    if (!near.partly.empty()) {
+      const Regions beside = around(geometry::trimmed(all, box_of(near.partly).grown(2 * reached)));
+      left = geometry::opening(geometry::subtract(near.partly, beside), coarse);
+      append(wide, beside);
     }
-    if (out.held.size() > 1) out.held = geometry::unite(out.held);
+    if (!wide.empty())
+      out.held = geometry::intersect(
+          geometry::trimmed(object.layers[i]->regions, box_of(demand[i].wanted).grown(reached)), wide);
     out.left_mm2 = area_mm2(left);
     if (!left.empty()) out.left_at = left.front().outer.front();
     return out;

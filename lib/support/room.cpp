@@ -130,34 +130,39 @@ Regions Room::part_near(Um low, Um high, const Place& place, Um within) const {
   return out;
 }
 
-KeepOut Room::keep_out(const Stack::Level& level, const Place& place) const {
-  KeepOut out;
-  const Regions part_beside = part_near(level.bottom(), level.z, place, beside_ + 3 * outline_bound);
-  out.near = kept_off(part_beside, beside_);
-  out.touch = close_ == beside_ ? out.near : kept_off(part_beside, close_);
+Regions Room::kept_out(const Stack::Level& level, const Place& place, const Regions& part_beside) const {
+  Regions out;
   const Um above = top_gap(s_), below = bottom_gap(s_);
   if (above > 0) {
     // What lies in the gap is kept off sideways too, so that a bead has room beside it for a contact that ends lower.
     const Regions in_gap = part_near(level.z, level.z + above, place, close_ + 3 * outline_bound);
-    if (in_gap != part_beside) out.over = kept_off(in_gap, close_);
+    if (in_gap != part_beside) out = kept_off(in_gap, close_);
   }
-  if (below > 0 && level.bottom() > o_.floor)
-    append(out.over, part_near(level.bottom() - below, level.bottom(), place, 1));
-  append(out.over, stair(level, place.box));
-  if (s_.support_blockers_avoided) append(out.over, blocked_between(o_, level.bottom(), level.z));
+  if (below > 0 && level.bottom() > o_.floor) append(out, part_near(level.bottom() - below, level.bottom(), place, 1));
+  append(out, stair(level, place.box));
+  if (s_.support_blockers_avoided) append(out, blocked_between(o_, level.bottom(), level.z));
   return out;
 }
 
-Regions Room::barred(const Stack::Level& level, const Place& place, const Regions& contacts) const {
-  KeepOut out = keep_out(level, place);
-  Regions barred = std::move(out.over);
-  const Regions close = contacts.empty() ? contacts : geometry::trimmed(contacts, place.box.grown(o_.nozzle + 1));
-  if (close.empty()) {
-    append(barred, out.near);
-  } else {
-    append(barred, out.touch);
-    append(barred, geometry::subtract(out.near, grown(close, o_.nozzle)));  // a strip alone could not be printed
-  }
+Regions Room::barred(const Stack::Level& level, const Place& place, const Regions& contacts,
+                     const Regions* above) const {
+  const Regions part = part_near(level.bottom(), level.z, place, beside_ + 3 * outline_bound);
+  Regions barred = kept_out(level, place, part);
+  if (part.empty()) return barred;
+  Regions nearer;  // where the part is come nearer than elsewhere
+  const auto keep_off = [&](Um distance) {
+    const Regions off = kept_off(part, distance);
+    append(barred, nearer.empty() ? off : geometry::subtract(off, nearer));
+  };
+  const auto come_nearer = [&](const Regions& beside, Um distance) {
+    const Regions near = geometry::trimmed(beside, place.box.grown(o_.nozzle + 1));
+    if (near.empty() || close_ == beside_) return;
+    keep_off(distance);
+    append(nearer, grown(near, o_.nozzle));  // a strip alone could not be printed
+  };
+  come_nearer(contacts, close_);
+  if (above != nullptr) come_nearer(*above, (close_ + beside_) / 2);
+  keep_off(beside_);
   return barred;
 }
 
@@ -173,7 +178,8 @@ Regions Room::within_bounds(const Region& region, const Box& box, bool& cut) con
   return geometry::intersect({region}, geometry::trimmed(*o_.room, box));
 }
 
-Regions Room::free_part(const Regions& area, const Stack::Level& level, const Regions& contacts, bool* changed) const {
+Regions Room::free_part(const Regions& area, const Stack::Level& level, const Regions& contacts, bool* changed,
+                        const Regions* above) const {
   Regions out;
   bool any = false;
   for (const Region& region : area) {
@@ -183,7 +189,7 @@ Regions Room::free_part(const Regions& area, const Stack::Level& level, const Re
     if (!left.empty()) {
       const Regions alone{region};
       const Regions not_there =
-          geometry::trimmed(barred(level, {box, alone, geometry::SegmentIndex(alone)}, contacts), box);
+          geometry::trimmed(barred(level, {box, alone, geometry::SegmentIndex(alone)}, contacts, above), box);
       if (!not_there.empty()) left = geometry::subtract(left, not_there), cut = true;
     }
     any = any || cut;

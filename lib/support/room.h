@@ -20,13 +20,6 @@ Regions blocked_between(const Object& object, Um low, Um high);
 /// Distance to the part beside, µm.
 Um beside(const SupportSettings& settings, const Object& object);
 
-/// Where no support may be on a level, near a box.
-struct KeepOut {
-  Regions near;   ///< the part beside, grown by support_xy_distance
-  Regions touch;  ///< grown by the distance that holds beside contacts only
-  Regions over;   ///< the part less than a gap above or below, and what else is not to be entered
-};
-
 /// The part as support sees it, and where support may be. It is asked for what lies near a box, so that its outlines
 /// cost no more than what is close by.
 class Room {
@@ -37,11 +30,13 @@ class Room {
   Regions part(Um low, Um high, const Box& near) const;
   /// What the part beside keeps out of a level, near the box.
   Regions kept_off_beside(const Stack::Level& level, const Box& near) const;
-  /// What of an area is not kept out of a level: beside contacts the smaller distance holds.
+  /// What of an area is not kept out of a level: beside contacts the smaller distance holds, and what is right below
+  /// contacts comes half as near, so that nothing hangs beside it.
   /// Post: what lies free of the part is returned as it was.
   /// @param changed  if given, whether anything was taken away
-  Regions free_part(const Regions& area, const Stack::Level& level, const Regions& contacts,
-                    bool* changed = nullptr) const;
+  /// @param above    if given, the contacts of levels right above
+  Regions free_part(const Regions& area, const Stack::Level& level, const Regions& contacts, bool* changed = nullptr,
+                    const Regions* above = nullptr) const;
 
   /// Whether nothing is kept out of an area on a level, so that no more than a hair would be taken from its rim. What
   /// is beside contacts needs more than that.
@@ -71,8 +66,11 @@ class Room {
   };
   /// The part in that height, as far as it comes as near to a place.
   Regions part_near(Um low, Um high, const Place& place, Um within) const;
-  KeepOut keep_out(const Stack::Level& level, const Place& place) const;
-  Regions barred(const Stack::Level& level, const Place& place, const Regions& contacts) const;
+  /// The part less than a gap above or below, and what else is not to be entered.
+  Regions kept_out(const Stack::Level& level, const Place& place, const Regions& part_beside) const;
+  /// Where no support may be on a level, near a place: what is further from contacts than a nozzle keeps
+  /// support_xy_distance, what is beside them support_xy_distance_overhang.
+  Regions barred(const Stack::Level& level, const Place& place, const Regions& contacts, const Regions* above) const;
   Regions stair(const Stack::Level& level, const Box& near) const;
 
   const SupportSettings& s_;

@@ -80,10 +80,15 @@ std::vector<Hollow> hollows_under(const Room& room, const SupportLayer& level, c
   const Um line = line_width(s, room.object().nozzle), half = hollow_column(line, s.support_infill_rate / 100);
   std::vector<Hollow> out;
   for (const Region& column : level.columns) {
-    const Regions above = geometry::trimmed(roof_above, box_of(column.outer));
+    const Box box = box_of(column.outer);
+    const Regions above = geometry::trimmed(roof_above, box);
     if (above.empty()) continue;
-    const Point size = box_of(column.outer).size();
-    Regions hollow{column};
+    const Point size = box.size();
+    // Rungs are needed where the roof begins, and reach no further than they span.
+    const Box begun = box_of(above), meets{{std::max(box.min.x, begun.min.x), std::max(box.min.y, begun.min.y)},
+                                           {std::min(box.max.x, begun.max.x), std::min(box.max.y, begun.max.y)}};
+    Regions hollow =
+        geometry::trimmed({&column, 1}, meets.grown(2 * half + roof_span(room.object().nozzle) + 2 * line));
     if (std::min(size.x, size.y) > 2 * half) hollow = geometry::subtract(hollow, opened(hollow, half));
     // Of what is no wider than a bead half lies on the wall that it runs along.
     Regions begins = opened(geometry::intersect(hollow, above), line * 4 / 10);

@@ -2,6 +2,8 @@
 #include "support/tips.h"
 
 #include "core/stop.h"
+#include "geometry/boolean.h"
+#include "geometry/offset.h"
 #include "geometry/spatial_index.h"
 
 #include <algorithm>
@@ -37,24 +39,32 @@ class NearPoints {
   std::unordered_map<std::int64_t, std::vector<Point>> cells_;  // looked up only: its order shows nowhere
 };
 
-/// The rim of a contact, point by point.
+/// The rim of a contact, point by point: where the bead along it lies, or where there is no room for one, its edge.
 class Rim {
  public:
-  Rim(const Regions& contact, const Regions& around, double step) : around_(around), all_free_(around.empty()) {
+  struct Walk {
+    std::vector<Point> points;
+    Um inset = 0;  ///< from the edge
+  };
+  Rim(const Regions& contact, const Regions& around, double step, Um line)
+      : around_(around), all_free_(around.empty()) {
     for (const Region& region : contact) {
-      add(region.outer, step);
-      for (const Ring& hole : region.holes) add(hole, step);
+      const Regions inside = geometry::offset({region}, {.by = -line / 2});
+      for (const Ring& ring : geometry::rings_of(inside)) add(ring, step, line / 2);
+      if (!inside.empty()) continue;
+      add(region.outer, step, 0);
+      for (const Ring& hole : region.holes) add(hole, step, 0);
     }
   }
-  const std::vector<std::vector<Point>>& rings() const { return rings_; }
-  bool hangs_free(Point p) const {
+  const std::vector<Walk>& walks() const { return walks_; }
+  bool hangs_free(Point p, Um inset) const {
     constexpr double inside = 150;  // further from the rim of all of them
-    return all_free_ || !around_.region_at(p) || around_.nearest(p, inside);
+    return all_free_ || !around_.region_at(p) || around_.nearest(p, inside + inset);
   }
 
  private:
-  void add(const Ring& line, double step) {
-    auto& points = rings_.emplace_back();
+  void add(const Ring& line, double step, Um inset) {
+    auto& points = walks_.emplace_back(Walk{{}, inset}).points;
     for (std::size_t i = 0; i < line.size(); ++i) {
       const Point a = line[i], b = line[(i + 1) % line.size()];
       const int pieces = std::max(1, static_cast<int>(distance(a, b) / step));
@@ -63,7 +73,7 @@ class Rim {
   }
   geometry::SegmentIndex around_;
   bool all_free_;
-  std::vector<std::vector<Point>> rings_;
+  std::vector<Walk> walks_;
 };
 
 /// Puts tips under one contact.
@@ -86,11 +96,11 @@ class Placer {
   /// A tip stands as far ahead of the first place that none holds as lets it hold that place too.
   void along(const Rim& rim, bool must_be_free) {
     const auto may = [&](Point p) { return !must_be_free || is_free(p); };
-    for (const auto& points : rim.rings()) {
+    for (const auto& [points, inset] : rim.walks()) {
       stop_if_asked();
       for (std::size_t i = 0; i < points.size(); ++i) {
         if (!may(points[i])) continue;
-        const bool free = rim.hangs_free(points[i]);
+        const bool free = rim.hangs_free(points[i], inset);
         if (free ? held_at_rim_.any(points[i]) : held_.any(points[i])) continue;
         const double within = 0.9 * (free ? spacing_.rim : spacing_.inside);
         Point at = points[i];
@@ -164,7 +174,7 @@ std::vector<Point> tips_under(const Regions& contact, const Regions& around, con
   for (const Point p : standing)
     if (near.contains(p) && (edge.region_at(p) || edge.nearest(p, shape.radius + shape.line / 2.0))) placer.hold(p);
   // The rim first, so that what runs along it lies on tips and not beside them; at last where branches find no way.
-  const Rim rim(contact, around, std::max(200.0, spacing.rim / 4.0));
+  const Rim rim(contact, around, std::max(200.0, spacing.rim / 4.0), shape.line);
   placer.along(rim, true);
   placer.inside();
   placer.along(rim, false);

@@ -157,7 +157,9 @@ bool Comb::visit_edges(Point a, Point b, const Visit& visit) const {
   if (points_.empty()) return false;
   const Point low = a.y <= b.y ? a : b, high = a.y <= b.y ? b : a;
   const auto floor_div = [&](double v) {
-    return static_cast<int>(std::clamp(std::floor(v / static_cast<double>(cell_)), -2.0, 1e6));
+    const double cells = std::clamp(v / static_cast<double>(cell_), -2.0, 1e6);
+    const int whole = static_cast<int>(cells);
+    return whole - static_cast<int>(whole > cells);
   };
   const int r0 = std::max(0, floor_div(static_cast<double>(low.y) - box_.min.y - 1));
   const int r1 = std::min(rows_ - 1, floor_div(static_cast<double>(high.y) - box_.min.y + 1));
@@ -224,6 +226,7 @@ std::uint32_t Comb::edge_beside(Point p) const {
 }
 
 std::optional<Point> Comb::nearest_on_boundary(Point p, Um within) const {
+  if (points_.empty()) return std::nullopt;
   double best2 = static_cast<double>(within) * within;
   std::optional<Point> best;
   const auto nearest_on = [&](std::uint32_t e) {
@@ -233,14 +236,19 @@ std::optional<Point> Comb::nearest_on_boundary(Point p, Um within) const {
     const double t = std::clamp((px * ux + py * uy) / (ux * ux + uy * uy), 0.0, 1.0);
     const double dx = px - t * ux, dy = py - t * uy;
     if (dx * dx + dy * dy < best2) best2 = dx * dx + dy * dy, best = lerp(a, b, t);
-    return false;
   };
-  // Row by row, each but once.
-  const std::int64_t low = std::max<std::int64_t>(0, (std::int64_t{p.y} - within - box_.min.y) / cell_);
-  const std::int64_t high = std::min<std::int64_t>(rows_ - 1, (std::int64_t{p.y} + within - box_.min.y) / cell_);
-  for (std::int64_t row = low; row <= high; ++row) {
-    const auto y = static_cast<Um>(box_.min.y + row * cell_ + cell_ / 2);
-    visit_edges({p.x - within, y}, {p.x + within, y}, nearest_on);
+  // Row by row: the cells of each lie side by side. Two microns to each side cover the rounding.
+  const std::int64_t x = std::int64_t{p.x} - box_.min.x, y = std::int64_t{p.y} - box_.min.y, reach = within + 2;
+  const std::int64_t left = std::max<std::int64_t>(0, (x - reach) / cell_),
+                     right = x + reach < 0 ? -1 : std::min<std::int64_t>(columns_ - 1, (x + reach) / cell_);
+  const std::int64_t low = std::max<std::int64_t>(0, (y - within) / cell_),
+                     high = std::min<std::int64_t>(rows_ - 1, (y + within) / cell_);
+  for (std::int64_t row = low; row <= high && left <= right; ++row) {
+    const std::int64_t begin = row * columns_;
+    for (std::uint32_t k = first_[static_cast<std::size_t>(begin + left)],
+                       end = first_[static_cast<std::size_t>(begin + right + 1)];
+         k < end; ++k)
+      nearest_on(edges_[k]);
   }
   return best;
 }

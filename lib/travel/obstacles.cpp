@@ -16,6 +16,14 @@ namespace {
 /// Travels keep this far from the edges of the room, µm.
 constexpr Um clearance = 100;
 
+/// Rounds are led so much further out that nothing of their chords comes nearer than travel_avoid_distance.
+constexpr Um arc = 30;
+
+Regions kept_off(const Regions& obstacles, Um distance) {
+  return geometry::offset_apart(obstacles,
+                                {.by = distance + arc, .corner = geometry::Corner::round, .arc_tolerance = arc});
+}
+
 Regions obstacles_of(const TravelSettings& settings, const LayerInput& input) {
   constexpr Um coarse = 50;  // support is kept off by much more
   Regions out;
@@ -53,13 +61,12 @@ Regions area_around(const TravelSettings& settings, const Regions& obstacles, co
     const Box box = box_of(obstacles).grown(2 * settings.travel_avoid_distance + 10000);
     place = {{{box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}}, {}}};
   }
-  const Regions kept_off =
-      geometry::offset_apart(obstacles, {.by = settings.travel_avoid_distance, .corner = geometry::Corner::round});
+  const Regions off = kept_off(obstacles, settings.travel_avoid_distance);
   // Mostly all of that lies inside: then it is holes of the place, and no sweep is needed to know.
-  if (place.size() > 1 || !place.front().holes.empty() || !surrounds(place.front().outer, box_of(kept_off)))
-    return geometry::subtract(place, kept_off);
+  if (place.size() > 1 || !place.front().holes.empty() || !surrounds(place.front().outer, box_of(off)))
+    return geometry::subtract(place, off);
   auto rings = geometry::rings_of(place);
-  for (Ring& ring : geometry::rings_of(kept_off)) rings.push_back(std::move(ring));
+  for (Ring& ring : geometry::rings_of(off)) rings.push_back(std::move(ring));
   return geometry::regions_from_rings(rings, geometry::WindingRule::even_odd);
 }
 
@@ -96,7 +103,7 @@ Obstacles::Obstacles(const TravelSettings& settings, const LayerInput& input)
     : settings_(settings), input_(input), what_(obstacles_of(settings, input)) {
   std::vector<Box> reach;
   for (const Region& region : what_) {
-    reach.push_back(box_of(region.outer).grown(settings.travel_avoid_distance + 2));
+    reach.push_back(box_of(region.outer).grown(settings.travel_avoid_distance + 2 * arc + 2));
     convex_.push_back(region.holes.empty() && is_convex(region.outer));
   }
   for (auto& together : geometry::touching(reach)) {
@@ -120,15 +127,14 @@ const Regions& Obstacles::kept_off(const Cluster& cluster) const {
   if (cluster.kept_off.empty()) {
     Regions some;
     for (const std::size_t i : cluster.of) some.push_back(what_[i]);
-    cluster.kept_off =
-        geometry::offset_apart(some, {.by = settings_.travel_avoid_distance, .corner = geometry::Corner::round});
+    cluster.kept_off = travel::kept_off(some, settings_.travel_avoid_distance);
   }
   return cluster.kept_off;
 }
 
 /// Whether p lies in what is kept off something without holes: a way that begins or ends there leaves it just once.
 bool Obstacles::leaves_freely(const Cluster& cluster, Point p) const {
-  constexpr Um doubt = 20;  // of the arcs at its corners
+  constexpr Um doubt = 2;  // of whole microns
   if (!cluster.reach.contains(p)) return false;
   if (cluster.of.size() == 1 && convex_[cluster.of.front()])
     return is_near(what_[cluster.of.front()].outer, p, settings_.travel_avoid_distance - doubt);

@@ -139,6 +139,30 @@ Start rearmost(const Bead& bead) {
   return at_junction(bead, best);
 }
 
+/// The place nearest to the start where at least a quarter of the wall's width lies on something; the start itself
+/// where that is so nowhere: what begins on nothing is dragged along.
+Start borne(const Bead& bead, Start start, const Comb& below) {
+  const auto bears = [&](const Start& s) {
+    return below.part_of(s.at) != Comb::outside ||
+           below.nearest_on_boundary(s.at, bead.path[s.segment].width / 4).has_value();
+  };
+  if (bears(start)) return start;
+  constexpr double step_um = 500;
+  std::vector<Start> places;
+  const std::size_t n = bead.path.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Point a = bead.path[i].at, b = bead.path[i + 1 < n ? i + 1 : 0].at;
+    const auto steps = static_cast<int>(std::ceil(distance(a, b) / step_um));
+    for (int k = 0; k < steps; ++k)
+      places.push_back({static_cast<std::uint32_t>(i), lerp(a, b, static_cast<double>(k) / steps)});
+  }
+  std::stable_sort(places.begin(), places.end(), [&](const Start& a, const Start& b) {
+    return distance2(a.at, start.at) < distance2(b.at, start.at);
+  });
+  const auto found = std::find_if(places.begin(), places.end(), bears);
+  return found != places.end() ? *found : start;
+}
+
 }  // namespace
 
 std::vector<Corner> corners_of(const Bead& bead, SeamCorner kind, bool material_left, std::size_t most) {
@@ -212,7 +236,10 @@ void add_exposure(const Bead& bead, bool material_left, const Comb& outline, std
   }
 }
 
-Start choose_seam(const TravelSettings& settings, const Bead& bead, std::span<const Corner> corners, const Below& below,
+namespace {
+
+/// What choose_seam chooses, whatever lies below it.
+Start wished_seam(const TravelSettings& settings, const Bead& bead, std::span<const Corner> corners, const Below& below,
                   std::uint64_t seed) {
   const auto choose = [&](Start plain, double worth_um, const auto& cost) {
     return cheapest(settings, bead, corners, plain, below, worth_um, cost);
@@ -257,6 +284,15 @@ Start choose_seam(const TravelSettings& settings, const Bead& bead, std::span<co
     const double off = distance(p, line);
     return hide_first && off < on_line_um ? off - staying_worth * hide_first_um : off;
   });
+}
+
+}  // namespace
+
+Start choose_seam(const TravelSettings& settings, const Bead& bead, std::span<const Corner> corners, const Below& below,
+                  std::uint64_t seed) {
+  const Start wished = wished_seam(settings, bead, corners, below, seed);
+  if (below.outline == nullptr || settings.z_seam_overhang_weight == 0) return wished;
+  return borne(bead, wished, *below.outline);
 }
 
 }  // namespace weft::travel

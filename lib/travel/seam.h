@@ -50,7 +50,9 @@ struct Below {
 };
 
 /// Chooses the seam of one outer wall. Where the type leaves a choice, it is the place of least
-/// S = visibility weight · exposure − corner weight · strength + overhang weight · (nothing below).
+/// S = visibility weight · exposure − corner weight · strength + overhang weight · (nothing below). Where that hangs
+/// with more than three quarters of the wall's width, it is the nearest place to it that does not, if there is one and
+/// the overhang weight is not 0.
 /// @param seed of the random seam
 Start choose_seam(const TravelSettings& settings, const Bead& bead, std::span<const Corner> corners, const Below& below,
                   std::uint64_t seed);

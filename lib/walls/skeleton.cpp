@@ -5,25 +5,8 @@
 #include "geometry/axis_curve.h"
 
 namespace weft::walls {
-namespace {
 
 using geometry::MedialAxis;
-
-Place on_rib(Place foot, const Skeleton::Node& node, double d) {
-  return node.clearance > 1e-6 ? lerp(foot, node.at, d / node.clearance) : node.at;
-}
-
-}  // namespace
-
-double Skeleton::length(std::uint32_t edge) const {
-  return distance(nodes[halves[2 * edge].from].at, nodes[halves[2 * edge + 1].from].at);
-}
-Place Skeleton::on_start_rib(std::uint32_t half, double d) const {
-  return on_rib(halves[half].foot, start(half), d);
-}
-Place Skeleton::on_end_rib(std::uint32_t half, double d) const {
-  return on_rib(halves[halves[half].next].foot, end(half), d);
-}
 
 std::uint32_t Skeleton::split(std::uint32_t edge, double t) {
   const std::uint32_t h = 2 * edge, back = h + 1;

@@ -17,6 +17,13 @@ struct Skeleton {
     std::uint32_t from = 0, next = 0, previous = 0;
     Place foot;  ///< of the rib at `from`, on the outline; the rib at the end is that of `next`
   };
+  /// From a foot on the outline to a node.
+  struct Rib {
+    Place foot;
+    const Node& top;
+    /// At distance d from the outline, which may exceed the clearance.
+    Place at(double d) const { return top.clearance > 1e-6 ? lerp(foot, top.at, d / top.clearance) : top.at; }
+  };
   std::vector<Node> nodes;
   std::vector<Half> halves;
 
@@ -26,10 +33,13 @@ struct Skeleton {
   std::uint32_t to(std::uint32_t half) const { return halves[twin(half)].from; }
   const Node& start(std::uint32_t half) const { return nodes[halves[half].from]; }
   const Node& end(std::uint32_t half) const { return nodes[to(half)]; }
-  double length(std::uint32_t edge) const;
-  /// The place at distance d from the outline on the rib at the start (end) of a half; d may exceed the clearance.
-  Place on_start_rib(std::uint32_t half, double d) const;
-  Place on_end_rib(std::uint32_t half, double d) const;
+  double length(std::uint32_t edge) const {
+    return distance(nodes[halves[2 * edge].from].at, nodes[halves[2 * edge + 1].from].at);
+  }
+  Rib start_rib(std::uint32_t half) const { return {halves[half].foot, start(half)}; }
+  Rib end_rib(std::uint32_t half) const { return {halves[halves[half].next].foot, end(half)}; }
+  Place on_start_rib(std::uint32_t half, double d) const { return start_rib(half).at(d); }
+  Place on_end_rib(std::uint32_t half, double d) const { return end_rib(half).at(d); }
 
   /// Puts a node at fraction t of an edge, as seen from its even half. The edge keeps the first part; returns the
   /// other.

@@ -31,12 +31,11 @@ struct Piece {
 
 Piece pair_piece(const Skeleton& s, const Laying& laying, std::uint32_t h, std::size_t i) {
   const double *a = laying.start(h), *b = laying.end(h);
-  Piece p{{s.on_start_rib(h, (a[i] + a[i + 1]) / 2), a[i + 1] - a[i]},
-          {s.on_end_rib(h, (b[i] + b[i + 1]) / 2), b[i + 1] - b[i]}};
+  const auto start = s.start_rib(h), end = s.end_rib(h);
+  Piece p{{start.at((a[i] + a[i + 1]) / 2), a[i + 1] - a[i]}, {end.at((b[i] + b[i + 1]) / 2), b[i + 1] - b[i]}};
   const Span& span = laying.spans[h / 2];
   if (span.core || span.mouth || span.narrows) {
-    const double area = quad_area(s.on_start_rib(h, a[i]), s.on_end_rib(h, b[i]), s.on_end_rib(h, b[i + 1]),
-                                  s.on_start_rib(h, a[i + 1]));
+    const double area = quad_area(start.at(a[i]), end.at(b[i]), end.at(b[i + 1]), start.at(a[i + 1]));
     const double length = distance(p.start.at, p.end.at), mean = (p.start.width + p.end.width) / 2;
     const double f = fit(area, mean, length);
     if (span.narrows && p.start.width != p.end.width) {  // its narrow end is where the corner begins

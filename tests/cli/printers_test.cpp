@@ -35,6 +35,23 @@ TEST_CASE("printers: the example passes the audit on each printer that comes wit
   CHECK(printers >= 25);
 }
 
+TEST_CASE("examples: objects one after the other, of a tool each, change it once between them") {
+  const fs::path root = tests::source;
+  Scratch scratch;
+  const auto box = (root / "examples/box.stl").string();
+  std::vector<std::string> words{"slice", box, box + "@T1"};
+  for (const char* profile : {"profiles/printers/marlin-220.ini", "profiles/materials/pla.ini",
+                              "examples/two-filaments.ini", "examples/one-at-a-time.ini"})
+    words.insert(words.end(), {"-p", (root / profile).string()});
+  words.insert(words.end(), {"-o", "one.gcode", "--report", "one.json"});
+  const auto run = weft(words, scratch.path());
+  INFO(run.err);
+  REQUIRE(run.status == 0);
+  const auto report = nlohmann::json::parse(scratch.read("one.json"));
+  CHECK(report["tools"][1]["changes"] == 1);
+  CHECK(report["layers"].get<int>() > 1.9 * report["height_mm"].get<double>() / 0.2);  // of both objects, each its own
+}
+
 TEST_CASE("printers: two filaments pass the audit on each printer that comes with weft") {
   const fs::path root = tests::source;
   Scratch scratch;

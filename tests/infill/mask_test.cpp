@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "infill/mask.h"
+#include "infill/mask_parts.h"
 
 #include <random>
 
@@ -65,4 +65,67 @@ TEST_CASE("mask: what is empty stays so, and nothing is set beyond the columns")
   CHECK(full.count() == 700);
   CHECK(full.grown(5) == full);
   CHECK(full.shrunk(5) == full);
+}
+
+TEST_CASE("mask: runs are its cells, and parts are what sides join, not corners") {
+  for (const int columns : {60, 64, 130, 200}) {
+    const Grid grid = grid_of(columns, 40);
+    const Mask mask = scattered(grid, static_cast<unsigned>(columns), 25);
+    Mask again(grid);
+    for (const auto& run : mask.runs()) again.set(run);
+    CHECK(again == mask);
+
+    const infill::MaskParts parts(mask);
+    std::vector<int> part_of(static_cast<std::size_t>(columns) * 40, -1);
+    const auto at = [&](int column, int row) -> int& {
+      return part_of[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                     static_cast<std::size_t>(column)];
+    };
+    double mm2 = 0;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      mm2 += parts.mm2(i);
+      for (const auto& run : parts.runs(i))
+        for (int c = run.from; c < run.to; ++c) at(c, run.row) = static_cast<int>(i);
+    }
+    CHECK(mm2 == Approx(static_cast<double>(mask.count()) * 0.01));
+    // Neighbours are of one part; and of each part all cells are reached from one of them.
+    int apart = 0, reached = 0;
+    for (int r = 0; r < 40; ++r)
+      for (int c = 0; c < columns; ++c) {
+        if (at(c, r) < 0) continue;
+        if (c > 0 && at(c - 1, r) >= 0) apart += static_cast<int>(at(c - 1, r) != at(c, r));
+        if (r > 0 && at(c, r - 1) >= 0) apart += static_cast<int>(at(c, r - 1) != at(c, r));
+      }
+    CHECK(apart == 0);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      std::vector<std::pair<int, int>> open{{parts.runs(i).front().from, parts.runs(i).front().row}};
+      at(open.front().first, open.front().second) = -1;
+      while (!open.empty()) {
+        const auto [c, r] = open.back();
+        open.pop_back(), ++reached;
+        const std::pair<int, int> beside[] = {{c - 1, r}, {c + 1, r}, {c, r - 1}, {c, r + 1}};
+        for (const auto& [x, y] : beside)
+          if (x >= 0 && y >= 0 && x < columns && y < 40 && at(x, y) == static_cast<int>(i))
+            at(x, y) = -1, open.push_back({x, y});
+      }
+    }
+    CHECK(static_cast<std::size_t>(reached) == mask.count());
+  }
+}
+
+TEST_CASE("mask: around a run are the cells that touch it, at corners too") {
+  for (const int columns : {64, 130}) {
+    const Grid grid = grid_of(columns, 30);
+    const Mask mask = scattered(grid, 7, 6);
+    int wrong = 0;
+    for (int r = 0; r < grid.rows; ++r)
+      for (int from = 0; from < columns; from += 3)
+        for (const int length : {1, 2, 65}) {
+          const infill::CellRun run{r, from, std::min(columns, from + length)};
+          bool any = false;
+          for (int c = run.from; c < run.to; ++c) any = any || any_near(mask, c, r, 1, true);
+          wrong += static_cast<int>(mask.any_around(run) != any);
+        }
+    CHECK(wrong == 0);
+  }
 }

@@ -2,6 +2,7 @@
 #include "pipeline/fill_support.h"
 
 #include "geometry/spatial_index.h"
+#include "model/flow.h"
 #include "pipeline/beneath.h"
 #include "rectangle.h"
 
@@ -151,6 +152,45 @@ TEST_CASE("support: no line of a column stands alone") {
           CHECK(leaves_its_chord(bead) > 400);
         }
       }
+}
+
+TEST_CASE("support: lines of a column that changes from level to level turn where those below do") {
+  Settings s;
+  s.layers.layer_height = 200;
+  std::vector<support::SupportLayer> levels;
+  for (int i = 0; i < 8; ++i) {  // the outline begins elsewhere on each level, and the column loses lines
+    Region outline = rectangle(0, 1100 * i, 20000, 30000);
+    std::rotate(outline.outer.begin(), outline.outer.begin() + i % 4, outline.outer.end());
+    levels.push_back(level(2000 + 200 * i, 200, &support::SupportLayer::columns, {outline}));
+  }
+  const auto filled = pipeline::fill_support(s, levels, {});
+  for (std::size_t k = 1; k < filled.size(); ++k) {
+    INFO("level " << k);
+    // Half of its turns would lie between two lines where the level below turned on their other side.
+    const double hangs_um = pipeline::Beneath({}, filled[k - 1].beads, 400).hanging(filled[k].beads, 1000).um;
+    double laid_um = 0;
+    for (const Bead& bead : filled[k].beads) laid_um += 1000 * length_mm(bead);
+    CHECK(hangs_um < 0.01 * laid_um);
+  }
+}
+
+TEST_CASE("support: a line of a column that is joined to no other lies on a straight one, in waves") {
+  Settings s;
+  s.layers.layer_height = 200;
+  const double apart_um = flow::band(400, 200) * 100 / s.support.support_infill_rate;
+  for (int n = -2; n <= 2; ++n) {
+    const Um row = rounded(n * apart_um), beside = rounded(0.7 * apart_um);  // nearer than the next, and not hollow
+    const Regions column{rectangle(500, row - beside, 29000, row + beside)};
+    const auto filled = pipeline::fill_support(s, {level(2000, 200, &support::SupportLayer::columns, column)}, {});
+    REQUIRE(filled.front().beads.size() == 1);
+    const Bead& wave = filled.front().beads.front();
+    INFO(row);
+    CHECK_FALSE(wave.closed);
+    CHECK(leaves_its_chord(wave) > 400);
+    CHECK(length_mm(wave) < 1.4 * 28.5);
+    const Bead below = straight({500, row}, {29000, row});
+    CHECK(pipeline::Beneath({}, {below}, 400).hanging({&wave, 1}, 4000).um == 0);
+  }
 }
 
 TEST_CASE("support: what crosses from rest to rest hangs no more than what lies, loose ends do") {

@@ -151,6 +151,27 @@ TEST_CASE("support: beside the part there is the distance that is set, and every
   }
 }
 
+TEST_CASE("support: beside a wall a column leans towards what it holds below the roof, and the roof lies on it") {
+  auto body = tee();
+  const auto plan = planned(on(SupportStructure::normal), body);
+  const auto first =
+      std::find_if(plan.layers.begin(), plan.layers.end(), [](const auto& l) { return !l.roof.empty(); });
+  REQUIRE(first - plan.layers.begin() > 3);
+  const auto beside = [&](const support::SupportLayer& layer) {  // how near it comes to the post, µm
+    Um nearest = 1'000'000;
+    for (const Region& region : all_of(layer))
+      for (const Ring& ring : geometry::rings_of({region}))
+        for (const Point p : ring)
+          if (std::abs(p.x) < 4000 && std::abs(p.y) < 4000)
+            nearest = std::min(nearest, std::max(std::abs(p.x), std::abs(p.y)) - 2000);
+    return nearest;
+  };
+  CHECK(beside(*(first - 1)) - beside(*first) <= 260);
+  CHECK(beside(*(first - 1)) < 600);  // where nothing is held it is 700
+  CHECK(beside(*(first - 3)) > 690);
+  CHECK(beside(plan.layers.back()) < 300);
+}
+
 TEST_CASE("support: branches take less than columns under a high table") {
   auto body = tee(150);
   const double columns = plastic(planned(on(SupportStructure::normal), body));

@@ -92,3 +92,26 @@ TEST_CASE("travel: which corners attract a seam is chosen", "[travel]") {
   const Bead round = sample::closed_bead(sample::circle({0, 0}, 10000, 200), Role::outer_wall, 0, 0);
   CHECK(corners_of(round, SeamCorner::any, true, 10).empty());
 }
+
+TEST_CASE("travel: no seam lies on nothing where the wall lies on something elsewhere", "[travel]") {
+  const Region stem = sample::rectangle({0, 0}, {20000, 10000});
+  const auto seam_over_stem = [&](const Regions& above, SeamType type, double weight) {
+    TravelSettings settings;
+    settings.z_seam_type = type, settings.z_seam_overhang_weight = weight;
+    settings.z_seam_x = 10000, settings.z_seam_y = 20000;
+    const auto seams = seams_of(settings, {sample::layer({stem}, 0), sample::layer(above, 1)});
+    REQUIRE(seams.size() == 2);
+    return seams[1];
+  };
+  const Regions tab = geometry::unite({stem}, {sample::rectangle({5000, 5000}, {15000, 14000})});
+  for (const auto type : {SeamType::back, SeamType::user}) {
+    const Point borne = seam_over_stem(tab, type, 0.5);
+    INFO("seam at " << borne.x << ", " << borne.y);
+    CHECK(borne.y <= 10100);  // within a quarter of a bead of the edge
+  }
+  CHECK(seam_over_stem(tab, SeamType::back, 0.5).y > 9000);  // and the nearest such place
+  CHECK(seam_over_stem(tab, SeamType::back, 0).y == 13800);
+  // A hat hangs all round: its seam is where it would be on a wall that stands.
+  CHECK(seam_over_stem({sample::rectangle({-5000, -5000}, {25000, 15000})}, SeamType::back, 0.5) ==
+        Point{24800, 14800});
+}
