@@ -5,9 +5,10 @@
 #include "geometry/boolean.h"
 #include "geometry/offset.h"
 #include "infill/concentric.h"
+#include "infill/slots.h"
 #include "infill/small_areas.h"
-#include "infill/solid.h"
 #include "infill/sparse.h"
+#include "infill/strips.h"
 #include "model/flow.h"
 
 #include <algorithm>
@@ -49,37 +50,6 @@ std::optional<double> angle_along_walls(const Region& region) {
   for (const Ring& hole : region.holes) look(hole);
   const auto peak = static_cast<std::size_t>(std::max_element(length.begin(), length.end()) - length.begin());
   return length[peak] >= all / 2 ? std::optional(angle[peak]) : std::nullopt;
-}
-
-/// The direction of a straight strip no wider than some lines: across it they would be dabs with a turn between each
-/// two, on every second layer.
-std::optional<double> angle_along_strip(const Region& region, Um band) {
-  constexpr double widest = 3.5;    // bands
-  constexpr double straight = 0.8;  // of the edge's length that runs one way, less what runs across it
-  double all = 0, x = 0, y = 0;     // the direction of each edge at twice its angle: there and back are one
-  const auto look = [&](const Ring& ring) {
-    for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-      const double dx = ring[i].x - ring[j].x, dy = ring[i].y - ring[j].y, l = std::hypot(dx, dy);
-      if (l == 0) continue;
-      all += l, x += (dx * dx - dy * dy) / l, y += 2 * dx * dy / l;
-    }
-  };
-  look(region.outer);
-  for (const Ring& hole : region.holes) look(hole);
-  if (all == 0 || 2e6 * area_mm2(region) > widest * band * all || std::hypot(x, y) < straight * all)
-    return std::nullopt;
-  return std::atan2(y, x) / 2;
-}
-
-/// Whether an area is a strip everywhere no wider than some lines, and long.
-bool is_strip(const Region& region, Um band) {
-  constexpr double widest = 3.5;       // bands, as belts and straight strips
-  constexpr double least_long = 6.25;  // edge² / 4 areas: of a strip four times as long as wide
-  double edge = perimeter_of(region.outer);
-  for (const Ring& hole : region.holes) edge += perimeter_of(hole);
-  const double area = 1e6 * area_mm2(region);
-  if (2 * area > widest * band * edge || edge * edge < 4 * least_long * area) return false;
-  return geometry::offset({region}, {.by = -rounded(widest / 2 * band)}).empty();
 }
 
 /// The directions, joints and order that a pattern of solid layers asks for.
@@ -248,7 +218,7 @@ void fill_winding(const Region& region, InfillPattern pattern, const SolidStyle&
 /// Lines, which may lose what they would lay twice where they turn.
 void fill_lines(const Region& region, const ShellSettings& shells, const SolidStyle& style, Beads& beads) {
   const std::size_t from = beads.size();
-  fill_solid(region, style, beads);
+  fill_solid_and_slots(region, style, beads);
   if (style.role != Role::bridge && shells.small_area_flow_length > 0)
     thin_short_lines(shells.small_area_flow_length, style.angle_rad, from, beads);
 }

@@ -46,6 +46,33 @@ TEST_CASE("infill: an automatic line width that is cut is said", "[infill]") {
   CHECK(infill::check(settings, 400, 60).empty());
 }
 
+TEST_CASE("infill: a slot between walls is filled wherever lines lie beside it", "[infill]") {
+  const Um width = GENERATE(250, 330, 410);
+  for (Um y = 9000; y < 9450; y += 50) {  // a bar across it decides where lines lie
+    CAPTURE(width, y);
+    Region cross;
+    for (const Point p : {Point{9000, 0},
+                          {11000, 0},
+                          {11000, y},
+                          {20000, y},
+                          {20000, y + width},
+                          {11000, y + width},
+                          {11000, 20000},
+                          {9000, 20000},
+                          {9000, y + width},
+                          {0, y + width},
+                          {0, y},
+                          {9000, y}})
+      cross.outer.push_back(p);
+    const LayerAreas areas = solid_area(std::move(cross));
+    ShellSettings shells;
+    shells.skin_angle = 0;
+    const Beads beads = infill::fill({}, shells, input(areas)).beads;
+    for (const double x : {1000.0, 5000.0, 8000.0, 12000.0, 15000.0, 19000.0})
+      CHECK(cover(beads, x, y + width / 2.0) == 1);
+  }
+}
+
 TEST_CASE("infill: a straight-walled area is covered up to its walls", "[infill][law]") {
   const bool turns = GENERATE(true, false);
   const double angle = GENERATE(0.0, 12.3, 45.0, 81.7);
