@@ -4,8 +4,8 @@
 #include "core/stop.h"
 #include "geometry/boolean.h"
 #include "geometry/trimmed.h"
-#include "support/columns.h"
 #include "support/lengths.h"
+#include "support/thin.h"
 #include "tasks/parallel.h"
 
 #include <algorithm>

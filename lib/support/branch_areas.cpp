@@ -6,8 +6,8 @@
 #include "geometry/spatial_index.h"
 #include "geometry/touching.h"
 #include "geometry/trimmed.h"
-#include "support/columns.h"
 #include "support/lengths.h"
+#include "support/resting.h"
 #include "tasks/parallel.h"
 
 #include <algorithm>

@@ -5,9 +5,9 @@
 #include "geometry/boolean.h"
 #include "geometry/simplify.h"
 #include "geometry/trimmed.h"
-#include "support/columns.h"
 #include "support/kinds.h"
 #include "support/lengths.h"
+#include "support/thin.h"
 #include "tasks/parallel.h"
 
 #include <algorithm>

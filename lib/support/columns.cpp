@@ -10,7 +10,9 @@
 #include "support/branch_areas.h"
 #include "support/lengths.h"
 #include "support/patches.h"
+#include "support/resting.h"
 #include "support/steady.h"
+#include "support/thin.h"
 #include "tasks/parallel.h"
 
 #include <algorithm>
@@ -159,131 +161,6 @@ TowersAndOthers for_towers(const SupportSettings& settings, const std::vector<Re
 
 namespace {
 
-/// The boxes of pieces, wider.
-Regions boxes_around(const Regions& pieces, Um by) {
-  std::vector<Ring> rings;
-  for (const Region& piece : pieces) {
-    const Box box = box_of(piece.outer).grown(by);
-    rings.push_back({box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}});
-  }
-  return geometry::regions_from_rings(rings);
-}
-
-}  // namespace
-
-void thicken(Regions& area, const Regions& fresh, Um line) {
-  if (fresh.empty()) return;
-  // What a disc inside of the area covers is told by what lies as near as its diameter.
-  const Regions around = &area == &fresh ? area : geometry::intersect(area, boxes_around(fresh, 2 * line));
-  // Corners are not thin: what grew around them would reach further than what they hold.
-  const Regions wide = geometry::offset(geometry::offset(around, {.by = -line}), {.by = line + 20});
-  const Regions thin = geometry::subtract(fresh, wide);
-  if (thin.empty()) return;
-  append(area, grown(thin, line));
-  area = geometry::unite(area);
-}
-
-namespace {
-
-/// Whether no corner of one, and no middle of an edge, is further from the other than offsets are rounded: a neck has
-/// its corners where it begins to be one.
-bool within(const Regions& inner, const geometry::SegmentIndex& outer) {
-  constexpr double rounded_um = 2;
-  const auto lies = [&](Point p) { return outer.nearest(p, rounded_um) || outer.region_at(p); };
-  const auto all_lie = [&](const Ring& ring) {
-    for (std::size_t i = 0; i < ring.size(); ++i)
-      if (!lies(ring[i]) || !lies(lerp(ring[i], ring[i + 1 < ring.size() ? i + 1 : 0], 0.5))) return false;
-    return true;
-  };
-  return std::all_of(inner.begin(), inner.end(), [&](const Region& region) {
-    return all_lie(region.outer) && std::all_of(region.holes.begin(), region.holes.end(), all_lie);
-  });
-}
-
-}  // namespace
-
-Regions without_thin(const Regions& area, Um radius) {
-  const Regions wide = geometry::offset(geometry::offset(area, {.by = -radius}), {.by = radius, .miter_limit = 3});
-  if (wide.empty()) return wide;
-  // Only where a corner was cut off, the whole one reaches further.
-  return within(wide, geometry::SegmentIndex(area)) ? wide : geometry::intersect(wide, area);
-}
-
-namespace {
-
-/// What of an area hangs, but for slivers along edges: one that was opened by 0.4 lines is none.
-Regions hanging(const Region& region, const Regions& below) {
-  constexpr double least_mm2 = 0.05;
-  constexpr Um least_wide = 60;
-  const Regions under = geometry::trimmed(below, box_of(region.outer).grown(1));
-  if (std::find(under.begin(), under.end(), region) != under.end()) return {};
-  Regions out;
-  for (const Region& piece : under.empty() ? Regions{region} : geometry::subtract({region}, under)) {
-    const double mm2 = area_mm2(piece);
-    if (mm2 < least_mm2) continue;
-    if (2e6 * mm2 >= least_wide * perimeter_of(piece.outer))
-      out.push_back(piece);
-    else
-      append(out, geometry::opening({piece}, least_wide / 2));  // what is wide may hang on to a long sliver
-  }
-  return out;
-}
-
-}  // namespace
-
-namespace {
-
-/// What of the part a level comes to lie on: beads sink so far.
-Regions part_below(const Room& room, const Stack::Level& level, const Box& near) {
-  constexpr Um sinks = 0.6_mm;
-  return room.part(level.bottom() - bottom_gap(room.settings()) - sinks, level.bottom(), near);
-}
-
-/// How far beads reach beyond what they lie on.
-Um reach_of(const Room& room, const Stack::Level& level) {
-  return std::max(line_width(room.settings(), room.object().nozzle) * 6 / 10, level.height);
-}
-
-}  // namespace
-
-namespace {
-
-/// What of pieces of a level that hang over the one below has nothing near enough to hold it.
-Regions falls_down(const Room& room, const Stack::Level& level, const Regions& below, const Regions& hangs) {
-  const Um reach = reach_of(room, level);
-  Regions out;
-  for (const Region& piece : hangs) {
-    const Box near = box_of(piece.outer).grown(2 * reach);
-    Regions base = geometry::trimmed(below, near);
-    if (room.settings().support_type == SupportType::everywhere) {  // what lies below it, and not walls beside
-      const Regions part = part_below(room, level, near);
-      if (!part.empty()) append(base, geometry::intersect({piece}, part));
-    }
-    if (base.empty())
-      out.push_back(piece);
-    else
-      append(out, geometry::subtract({piece}, grown(base, reach)));
-  }
-  return out;
-}
-
-}  // namespace
-
-void rest_on(const Room& room, const Stack::Level& level, const Regions& below, Regions& here) {
-  const Um hair = line_width(room.settings(), room.object().nozzle) * 4 / 10;
-  Regions left;
-  for (Region& region : here) {
-    const Regions free = falls_down(room, level, below, hanging(region, below));
-    if (free.empty())
-      left.push_back(std::move(region));
-    else  // nothing rests on a hair that stays beside what goes
-      append(left, without_thin(geometry::subtract({region}, free), hair));
-  }
-  here = std::move(left);
-}
-
-namespace {
-
 constexpr Um corner_bound = 40_um;
 
 /// Columns of one patch.
@@ -424,7 +301,7 @@ class Falling {
         const double lost_mm2 = area_mm2(all) - area_mm2(levels_[k]);
         if (lost_mm2 > least_toe_mm2) {
           std::erase_if(all, [&](const Region& r) { return any_of_it_is_left(r, levels_[k]); });
-            lost_ = geometry::unite(lost_, all);
+          lost_ = geometry::unite(lost_, all);
           add_toes(k, all);
         }
         less_below = less || lost_mm2 > 0;

@@ -43,14 +43,4 @@ struct TowersAndOthers {
 };
 TowersAndOthers for_towers(const SupportSettings& settings, const std::vector<Regions>& contacts);
 
-/// Takes away what of a level rests neither on what is below it nor on the part.
-void rest_on(const Room& room, const Stack::Level& level, const Regions& below, Regions& here);
-
-/// Strips thinner than two lines of what is `fresh`, made as wide as that.
-void thicken(Regions& area, const Regions& fresh, Um line);
-
-/// What is thinner than twice the radius goes, and tips sharper than 39°. Other corners stay as they are: what is
-/// rounded on one level would leave nothing below the corners of the next. Post: nothing reaches out of the area.
-Regions without_thin(const Regions& area, Um radius);
-
 }  // namespace weft::support

@@ -4,9 +4,9 @@
 #include "core/stop.h"
 #include "geometry/boolean.h"
 #include "geometry/trimmed.h"
-#include "support/columns.h"
 #include "support/kinds.h"
 #include "support/lengths.h"
+#include "support/thin.h"
 #include "tasks/parallel.h"
 
 #include <algorithm>

@@ -6,9 +6,9 @@
 #include "geometry/clip_lines.h"
 #include "geometry/trimmed.h"
 #include "support/branch_areas.h"
-#include "support/columns.h"
 #include "support/joists.h"
 #include "support/lengths.h"
+#include "support/thin.h"
 #include "tasks/parallel.h"
 
 #include <algorithm>

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/resting.h"
+
+#include "geometry/boolean.h"
+#include "geometry/trimmed.h"
+#include "support/lengths.h"
+#include "support/thin.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace weft::support {
+namespace {
+
+/// What of an area hangs, but for slivers along edges: one that was opened by 0.4 lines is none.
+Regions hanging(const Region& region, const Regions& below) {
+  constexpr double least_mm2 = 0.05;
+  constexpr Um least_wide = 60;
+  const Regions under = geometry::trimmed(below, box_of(region.outer).grown(1));
+  if (std::find(under.begin(), under.end(), region) != under.end()) return {};
+  Regions out;
+  for (const Region& piece : under.empty() ? Regions{region} : geometry::subtract({region}, under)) {
+    const double mm2 = area_mm2(piece);
+    if (mm2 < least_mm2) continue;
+    if (2e6 * mm2 >= least_wide * perimeter_of(piece.outer))
+      out.push_back(piece);
+    else
+      append(out, geometry::opening({piece}, least_wide / 2));  // what is wide may hang on to a long sliver
+  }
+  return out;
+}
+
+}  // namespace
+
+Regions part_below(const Room& room, const Stack::Level& level, const Box& near) {
+  constexpr Um sinks = 0.6_mm;
+  return room.part(level.bottom() - bottom_gap(room.settings()) - sinks, level.bottom(), near);
+}
+
+Um reach_of(const Room& room, const Stack::Level& level) {
+  return std::max(line_width(room.settings(), room.object().nozzle) * 6 / 10, level.height);
+}
+
+namespace {
+
+/// What of pieces of a level that hang over the one below has nothing near enough to hold it.
+Regions falls_down(const Room& room, const Stack::Level& level, const Regions& below, const Regions& hangs) {
+  const Um reach = reach_of(room, level);
+  Regions out;
+  for (const Region& piece : hangs) {
+    const Box near = box_of(piece.outer).grown(2 * reach);
+    Regions base = geometry::trimmed(below, near);
+    if (room.settings().support_type == SupportType::everywhere) {  // what lies below it, and not walls beside
+      const Regions part = part_below(room, level, near);
+      if (!part.empty()) append(base, geometry::intersect({piece}, part));
+    }
+    if (base.empty())
+      out.push_back(piece);
+    else
+      append(out, geometry::subtract({piece}, grown(base, reach)));
+  }
+  return out;
+}
+
+}  // namespace
+
+void rest_on(const Room& room, const Stack::Level& level, const Regions& below, Regions& here) {
+  const Um hair = line_width(room.settings(), room.object().nozzle) * 4 / 10;
+  Regions left;
+  for (Region& region : here) {
+    const Regions free = falls_down(room, level, below, hanging(region, below));
+    if (free.empty())
+      left.push_back(std::move(region));
+    else  // nothing rests on a hair that stays beside what goes
+      append(left, without_thin(geometry::subtract({region}, free), hair));
+  }
+  here = std::move(left);
+}
+
+}  // namespace weft::support

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "support/room.h"
+
+namespace weft::support {
+
+/// What of the part a level comes to lie on, near the box: beads sink so far.
+Regions part_below(const Room& room, const Stack::Level& level, const Box& near);
+
+/// How far beads of a level reach beyond what they lie on, µm.
+Um reach_of(const Room& room, const Stack::Level& level);
+
+/// Takes away what of a level rests neither on what is below it nor on the part.
+void rest_on(const Room& room, const Stack::Level& level, const Regions& below, Regions& here);
+
+}  // namespace weft::support

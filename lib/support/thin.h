@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "core/polygon.h"
+
+namespace weft::support {
+
+/// Strips thinner than two lines of what is `fresh`, made as wide as that.
+void thicken(Regions& area, const Regions& fresh, Um line);
+
+/// What is thinner than twice the radius goes, and tips sharper than 39°. Other corners stay as they are: what is
+/// rounded on one level would leave nothing below the corners of the next. Post: nothing reaches out of the area.
+Regions without_thin(const Regions& area, Um radius);
+
+}  // namespace weft::support
