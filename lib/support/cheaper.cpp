@@ -107,7 +107,7 @@ class Guess {
 /// @param columns_mm3  what columns take, if it had to be reckoned
 bool for_columns_alone(const SupportSettings& settings, const Guess& guess, const Patch& patch,
                        std::optional<double>& columns_mm3) {
-  constexpr double tips_mm3_by_mm = 1.35;  // of a strip's outline
+  constexpr double tips_mm3_by_mm = 1.35;  // of a strip's outline: fitted to thin strips high up
   double mm2 = 0, round_mm = 0;
   for (const auto& [k, regions] : patch.contacts) mm2 += area_mm2(regions), round_mm += geometry::outline_mm(regions);
   if (2 * mm2 >= round_mm * to_mm(branch_style(settings).tip)) return false;
@@ -144,8 +144,8 @@ Split cheaper(const Room& room, const Stack& stack, const std::vector<Regions>& 
         if (auto& mm3 = columns_mm3[asked[i]]; !mm3) mm3 = guess.columns_mm3(all[asked[i]]);
       });
   });
-  // A mm³ of branches takes a third longer than one of columns: at three quarters of the plastic they take the same
-  // time, and more of their roofs spans from tip to tip. Both are reckoned within a tenth.
+  // Under a mushroom a mm³ of branches takes a third longer than one of columns: at three quarters of the plastic they
+  // take the same time, and more of their roofs spans from tip to tip.
   constexpr double worth_branches = 0.7;
   for (const std::size_t i : asked)
     for (const auto& [k, regions] : all[i].contacts)
