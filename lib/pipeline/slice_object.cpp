@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/slice_object.h"
 
+#include "pipeline/counterbores.h"
 #include "pipeline/key_bytes.h"
 #include "pipeline/layer_heights.h"
 #include "pipeline/paint_object.h"
@@ -64,9 +65,14 @@ Result<Cuts> slice_object(const Running& job, const Object& object, const Object
                             : run_stage<Stage::slice>(
                                   job, [&] { return slice_key(volume.mesh, planes, scopes, handed); },
                                   [&] { return slice_mesh(handed, scopes, volume.mesh, planes); }));
+  const auto& [layers, nozzle] = handed[scopes.front().of_mix.front()];
+  const auto bridging = layers.counterbore_hole_bridging;
   if (of_volume.size() == 1) {
     areas = areas_of_one(scopes, *of_volume.front());
-    return std::move(of_volume.front());
+    if (bridging == CounterboreHoleBridging::none) return std::move(of_volume.front());
+    Cuts out = *of_volume.front();
+    bridge_counterbores(bridging, nozzle, object, out, areas, job.report.warnings);
+    return Result<Cuts>(std::move(out));
   }
   const Stopwatch stopwatch(job.report.timings_ms[Stage::slice]);
   std::vector<const Cuts*> cuts;
@@ -79,6 +85,8 @@ Result<Cuts> slice_object(const Running& job, const Object& object, const Object
   }
   auto out = united(object, scopes, cuts, areas);
   if (const auto how = weave_of(scopes, all_scopes)) weave(*how, out, areas);
+  if (bridging != CounterboreHoleBridging::none)
+    bridge_counterbores(bridging, nozzle, object, out, areas, job.report.warnings);
   return Result<Cuts>(std::move(out));
 }
 

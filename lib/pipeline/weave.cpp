@@ -4,10 +4,10 @@
 #include "core/stop.h"
 #include "geometry/boolean.h"
 #include "geometry/offset.h"
+#include "pipeline/area_pieces.h"
 #include "tasks/parallel.h"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 namespace weft::pipeline {
@@ -28,16 +28,11 @@ std::vector<Regions> hidden(const slice::InterlockStyle& style, const std::vecto
   });
 }
 
-/// The areas of a layer, taken out of it.
+/// The areas of a layer, taken out of it, and what each is printed with.
 class Pieces {
  public:
-  Pieces(const Weave& how, Regions regions, const Areas& areas) {
-    auto next = std::make_move_iterator(regions.begin());
-    for (const Area& area : areas) {
-      of_area_.emplace_back(next, next + area.regions);
-      next += area.regions;
-      tool_.push_back(how.tool.at(area.scope));
-    }
+  Pieces(const Weave& how, Regions regions, const Areas& areas) : of_area_(std::move(regions), areas) {
+    for (const Area& area : areas) tool_.push_back(how.tool.at(area.scope));
   }
 
   std::vector<ToolId> tools() const {
@@ -63,16 +58,10 @@ class Pieces {
     }
     if (largest != nullptr) *largest = geometry::unite(*largest, got);
   }
-  void put_back(Regions& regions, Areas& areas) && {
-    regions.clear();
-    for (std::size_t a = 0; a < of_area_.size(); ++a) {
-      areas[a].regions = static_cast<std::uint32_t>(of_area_[a].size());
-      std::move(of_area_[a].begin(), of_area_[a].end(), std::back_inserter(regions));
-    }
-  }
+  void put_back(Regions& regions, Areas& areas) && { std::move(of_area_).put_back(regions, areas); }
 
  private:
-  std::vector<Regions> of_area_;
+  AreaPieces of_area_;
   std::vector<ToolId> tool_;
 };
 

@@ -183,6 +183,9 @@ struct OwnValue {
 constexpr std::array own_values{
     OwnValue{"brim_type", "brim_ears", "brim_ears", "on"},
     OwnValue{"brim_type", "auto_brim", "brim_narrow_width", "8"},
+    OwnValue{"counterbore_hole_bridging", "none", "counterbore_hole_bridging", "none"},
+    OwnValue{"counterbore_hole_bridging", "partiallybridge", "counterbore_hole_bridging", "partial"},
+    OwnValue{"counterbore_hole_bridging", "sacrificiallayer", "counterbore_hole_bridging", "sacrificial"},
     // manual: what is painted or marked, and nothing else
     OwnValue{"support_type", "normal(auto)", "support_structure", "normal"},
     OwnValue{"support_type", "normal(auto)", "support_auto", "true"},

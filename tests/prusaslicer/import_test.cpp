@@ -338,6 +338,16 @@ TEST_CASE("import: OrcaSlicer's locked zigzag is a density by the distance from 
   CHECK(densities({{"sparse_infill_pattern", "grid"}, skin}).empty());
 }
 
+TEST_CASE("import: OrcaSlicer's holes over counterbores are weft's") {
+  using Words = std::vector<std::pair<std::string, std::string>>;
+  for (const auto& [theirs, ours] :
+       Words{{"none", "none"}, {"partiallybridge", "partial"}, {"sacrificiallayer", "sacrificial"}}) {
+    const auto read = prusaslicer::orca_configuration({{"counterbore_hole_bridging", theirs}});
+    CHECK(read.left_out.empty());
+    CHECK(read.ours == Words{{"counterbore_hole_bridging", ours}});
+  }
+}
+
 TEST_CASE("import: OrcaSlicer's support is what its names say, and by hand where it is manual") {
   using Words = std::vector<std::pair<std::string, std::string>>;
   const auto read = [](const Words& words) {

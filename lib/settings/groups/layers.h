@@ -19,6 +19,18 @@ constexpr auto choices_of(SlicingMode) {
                     Choice<SlicingMode>{SlicingMode::close_holes, "close_holes"}};
 }
 
+/// What becomes of a hole that begins in the middle of the air over a wider one.
+enum class CounterboreHoleBridging {
+  none,        ///< rings around it hang
+  partial,     ///< strips across the wider one on two layers leave a slot, then a rectangle around the hole
+  sacrificial  ///< a layer closes it, to be drilled out
+};
+constexpr auto choices_of(CounterboreHoleBridging) {
+  return std::array{Choice<CounterboreHoleBridging>{CounterboreHoleBridging::none, "none"},
+                    Choice<CounterboreHoleBridging>{CounterboreHoleBridging::partial, "partial"},
+                    Choice<CounterboreHoleBridging>{CounterboreHoleBridging::sacrificial, "sacrificial"}};
+}
+
 /// How the model is cut.
 struct LayerSettings {
   Um layer_height = 0.2_mm;
@@ -32,6 +44,7 @@ struct LayerSettings {
   std::optional<LengthOrShare> initial_layer_line_width;  ///< auto: as in the other layers
   Um resolution = 0.0125_mm;
   SlicingMode slicing_mode = SlicingMode::regular;
+  CounterboreHoleBridging counterbore_hole_bridging = CounterboreHoleBridging::none;
   bool magic_spiralize = false;
   bool smooth_spiralized_contours = true;
   bool interlocking_enable = false;
@@ -77,6 +90,10 @@ inline constexpr Rows layer_schema{
     setting("slicing_mode", Scope::object, &LayerSettings::slicing_mode,
             "What of a cut is solid: regular, what any shell encloses; even_odd, what an odd number of outlines "
             "encloses, for models made of shells within shells; close_holes, holes too."),
+    setting("counterbore_hole_bridging", Scope::object, &LayerSettings::counterbore_hole_bridging,
+            "What becomes of a hole that begins over a wider one, as a screw's over its counterbore: none, rings "
+            "around it hang; partial, strips across the wider one, on the next layer across them, and the hole's own "
+            "outline from the third on; sacrificial, one layer closes it, to be drilled out."),
     setting("magic_spiralize", Scope::plate, &LayerSettings::magic_spiralize,
             "Above its bottom layers the object is one wall that rises without an end, and without a seam: a vase."),
     setting("smooth_spiralized_contours", Scope::plate, &LayerSettings::smooth_spiralized_contours,
