@@ -437,9 +437,12 @@ auto run_stages(const Job& job, const Watch& watch, Report& report, const Prepar
   const StopWhen stop_when(&watch.cancelled);
   try {
     const Stopwatch stopwatch(report.timings_ms.total);
+    const std::string settings = as_text(job.settings);
+    report.settings_sha256 = sha256(settings);  // of a job whose models cannot be read
     gcode::check_custom_code(job.settings);
     Printing what = prepare();
-    report.settings_sha256 = sha256(as_text(job.settings) + overlay_lines(what.plate));
+    if (const auto overlays = overlay_lines(what.plate); !overlays.empty())
+      report.settings_sha256 = sha256(settings + overlays);
     return end(std::move(what));
   } catch (const Stopped&) {
     throw Error{Error::Kind::interrupted, "interrupted", {}, "nothing was written"};
@@ -449,7 +452,6 @@ auto run_stages(const Job& job, const Watch& watch, Report& report, const Prepar
 }  // namespace
 
 std::optional<audit::Passed> run(const Job& job, const Watch& watch, Report& report, StageCache* cache) {
-  report.settings_sha256 = sha256(as_text(job.settings));
   return run_stages(
       job, watch, report,
       [&] {
@@ -473,7 +475,6 @@ std::size_t plates_of(const Job& job, const Watch& watch, StageCache* cache) {
 
 std::size_t estimate(const Job& job, const EstimateOptions& options, const Watch& watch, Report& report,
                      StageCache* cache) {
-  report.settings_sha256 = sha256(as_text(job.settings));
   return run_stages(
       job, watch, report,
       [&] {
