@@ -2,6 +2,7 @@
 #include "command.h"
 
 #include "core/write_file.h"
+#include "key_options.h"
 #include "pipeline/field_files.h"
 #include "pipeline/made_at.h"
 #include "pipeline/model_parts.h"
@@ -9,7 +10,6 @@
 #include "pipeline/project.h"
 #include "profile/tool_values.h"
 #include "profile_folders.h"
-#include "prusaslicer/keys.h"
 #include "settings/catalogue.h"
 #include "settings/value.h"
 
@@ -66,57 +66,6 @@ po::options_description common_options() {
 }
 
 namespace {
-
-std::string dashed(std::string_view key) {
-  std::string out(key);
-  std::replace(out.begin(), out.end(), '_', '-');
-  return out;
-}
-
-std::string underscored(std::string key) {
-  std::replace(key.begin(), key.end(), '-', '_');
-  return key;
-}
-
-/// The keys that the words may name, as in --key, --key=value and --no-key. Only these become options: to describe all
-/// the hundreds that there are takes longer than to read the model of a small part.
-std::set<std::string> keys_typed(const std::vector<std::string>& words) {
-  std::set<std::string> out;
-  for (const auto& word : words) {
-    if (!word.starts_with("--")) continue;
-    const auto key = underscored(word.substr(2, word.find('=') - 2));
-    out.insert(key);
-    if (key.starts_with("no_")) out.insert(key.substr(3));
-  }
-  return out;
-}
-
-/// Settings as options of their own; hidden from the help, which points to `weft settings`.
-po::options_description setting_options(const std::set<std::string>& keys) {
-  po::options_description out;
-  for (const auto& key : keys) {
-    const auto* entry = find_setting(key);
-    if (entry == nullptr) continue;
-    auto* value = po::value<std::vector<std::string>>();
-    if (entry->type == "flag") value->implicit_value({"true"}, "true");
-    out.add_options()(dashed(key).c_str(), value);
-  }
-  return out;
-}
-
-/// PrusaSlicer's keys that are neither settings of weft's nor options of every verb, as options too.
-po::options_description prusaslicer_options(const std::set<std::string>& keys) {
-  po::options_description out;
-  const auto common = common_options();
-  for (const auto& key : keys) {
-    const auto* row = prusaslicer::find_key(key);
-    if (row == nullptr || find_setting(key) != nullptr || common.find_nothrow(dashed(key), false) != nullptr) continue;
-    auto* value = po::value<std::vector<std::string>>();
-    if (row->written == prusaslicer::Written::flag) value->implicit_value({"1"}, "1");
-    out.add_options()(dashed(key).c_str(), value);
-  }
-  return out;
-}
 
 /// Options that are followed by a word and any number of settings: they become one word, a line each.
 std::vector<std::string> gathered(const std::vector<std::string>& words) {

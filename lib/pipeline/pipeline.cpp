@@ -66,14 +66,16 @@ void write_gcode(const gcode::Job& job, PrintPlan& plan, std::vector<std::string
   check.add(writer.head());
   const std::string tail = writer.tail();
   const auto let_go = [](auto& list) { std::exchange(list, {}); };  // not `list = {}`: that keeps its room
+  GiveBackNowAndThen give_back;
   const auto write = [&](std::size_t i) {
     unpack_steps(packed[i], plan.layers[i]);
+    const std::size_t bytes = packed[i].size();
     let_go(packed[i]);
     if (i < heat.size()) add_heat(heat[i], plan.layers[i]);
     auto block = writer.layer(i);
     let_go(plan.layers[i].steps);
     // Here, and not beside the audit: that takes one layer after another, and is what is waited for.
-    if (i % layers_between_giving_back == 0) give_back_memory();
+    give_back.let_go_of(bytes);
     return block;
   };
   tasks::parallel_in_order(plan.layers.size(), write, [&](std::size_t, const std::string& block) {
