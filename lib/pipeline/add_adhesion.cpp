@@ -64,19 +64,20 @@ class Feet {
 };
 
 void add_to_rise(const Settings& settings, const Around& around, std::span<travel::LayerInput> rise,
-                 const Regions& tower, Notices& notices) {
+                 const Regions& others, Notices& notices) {
   const std::size_t needed = around.layers_needed();
-  if (needed == 0) return;
+  // What rises after others on a raft has the raft's skirt.
+  if (needed == 0 || rise.front().z > rise.front().height) return;
   std::vector<adhesion::PlateLayer> plate;
   std::vector<travel::LayerInput*> bottoms;  // of each height the first that is printed
   Feet feet;
-  if (!around.of_copy.empty() && !tower.empty()) feet.add(tower, around.plate);
+  if (!around.of_copy.empty() && !others.empty()) feet.add(others, around.plate);
   for (auto& layer : rise) {
     const bool goes_around = layer.time.number < needed;
     if (!goes_around && layer.z > thickest) break;
     if (goes_around && layer.time.number == plate.size())
       plate.push_back({{}, layer.height}), bottoms.push_back(&layer);
-    if (goes_around && plate.back().outlines.empty()) plate.back().outlines = tower;
+    if (goes_around && plate.back().outlines.empty()) plate.back().outlines = others;
     for (const auto& object : layer.objects) {
       const auto add = [&](Regions& to) { to.insert(to.end(), object.outline.begin(), object.outline.end()); };
       if (goes_around) add(plate.back().outlines);
@@ -93,8 +94,10 @@ void add_to_rise(const Settings& settings, const Around& around, std::span<trave
                                               .print_surface = &surface,
                                               .feet = feet.all()});
   for (std::size_t i = 0; i < built.layers.size(); ++i) {
-    bottoms[i]->adhesion = std::move(built.layers[i]);
-    for (auto& bead : bottoms[i]->adhesion) bead.scope = bottoms[i]->scope;
+    for (auto& bead : built.layers[i]) bead.scope = bottoms[i]->scope;
+    auto& to = bottoms[i]->adhesion;  // which a raft may be in
+    to.insert(to.begin(), std::make_move_iterator(built.layers[i].begin()),
+              std::make_move_iterator(built.layers[i].end()));
   }
   std::move(built.notices.begin(), built.notices.end(), std::back_inserter(notices));
 }
@@ -102,12 +105,12 @@ void add_to_rise(const Settings& settings, const Around& around, std::span<trave
 }  // namespace
 
 void add_adhesion(const Scopes& scopes, const std::vector<ScopeId>& feet, std::span<travel::LayerInput> layers,
-                  const Regions& tower, Notices& notices) {
+                  const Regions& others, Notices& notices) {
   const auto around = around_of(scopes, feet);
   for (std::size_t begin = 0; begin < layers.size();) {
     std::size_t end = begin + 1;
     while (end < layers.size() && !layers[end].time.comes_down) ++end;
-    add_to_rise(scopes[0], around, layers.subspan(begin, end - begin), tower, notices);
+    add_to_rise(scopes[0], around, layers.subspan(begin, end - begin), others, notices);
     begin = end;
   }
 }

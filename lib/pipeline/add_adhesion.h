@@ -12,8 +12,8 @@ namespace weft::pipeline {
 /// Skirt and brim around everything that rises together, put before the other beads of their layers. Copies may have
 /// brims of their own.
 /// @param feet  the settings of what each copy stands on; empty: all are as the plate has it
-/// @param tower what the tower covers, and the ooze shield
+/// @param others what tower, ooze shield and raft cover
 void add_adhesion(const Scopes& scopes, const std::vector<ScopeId>& feet, std::span<travel::LayerInput> layers,
-                  const Regions& tower, Notices& notices);
+                  const Regions& others, Notices& notices);
 
 }  // namespace weft::pipeline

@@ -3,6 +3,7 @@
 
 #include "adhesion/raft.h"
 #include "core/stop.h"
+#include "core/tolerances.h"
 #include "geometry/boolean.h"
 #include "geometry/offset.h"
 #include "infill/solid.h"
@@ -70,10 +71,9 @@ std::vector<adhesion::RaftLayer> layers_of(const Settings& settings) {
 PrintedLayers make_raft(const Settings& settings, const RaftScopes& scopes, const Regions& standing) {
   const Um nozzle = nozzle_of_raft(settings);
   // A part at the border stands there on the raft as well: of the beads only what bulges lies beyond the area.
-  constexpr Um rounding = 10;  // what the audit takes for it
-  Um beyond = rounding;
+  Um beyond = tolerances::border;
   for (const auto& layer : layers_of(settings))
-    beyond = std::max(beyond, rounding + rounded(flow::bulge_um(width_of(layer, nozzle), layer.height, 1)));
+    beyond = std::max(beyond, tolerances::border + rounded(flow::bulge_um(width_of(layer, nozzle), layer.height, 1)));
   Regions room = geometry::offset({{print_surface(settings.machine), {}}}, {.by = -beyond});
   Regions no_go;
   for (const Ring& ring : settings.machine.bed_exclude_areas) no_go.push_back({ring, {}});
@@ -102,10 +102,14 @@ Um raft_lift(const Settings& settings) {
 AdhesionSettings adhesion_of(const AdhesionSettings& settings) {
   constexpr Um usual_brim = 8_mm;  // where a brim is asked for, but not how wide
   AdhesionSettings out = settings;
-  if (settings.adhesion_type == AdhesionType::as_set) return out;
-  out.skirt_line_count = settings.adhesion_type == AdhesionType::skirt ? std::max(1, settings.skirt_line_count) : 0;
+  const AdhesionType type = settings.adhesion_type;
+  if (type == AdhesionType::as_set) return out;
+  if (type == AdhesionType::skirt)
+    out.skirt_line_count = std::max(1, settings.skirt_line_count);
+  else if (type != AdhesionType::raft)  // around a raft it fills the nozzle as well as around parts
+    out.skirt_line_count = 0;
   const Um brim = settings.brim_width > 0 ? settings.brim_width : usual_brim;
-  out.brim_width = settings.adhesion_type == AdhesionType::brim ? brim : 0;
+  out.brim_width = type == AdhesionType::brim ? brim : 0;
   return out;
 }
 

@@ -2,6 +2,7 @@
 #include "pipeline/arranged.h"
 
 #include "core/error.h"
+#include "core/tolerances.h"
 #include "geometry/boolean.h"
 #include "geometry/offset.h"
 #include "pipeline/add_raft.h"
@@ -70,12 +71,11 @@ Ways ways_of(const mesh::PlacedModel& model, double step_deg) {
 plate::NestBed bed_of(const Job& job, const mesh::Plate& free) {
   const Um skirt = skirt_of(job.settings);
   const auto within = skirt > 0 ? geometry::offset({{free.surface, {}}}, {.by = -skirt}) : Regions{};
-  constexpr Um rounding = 10;  // by which places may be nearer than they are told to be: the head has no play
   const Um apart = apart_of(job.settings);
   plate::NestBed out{within.empty() ? free.surface : within.front().outer,
                      free.keep_out,
                      job.placement.centre.value_or(weft::box_of(free.surface).centre()),
-                     std::max(job.placement.spacing, apart > 0 ? apart + rounding : 0),
+                     std::max(job.placement.spacing, apart > 0 ? apart + tolerances::border : 0),
                      brim_of(job.settings),
                      plate::Bar::none};
   if (const auto tower = tower_of(job.settings, out.surface)) out.keep_out.push_back(*tower);

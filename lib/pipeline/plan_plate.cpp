@@ -54,10 +54,11 @@ RaftScopes raft_scopes(Scopes& scopes) {
 }
 
 /// A raft lies under everything, which it lifts; it belongs to no object.
-void put_on_raft(Scopes& scopes, Sequence& sequence, std::vector<Copy>& copies, std::vector<PrintedLayers>& layers) {
+/// @return what of the bed it covers
+Regions put_on_raft(Scopes& scopes, Sequence& sequence, std::vector<Copy>& copies, std::vector<PrintedLayers>& layers) {
   const Settings& settings = scopes[0];
   const Um lift = raft_lift(settings);
-  if (lift == 0 || sequence.empty()) return;
+  if (lift == 0 || sequence.empty()) return {};
   Regions standing;
   for (const Copy& copy : copies)
     if (!layers[copy.of].empty())
@@ -67,6 +68,7 @@ void put_on_raft(Scopes& scopes, Sequence& sequence, std::vector<Copy>& copies, 
   layers.push_back(make_raft(settings, raft_scopes(scopes), standing));
   sequence.front().objects.push_back(static_cast<ObjectId>(copies.size()));
   copies.push_back({layers.size() - 1, {}, true, any_object});
+  return layers.back().front().outline;
 }
 
 /// Objects whose layers begin alike are one stack: it is as high as the tallest of them.
@@ -230,7 +232,7 @@ PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, c
   auto copies = copies_of(plate);
   give_seams(scopes, options.feet, copies);
   auto with_all = with_supports(sequence, std::move(supports), copies, layers);
-  put_on_raft(scopes, with_all, copies, layers);
+  const Regions raft = put_on_raft(scopes, with_all, copies, layers);
   const auto timeline = timeline_of(with_all, stacks_of(copies, layers));
   const auto read = travel::areas_read(settings.travel);
   const bool around_support = settings.travel.travel_avoid_supports && copies.size() > copies_on(plate);
@@ -247,8 +249,9 @@ PlannedPlate plan_plate(Scopes& scopes, ToolScopes& tools, const Plate& plate, c
   auto& plan = out.plan;
   plan.objects = labels_of(plate);
   auto passes = passes_of(settings, tools, scopes, inputs, plan.notices);
-  add_adhesion(scopes, by_copy(options.feet, copies, copies_on(plate)), inputs, beside_objects(settings, passes),
-               plan.notices);
+  Regions others = beside_objects(settings, passes);
+  others.insert(others.end(), raft.begin(), raft.end());
+  add_adhesion(scopes, by_copy(options.feet, copies, copies_on(plate)), inputs, others, plan.notices);
   give_adhesion(settings, tools, scopes, inputs);
   add_ooze_shield(settings, passes.shield, passes, inputs);
   add_prime_lines(settings, tools, scopes, passes, inputs, plan.notices);

@@ -14,29 +14,32 @@
 
 namespace weft::pipeline {
 
+namespace {
+
+Um width_of_skirt(const AdhesionSettings& around, const Settings& settings) {
+  if (around.skirt_line_count == 0) return 0;
+  const Um nozzle = settings.machine.nozzle_diameter;
+  const Um height = settings.layers.initial_layer_height.value_or(settings.layers.layer_height);
+  const Um line = length_or(around.skirt_brim_line_width, nozzle, flow::automatic_width(nozzle, height));
+  return around.skirt_gap + around.skirt_line_count * line;
+}
+
+}  // namespace
+
 Um brim_of(const Settings& settings) {
-  const auto& a = settings.adhesion;
-  const bool brim = a.adhesion_type == AdhesionType::brim || a.adhesion_type == AdhesionType::as_set;
-  return brim ? a.brim_width : 0;
+  return adhesion_of(settings.adhesion).brim_width;
 }
 
 Um skirt_of(const Settings& settings) {
-  const auto& a = settings.adhesion;
-  const bool skirt = a.adhesion_type == AdhesionType::skirt || a.adhesion_type == AdhesionType::as_set;
-  if (!skirt || a.skirt_line_count == 0 || a.adhesion_outside == AdhesionOutside::clip) return 0;
-  const Um nozzle = settings.machine.nozzle_diameter;
-  const Um height = settings.layers.initial_layer_height.value_or(settings.layers.layer_height);
-  const Um line = length_or(a.skirt_brim_line_width, nozzle, flow::automatic_width(nozzle, height));
-  return a.skirt_gap + a.skirt_line_count * line;
+  const auto around = adhesion_of(settings.adhesion);
+  if (around.skirt_line_count == 0 || around.adhesion_outside == AdhesionOutside::clip) return 0;
+  const bool raft = around.adhesion_type == AdhesionType::raft;  // which the skirt lies around
+  return (raft ? settings.raft.raft_margin : 0) + width_of_skirt(around, settings);
 }
 
 Um beside_of(const Settings& settings) {
   const auto around = adhesion_of(settings.adhesion);
-  const Um nozzle = settings.machine.nozzle_diameter;
-  const Um height = settings.layers.initial_layer_height.value_or(settings.layers.layer_height);
-  const Um line = length_or(around.skirt_brim_line_width, nozzle, flow::automatic_width(nozzle, height));
-  const Um brim = around.brim_width > 0 ? around.brim_gap + around.brim_width : 0;
-  return brim + (around.skirt_line_count > 0 ? around.skirt_gap + around.skirt_line_count * line : 0);
+  return (around.brim_width > 0 ? around.brim_gap + around.brim_width : 0) + width_of_skirt(around, settings);
 }
 
 Um apart_of(const Settings& settings) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/support_object.h"
 
+#include "core/tolerances.h"
 #include "geometry/boolean.h"
 #include "geometry/offset.h"
 #include "geometry/spatial_index.h"
@@ -297,7 +298,7 @@ std::vector<SupportOf> rooms_of(const Scopes& scopes, const Plate& plate) {
     width = std::max(
         width, length_or(own.support.support_line_width, own.machine.nozzle_diameter, own.machine.nozzle_diameter));
   }
-  const Um half_bead = (width + 1) / 2 + 10;  // and what the audit takes for rounding
+  const Um half_bead = (width + 1) / 2 + tolerances::border;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     out[i].on_raft = settings.adhesion.adhesion_type == AdhesionType::raft;
     if (out[i].on_raft) out[i].floor = -settings.raft.raft_airgap;

@@ -30,12 +30,23 @@ constexpr std::array extruder_keys{ExtruderKey{"extruder", "extruder_nr"},
                                    ExtruderKey{"infill_extruder", "infill_extruder_nr"},
                                    ExtruderKey{"solid_infill_extruder", "top_bottom_extruder_nr"}};
 
+/// Words of Cura's that mean a value of another setting here.
+struct CuraWord {
+  std::string_view theirs, value, ours, text;
+};
+constexpr std::array cura_words{
+    CuraWord{"travel_retract_before_outer_wall", "True", "retraction_combing_max_distance_wall_0", "0"},
+    CuraWord{"travel_retract_before_outer_wall", "False", "retraction_combing_max_distance_wall_0", "auto"}};
+
 class Layer {
  public:
   Layer(const Settings& plate, const std::string& where, Overlay& to, Notices& notices)
       : plate_(plate), where_(where), to_(to), notices_(notices) {}
 
   void cura(const std::string& key, const std::string& value) {
+    const auto* word = std::find_if(cura_words.begin(), cura_words.end(),
+                                    [&](const CuraWord& w) { return w.theirs == key && w.value == value; });
+    if (word != cura_words.end()) return add(std::string(word->ours), std::string(word->text), key);
     const auto* row = find_setting(key);
     if (!row) return left_out(key, value, "weft has no such setting");
     if (std::find(infill_files.begin(), infill_files.end(), row->key) != infill_files.end())

@@ -23,6 +23,7 @@ struct Held {
   std::vector<Junction>& last() { return pieces.back().path; }
   Point begin() const { return pieces.front().path.front().at; }
   Point end() const { return pieces.back().path.back().at; }
+  bool outer_wall() const { return pieces.front().role == Role::outer_wall; }
   Um drop() const { return pieces.front().below.empty() ? 0 : pieces.front().below.front(); }
 };
 
@@ -55,9 +56,9 @@ class Writer {
     drop_ = next.drop();
     if (held_.empty()) {
       label(block.object);
-      first_travel(next.begin());
+      first_travel(next);
     } else {
-      lay_down(next.begin(), block.object);
+      lay_down(next, block.object);
     }
     held_ = std::move(next);
     at_ = held_.end();
@@ -168,11 +169,12 @@ class Writer {
     if (draw) plan_.steps.push_back(Prime{});
   }
 
-  void first_travel(Point begin) {
+  void first_travel(const Held& next) {
+    const Point begin = next.begin();
     // From where start G-code ends the nozzle comes full: without a retraction it strings over the bed.
     if (!at_) return go({{begin}, false, false, false}, draws_back(), {});
     if (begin == *at_) return;
-    const Way way = router_.way(*at_, begin);
+    const Way way = router_.way(*at_, begin, next.outer_wall());
     rise_ = true;
     go(way, (way.retract || retraction_.retract_at_layer_change) && draws_back(), {});
   }
@@ -200,8 +202,9 @@ class Writer {
   }
 
   /// Puts the held bead down and goes to where the next one begins.
-  void lay_down(Point begin, std::uint32_t next_object) {
-    Way way = begin == *at_ ? Way{} : router_.way(*at_, begin);
+  void lay_down(const Held& next, std::uint32_t next_object) {
+    const Point begin = next.begin();
+    Way way = begin == *at_ ? Way{} : router_.way(*at_, begin, next.outer_wall());
     for (const auto& piece : held_.pieces) window_.feed(volume_mm3(piece) / layer_.input.filament_area_mm2);
     bool draw = way.retract && draws_back();
     const Polyline gap = held_.closed_wall ? cut_end(held_.last(), gap_um()) : Polyline{};
@@ -221,7 +224,7 @@ class Writer {
       return;
     }
     if (!gap.empty() || !run_on.empty() || !over.empty()) {
-      way = router_.way(*at_, begin);
+      way = router_.way(*at_, begin, next.outer_wall());
       draw = draw || (way.retract && draws_back());
     }
     go(way, draw, std::move(over));

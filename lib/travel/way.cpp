@@ -19,18 +19,17 @@ double length_from(Point p, const Polyline& way) {
   return sum;
 }
 
-Way Router::way(Point p, Point q) const {
+Way Router::way(Point p, Point q, bool to_outer_wall) const {
   auto inside = off_outer_walls(p, q);
   if (!inside || leaves_room(p, inside->points)) return direct(p, q);
   Polyline& points = inside->points;
   const double length = length_from(p, points);
   if (too_long(length, distance(p, q))) return direct(p, q);
-  const bool far = settings_.retraction_combing_max_distance && length > *settings_.retraction_combing_max_distance;
   const bool strict = (inside->on_outer_walls || !retraction_.retract_only_when_crossing) &&
                       length >= retraction_.retraction_min_travel;
   // Checked all the same: the boundary may be moved outwards, and an outer wall may leave the outline where it is thin.
   const bool crosses = leaves_outline(p, points);
-  return {std::move(points), far || strict || crosses, crosses, false};
+  return {std::move(points), drains(length, to_outer_wall) || strict || crosses, crosses, false};
 }
 
 /// A way inside, through necks where there is none in the comb area. One that leads over an outer wall to come to that
@@ -100,6 +99,15 @@ const Comb& Router::half_a_bead_in() const {
 bool Router::too_long(double combed_um, double straight_um) const {
   if (!settings_.retraction_combing_max_detour || !retraction_.retraction_enable) return false;
   return combed_um - straight_um > settings_.retraction_combing_max_detour->of(rounded(straight_um));
+}
+
+/// Whether a way inside is so long that the nozzle comes to its end with less than it left with. Where an outer wall
+/// begins that is seen; a way too short for any retraction is none the less.
+bool Router::drains(double combed_um, bool to_outer_wall) const {
+  const auto& any = settings_.retraction_combing_max_distance;
+  const auto& outer = settings_.retraction_combing_max_distance_wall_0;
+  return (any && combed_um > *any) ||
+         (to_outer_wall && outer && combed_um > *outer && combed_um >= retraction_.retraction_min_travel);
 }
 
 /// Over the part's edge: round the other parts where asked, round what may not be entered in any case.

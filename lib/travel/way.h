@@ -27,7 +27,8 @@ class Router {
         outline_(layer.outline),
         obstacles_(settings, layer.input) {}
 
-  Way way(Point p, Point q) const;
+  /// @param to_outer_wall  whether one begins at q
+  Way way(Point p, Point q, bool to_outer_wall = false) const;
 
  private:
   bool leaves_outline(Point p, const Polyline& way) const;
@@ -50,6 +51,7 @@ class Router {
   bool apart(Point p, Point q) const;
   const Comb& half_a_bead_in() const;
   bool too_long(double combed_um, double straight_um) const;
+  bool drains(double combed_um, bool to_outer_wall) const;
   Way direct(Point p, Point q) const;
 
   const TravelSettings& settings_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What another tool prints has lines of that tool's nozzle.
 #include "model_of_boxes.h"
-#include "pipeline/pipeline.h"
+#include "plain_job.h"
 #include "settings/overlay.h"
 
 #include <algorithm>
@@ -24,12 +24,8 @@ struct Beads {
 
 Beads printed(const std::vector<std::pair<std::string, std::string>>& said) {
   const ModelOfBoxes tee({{-3, -10, 0, 3, 10, 16}, {-20, -10, 15, 20, 10, 18}});
-  Job job;
-  job.models = {tee.path()};
+  Job job = test::plain_job({tee.path()});
   auto& s = job.settings;
-  s.machine.machine_width = s.machine.machine_depth = s.machine.machine_height = 200_mm;
-  s.machine.home_position = Ring{{0, 0}};
-  s.gcode.machine_start_gcode = "G28";
   s.support.support_enable = true;
   s.support.support_structure = SupportStructure::normal;
   for (const auto& [key, text] : said) {

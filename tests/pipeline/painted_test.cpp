@@ -3,7 +3,7 @@
 #include "core/error.h"
 #include "cuboid.h"
 #include "mesh/zip_fixture.h"
-#include "pipeline/pipeline.h"
+#include "plain_job.h"
 #include "settings/overlay.h"
 
 #include <array>
@@ -87,13 +87,8 @@ struct Outcome {
 
 /// With three tools, solid.
 Outcome printed(const std::string& file, const std::vector<std::pair<std::string, std::string>>& more = {}) {
-  Job job;
-  job.models = {file};
-  auto& machine = job.settings.machine;
-  machine.machine_width = machine.machine_depth = machine.machine_height = 200_mm;
-  machine.home_position = Ring{{0, 0}};
+  Job job = test::plain_job({file});
   job.settings.tools.extruders_enabled_count = 3;
-  job.settings.gcode.machine_start_gcode = "G28";
   job.settings.infill.infill_sparse_density = 100;
   job.settings.adhesion.adhesion_type = AdhesionType::none;
   for (const auto& [key, text] : more) {

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "cuboid.h"
 #include "pipeline/pipeline.h"
+#include "plain_job.h"
 
 #include <algorithm>
 #include <map>
@@ -38,11 +39,8 @@ Object object(std::string name, Point3 at, Point3 size) {
 }
 
 Job plain_job() {
-  Job job;
+  Job job = test::plain_job();
   auto& s = job.settings;
-  s.machine.machine_width = s.machine.machine_depth = s.machine.machine_height = 200_mm;
-  s.machine.home_position = Ring{{0, 0}};
-  s.gcode.machine_start_gcode = "G28";
   s.gcode.gcode_label_objects = ObjectLabels::firmware;
   s.machine.firmware = Firmware::klipper;
   s.adhesion.skirt_line_count = 0;

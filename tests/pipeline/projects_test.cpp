@@ -5,6 +5,7 @@
 #include "mesh/zip_fixture.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/project.h"
+#include "plain_job.h"
 
 #include <algorithm>
 #include <cmath>
@@ -121,13 +122,8 @@ std::string of_orca(const Pieces& pieces, const std::vector<std::pair<std::strin
 }
 
 Job plain_job(const std::string& file) {
-  Job job;
-  job.models = {file};
-  auto& s = job.settings;
-  s.machine.machine_width = s.machine.machine_depth = s.machine.machine_height = 200_mm;
-  s.machine.home_position = Ring{{0, 0}};
-  s.gcode.machine_start_gcode = "G28";
-  s.adhesion.skirt_line_count = 0;
+  Job job = test::plain_job({file});
+  job.settings.adhesion.skirt_line_count = 0;
   return job;
 }
 
@@ -295,6 +291,24 @@ TEST_CASE("project: one of Cura has objects with settings, and meshes that chang
              Contains("object 'thing': no_such_thing = 7 is left out: weft has no such setting") &&
                  Contains("object 'thing': infill_density_image = /etc/passwd is left out: a project does not say "
                           "which files of this machine are read"));
+}
+
+TEST_CASE("project: Cura's retraction before outer walls is a length of ways inside here") {
+  const Folder folder;
+  for (const auto& [theirs, ours] : {std::pair{"True", "0"}, {"False", "auto"}}) {
+    CAPTURE(theirs);
+    const std::string said = std::string("<metadatagroup><metadata name=\"cura:travel_retract_before_outer_wall\" "
+                                         "type=\"xs:string\">") +
+                             theirs + "</metadata></metadatagroup>";
+    const auto file = folder.write(
+        "w.3mf", fixtures::three_mf(model("<object id=\"1\" name=\"thing\" type=\"model\">" + said +
+                                              mesh_of({body}) + "</object>",
+                                          "<item objectid=\"1\"/>")));
+    const auto out = printed(plain_job(file));
+    CHECK(out.report.warnings.empty());
+    CHECK_THAT(out.text, Contains(std::string("; weft_overlay = object 'thing': retraction_combing_max_distance_wall_0 = ") +
+                                  ours + " ("));
+  }
 }
 
 TEST_CASE("project: Cura's support mesh is printed though support is off, and what meets nothing is told") {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "model_of_boxes.h"
-#include "pipeline/pipeline.h"
+#include "plain_job.h"
 
 #include <algorithm>
 #include <sstream>
@@ -14,16 +14,30 @@ using weft::test::ModelOfBoxes;
 
 namespace {
 
-/// The least X at which lines of that kind are laid, mm.
-double least_x(const std::string& gcode, const std::string& kind) {
+std::string printed(const Job& job) {
+  Report report;
+  const auto passed = run(job, {}, report);
+  REQUIRE(passed);
+  return std::string(passed->gcode());
+}
+
+/// Where lines of a kind are laid, mm.
+struct Laid {
+  double least_x = 1e9, lowest = 1e9, highest = 0;
+};
+
+Laid laid(const std::string& gcode, const std::string& kind) {
   std::istringstream lines(gcode);
-  double out = 1e9;
+  Laid out;
+  double z = 0;
   bool own = false;
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with(";TYPE:")) own = line == ";TYPE:" + kind;
+    if (line.starts_with(";Z:")) z = std::stod(line.substr(3));
     const auto x = line.find(" X"), e = line.find(" E");
-    if (own && line.starts_with("G1") && x != std::string::npos && e != std::string::npos)
-      out = std::min(out, std::stod(line.substr(x + 2)));
+    if (!own || !line.starts_with("G1") || x == std::string::npos || e == std::string::npos) continue;
+    out.least_x = std::min(out.least_x, std::stod(line.substr(x + 2)));
+    out.lowest = std::min(out.lowest, z), out.highest = std::max(out.highest, z);
   }
   return out;
 }
@@ -32,22 +46,39 @@ double least_x(const std::string& gcode, const std::string& kind) {
 
 TEST_CASE("raft: at the border of the bed it lies under the outermost walls, too") {
   const ModelOfBoxes model({{0, 0, 0, 20, 20, 2}});
-  Job job;
-  job.models = {model.path()};
-  auto& s = job.settings;
-  s.machine.machine_width = s.machine.machine_depth = s.machine.machine_height = 100_mm;
-  s.machine.home_position = Ring{{0, 0}};
-  s.gcode.machine_start_gcode = "G28";
-  s.adhesion.adhesion_type = AdhesionType::raft;
+  Job job = test::plain_job({model.path()}, 100_mm);
+  auto& adhesion = job.settings.adhesion;
+  adhesion.adhesion_type = AdhesionType::raft, adhesion.skirt_line_count = 0;  // which would lie beyond the bed
   job.placement.centre = {10'050, 50'000};  // its wall's outer edge at x 0.05
-  Report report;
-  const auto passed = run(job, {}, report);  // and nothing of the raft beyond the bed
-  REQUIRE(passed);
-  const std::string text{passed->gcode()};
-  CHECK(least_x(text, "External perimeter") == Approx(0.05 + 0.2).margin(0.05));
+  const auto text = printed(job);  // and nothing of the raft beyond the bed
+  CHECK(laid(text, "External perimeter").least_x == Approx(0.05 + 0.2).margin(0.05));
   for (const char* kind : {"Support material", "Support material interface"}) {
     INFO(kind);
-    CHECK(least_x(text, kind) > 0.1);
-    CHECK(least_x(text, kind) < 0.4);
+    CHECK(laid(text, kind).least_x > 0.1);
+    CHECK(laid(text, kind).least_x < 0.4);
   }
+}
+
+TEST_CASE("raft: the skirt lies around it, on the bed alone") {
+  const ModelOfBoxes model({{0, 0, 0, 10, 10, 2}});
+  Job job = test::plain_job({model.path()});
+  job.settings.adhesion.adhesion_type = AdhesionType::raft;
+  const auto gap = to_mm(job.settings.adhesion.skirt_gap);
+  auto text = printed(job);
+  const Laid raft = laid(text, "Support material"), skirt = laid(text, "Skirt/Brim");
+  CHECK(skirt.least_x == Approx(raft.least_x - gap).margin(0.6));
+  CHECK(skirt.highest == Approx(raft.lowest));
+  CHECK(text.find(";TYPE:Skirt/Brim") < text.find(";TYPE:Support material"));
+
+  job.placement.copies = 2;  // what is printed after others stands as high as they do
+  auto& plate = job.settings.plate;
+  plate.print_sequence = PrintSequence::one_at_a_time;
+  plate.machine_head_profile = "0: -10x-10, 10x-10, 10x10, -10x10";
+  plate.gantry_height = 50_mm;
+  text = printed(job);
+  CHECK(laid(text, "Skirt/Brim").highest == Approx(raft.lowest));
+  CHECK(laid(text, "Support material").lowest == Approx(raft.lowest));
+
+  job.settings.adhesion.skirt_line_count = 0;
+  CHECK(printed(job).find(";TYPE:Skirt/Brim") == std::string::npos);
 }

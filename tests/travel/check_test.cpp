@@ -30,6 +30,14 @@ TEST_CASE("travel: each setting that cannot matter, or contradicts another, is n
            [](TravelSettings& t, RetractionSettings&) {
              t.retraction_combing_max_distance = 9000, t.retraction_combing = Combing::off;
            }},
+      Case{"retraction_combing_max_distance_wall_0 has no effect: retraction_combing is off",
+           [](TravelSettings& t, RetractionSettings&) {
+             t.retraction_combing_max_distance_wall_0 = 9000, t.retraction_combing = Combing::off;
+           }},
+      Case{"retraction_combing_max_distance_wall_0 has no effect: retraction_combing_max_distance,",
+           [](TravelSettings& t, RetractionSettings&) {
+             t.retraction_combing_max_distance_wall_0 = 9000, t.retraction_combing_max_distance = 8000;
+           }},
       Case{"retraction_combing_max_detour has no effect",
            [](TravelSettings& t, RetractionSettings&) {
              t.retraction_combing_max_detour = length(9000), t.retraction_combing = Combing::off;

@@ -285,6 +285,50 @@ TEST_CASE("travel: an offset that closes the boundary leaves travels there to re
         sample::count(plan({}, {}, {sample::layer(sample::plate())})).retractions);
 }
 
+TEST_CASE("travel: a way inside is retracted from a length of its own on where an outer wall begins", "[travel]") {
+  const auto layer = sample::layer({sample::rectangle({0, 0}, {40000, 40000})});
+  const auto retracted = [&](const TravelSettings& settings, Um length, bool to_outer_wall) {
+    const auto prepared = prepare(settings, layer);
+    const RetractionSettings retraction;
+    const Router router(settings, retraction, prepared);
+    return router.way({5000, 20000}, {5000 + length, 20000}, to_outer_wall).retract;
+  };
+  TravelSettings settings;
+  settings.retraction_combing_max_distance_wall_0 = 6000;
+  CHECK(retracted(settings, 6100, true));
+  CHECK_FALSE(retracted(settings, 5900, true));
+  CHECK_FALSE(retracted(settings, 30000, false));
+  settings.retraction_combing_max_distance_wall_0 = 0;
+  const Um least = RetractionSettings{}.retraction_min_travel;
+  CHECK(retracted(settings, least + 100, true));
+  CHECK_FALSE(retracted(settings, least - 100, true));
+  settings.retraction_combing_max_distance_wall_0.reset();
+  CHECK_FALSE(retracted(settings, 30000, true));
+  settings.retraction_combing_max_distance = 8000;  // holds for all beads
+  CHECK(retracted(settings, 8100, true));
+  CHECK(retracted(settings, 8100, false));
+}
+
+TEST_CASE("travel: it is the bead that a way leads to that says whether an outer wall begins", "[travel]") {
+  // Infill at the left, a rib's wall at the right.
+  auto layer = sample::layer({sample::rectangle({0, 0}, {40000, 10000})});
+  auto& beads = layer.objects[0].beads;
+  beads.clear();
+  const auto add = [&](Um x, Role role) {
+    auto& bead = beads.emplace_back();
+    bead.path = {{{x, 3000}, sample::width, 1.F}, {{x, 7000}, sample::width, 1.F}};
+    bead.role = role;
+  };
+  add(35000, Role::outer_wall), add(5000, Role::infill);
+  const auto retractions = [&](bool infill_first, std::optional<Um> from) {
+    TravelSettings settings;
+    settings.infill_before_walls = infill_first, settings.retraction_combing_max_distance_wall_0 = from;
+    return sample::count(plan(settings, {}, {layer})).retractions;
+  };
+  CHECK(retractions(true, 10000) == retractions(true, {}) + 1);
+  CHECK(retractions(false, 10000) == retractions(false, {}));  // to the infill
+}
+
 TEST_CASE("travel: a combed way much longer than the straight one gives way to a retraction", "[travel]") {
   auto settings = combing(Combing::all);
   settings.retraction_combing_max_detour.reset();

@@ -50,8 +50,8 @@ struct AdhesionSettings {
 
 inline constexpr Rows adhesion_schema{
     setting("adhesion_type", Scope::plate, &AdhesionSettings::adhesion_type,
-            "What holds the print to the bed: nothing, a skirt alone, a brim alone, a raft, or what skirt_line_count "
-            "and brim_width say."),
+            "What holds the print to the bed: nothing, a skirt alone, a brim alone, a raft with the skirt that "
+            "skirt_line_count says, or what skirt_line_count and brim_width say."),
     setting("skirt_line_count", Scope::plate, &AdhesionSettings::skirt_line_count, Unit::none, 0, 1000,
             "Loops of the skirt around everything on the bed."),
     setting("skirt_gap", Scope::plate, &AdhesionSettings::skirt_gap, Unit::mm, 0_mm, 200_mm,

@@ -55,6 +55,7 @@ struct TravelSettings {
   Combing retraction_combing = Combing::no_outer_surfaces;
   Um retraction_combing_offset = 0_mm;
   std::optional<Um> retraction_combing_max_distance;
+  std::optional<Um> retraction_combing_max_distance_wall_0 = 5_mm;
   std::optional<LengthOrShare> retraction_combing_max_detour = length(20_mm);
   bool travel_avoid_other_parts = false;
   Um travel_avoid_distance = 0.625_mm;
@@ -99,6 +100,11 @@ inline constexpr Rows travel_schema{
             "with retraction_combing = all."),
     setting("retraction_combing_max_distance", Scope::layer, &TravelSettings::retraction_combing_max_distance, Unit::mm,
             0_mm, 10000_mm, "Combed travels longer than this are retracted; auto: never for their length."),
+    setting("retraction_combing_max_distance_wall_0", Scope::layer,
+            &TravelSettings::retraction_combing_max_distance_wall_0, Unit::mm, 0_mm, 10000_mm,
+            "Combed travels to an outer wall longer than this, and than retraction_min_travel, are retracted: what the "
+            "nozzle loses on the way is missing where the wall, which is seen, begins; auto: as travels to other "
+            "beads."),
     setting("retraction_combing_max_detour", Scope::layer, &TravelSettings::retraction_combing_max_detour, Unit::mm,
             0_mm, 10000_mm,
             "Combed travels longer than the straight way by more than this go straight and are retracted; a share is "
