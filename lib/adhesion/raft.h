@@ -14,7 +14,8 @@ enum class RaftPart : std::uint8_t { base, between, surface };
 struct RaftLayer {
   RaftPart part = RaftPart::base;
   Um z = 0, height = 0;
-  Um spacing = 0;  ///< of lines; 0: they lie side by side
+  Um spacing = 0;       ///< of lines; 0: they lie side by side
+  Um open_spacing = 0;  ///< … where support alone stands on it
 };
 
 /// The layers of a raft, upwards from the bed. Post: not empty.

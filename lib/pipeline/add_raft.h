@@ -9,9 +9,15 @@ struct RaftScopes {
   ScopeId base = 0, between = 0, surface = 0;
 };
 
-/// The layers of the raft under what stands on the plate, with their beads.
-/// @param standing outlines of what stands on it, on the plate
-PrintedLayers make_raft(const Settings& settings, const RaftScopes& scopes, const Regions& standing);
+/// Outlines of what stands on a raft, on the plate.
+struct OnRaft {
+  Regions parts, support;
+};
+
+/// The layers of the raft under what stands on the plate, with their beads. Under support, which nothing has to come
+/// off and whose underside nobody sees, its surface is as open as the layers between, and no larger than what stands
+/// there.
+PrintedLayers make_raft(const Settings& settings, const RaftScopes& scopes, const OnRaft& standing);
 
 /// How far it lifts the parts: its height and the gap on it; 0 without a raft.
 Um raft_lift(const Settings& settings);

@@ -30,6 +30,7 @@
 #include "pipeline/thumbnails.h"
 #include "pipeline/toolpath_pictures.h"
 #include "pipeline/vase.h"
+#include "pipeline/verdict.h"
 #include "settings/catalogue.h"
 #include "settings/tools.h"
 #include "tasks/parallel.h"
@@ -122,36 +123,6 @@ void note_statistics(const Settings& settings, const Statistics& s, Report& repo
                    static_cast<std::size_t>(s.travel.retractions), static_cast<std::size_t>(s.travel.wall_crossings)};
 }
 
-void note_audit(const audit::Report& a, Report& report) {
-  auto& out = report.audit;
-  out.verdict = audit::name_of(a.verdict);
-  out.summary = audit::summary(a);
-  out.checked_moves = static_cast<std::size_t>(a.checked_moves);
-  out.not_audited = static_cast<std::size_t>(a.unaudited_moves);
-  out.violation_count = static_cast<std::size_t>(a.violation_count);
-  for (const auto& f : a.findings)
-    out.violations.push_back({std::string(audit::name_of(f.move)),
-                              f.feature,
-                              std::string(audit::name_of(f.side)),
-                              f.object,
-                              f.text,
-                              f.setting,
-                              {to_mm(f.at.x), to_mm(f.at.y), to_mm(f.at.z)},
-                              to_mm(f.outside),
-                              f.layer,
-                              static_cast<std::size_t>(f.line)});
-  for (const auto& u : a.unaudited)
-    out.gaps.push_back({u.cause.command, std::string(u.cause.why), static_cast<std::size_t>(u.cause.line),
-                        static_cast<std::size_t>(u.count)});
-  for (const auto& o : a.opaque) out.opaque.push_back(o.name);
-  for (std::size_t i = 0; i < a.reach_beyond.size(); ++i)
-    if (a.reach_beyond[i] > 0)
-      out.reach_beyond_mm.emplace_back(audit::name_of(static_cast<audit::Side>(i)), to_mm(a.reach_beyond[i]));
-  report.warnings.insert(report.warnings.end(), a.notices.begin(), a.notices.end());
-  if (a.verdict == audit::Verdict::annotated)
-    report.warnings.push_back({"audit_annotated", "the boundary audit found " + out.summary});
-}
-
 /// The profile's own G-code, so that what is found in it names its setting.
 void name_custom_code(const GcodeSettings& g, audit::Check& check) {
   check.custom_code("machine_start_gcode", g.machine_start_gcode);
@@ -164,23 +135,6 @@ void name_custom_code(const GcodeSettings& g, audit::Check& check) {
   check.custom_code("color_change_gcode", g.color_change_gcode);
   check.custom_code("between_objects_gcode", g.between_objects_gcode);
   check.custom_code("machine_end_gcode", g.machine_end_gcode);
-}
-
-std::optional<audit::Passed> verdict_of(audit::Check& check, const Job& job, Report& report) {
-  const Stopwatch stopwatch(report.timings_ms[Stage::audit]);
-  try {
-    auto passed = check.passed();
-    note_audit(passed.report(), report);
-    report.status =
-        passed.report().verdict == audit::Verdict::annotated ? Report::Status::annotated : Report::Status::ok;
-    if (job.hash_gcode) report.gcode_sha256 = sha256(passed.gcode());
-    return passed;
-  } catch (const audit::Rejected& rejected) {
-    note_audit(rejected.report(), report);
-    report.status = Report::Status::rejected;
-    report.error = rejected.what();
-    return std::nullopt;
-  }
 }
 
 /// A job that prints nothing is not done: a model in metres, or thinner than a layer, would pass every check.

@@ -59,10 +59,14 @@ Regions put_on_raft(Scopes& scopes, Sequence& sequence, std::vector<Copy>& copie
   const Settings& settings = scopes[0];
   const Um lift = raft_lift(settings);
   if (lift == 0 || sequence.empty()) return {};
-  Regions standing;
-  for (const Copy& copy : copies)
-    if (!layers[copy.of].empty())
-      for (auto& region : weft::moved(layers[copy.of].front().outline, copy.by)) standing.push_back(std::move(region));
+  OnRaft standing;
+  for (const Copy& copy : copies) {
+    if (layers[copy.of].empty()) continue;
+    const PrintedLayer& lowest = layers[copy.of].front();
+    if (lowest.z > lowest.height) continue;  // support that stands on the part alone
+    auto& to = copy.support ? standing.support : standing.parts;
+    for (auto& region : weft::moved(lowest.outline, copy.by)) to.push_back(std::move(region));
+  }
   for (auto& list : layers)
     for (auto& layer : list) layer.z += lift;
   layers.push_back(make_raft(settings, raft_scopes(scopes), standing));

@@ -49,8 +49,9 @@ void append(Notices& to, std::vector<PlacedNotice> from, Point offset) {
 
 using Walls = ResultOf<Stage::walls>;
 
-/// What walls tell of an object, one notice a kind: of its first place, and how many more there are.
-void tell_walls(const std::string& object, Walls& walls, Point offset, Notices& to) {
+/// What walls tell of an object, one notice a kind: of its first place, and how many more there are in the layers that
+/// have walls.
+void tell_walls(const std::string& object, Walls& walls, const Sample& sample, Point offset, Notices& to) {
   struct Kind {
     PlacedNotice first;
     std::size_t count = 0;
@@ -69,6 +70,7 @@ void tell_walls(const std::string& object, Walls& walls, Point offset, Notices& 
     if (count > 1)
       message +=
           fmt::format(", and so in {} more place{} up to layer {}", count - 1, count == 2 ? "" : "s", last_layer);
+    if (!sample.all()) message += fmt::format("; one of {} layers was looked at", sample.stride);
     to.push_back({std::move(first.code), std::move(message)});
   }
 }
@@ -374,10 +376,9 @@ void tell_scopes(const Areas& areas, const std::vector<std::uint32_t>& inner_bea
 
 /// @param at where the object's first copy stands: places are told as they are on the bed
 /// @param held of each layer, what rests on support; empty: nothing does
-PrintedLayers put_together(const std::string& object, Cuts cuts, const std::vector<Areas>& areas, Walls walls,
-                           Fills fills, const std::vector<Regions>& held, Point at, Notices& notices) {
+PrintedLayers put_together(Cuts cuts, const std::vector<Areas>& areas, Walls walls, Fills fills,
+                           const std::vector<Regions>& held, Point at, Notices& notices) {
   PrintedLayers out(cuts.size());
-  tell_walls(object, walls, at, notices);
   for (std::size_t i = 0; i < out.size(); ++i) {
     auto& layer = cuts[i].layer;
     auto& fill = fills[i];
@@ -451,8 +452,10 @@ PrintedLayers print_object(const Running& job, const Scopes& all_scopes, const T
   });
   auto cuts = std::move(sliced).take();
   move_outlines(wall_hands, all_scopes, areas, cuts);
-  auto out = put_together(object.name, std::move(cuts), areas, std::move(walled).take(), std::move(filled).take(),
-                          support.held, at, notices);
+  Walls walls = std::move(walled).take();
+  tell_walls(object.name, walls, job.sample, at, notices);
+  auto out =
+      put_together(std::move(cuts), areas, std::move(walls), std::move(filled).take(), support.held, at, notices);
   drop_empty_top(job.sample, out);
   for (auto& layer : out) tools.tell(layer.beads, all_scopes);
   if (job.sample.all()) tell_infill(all_scopes[scopes.front().of_mix.front()], out, job.report);

@@ -39,17 +39,19 @@ void tell_marks(const Settings& settings, const Object& object, const std::vecto
   for (const auto& mark : object.marks) {
     if (!is_of(mark, mesh::MarkKind::support)) continue;
     const auto told = [&](std::string what) {
-      notices.push_back({"support_mesh_cut",
-                         fmt::format("{}: {} and is left out", mark.name.empty() ? object.name : mark.name, what)});
+      notices.push_back({"support_mesh_cut", fmt::format("{}: {}", mark.name.empty() ? object.name : mark.name, what)});
     };
     if (const Um above = box_of(mark.mesh).max.z - top; above > settings.layers.layer_height / 2)
-      told(fmt::format("what is higher than {} mm lies above '{}'", to_mm(top), object.name));
+      told(fmt::format(
+          "what is higher than {} mm lies above '{}', whose support ends below it, and is left out; name the "
+          "mesh after the model that it is to hold",
+          to_mm(top), object.name));
     const Regions outside = support.bounded ? beyond(mark.mesh, support.room, line) : Regions{};
     if (outside.empty()) continue;
     const Point at = outside.front().outer.front() + object.copies.front();
     told(
         fmt::format("{:.1f} mm² of it, first at ({:.3f}, {:.3f}), lies beyond the print surface, in a no-go area or "
-                    "at another object",
+                    "at another object, and is left out",
                     area_mm2(outside), to_mm(at.x), to_mm(at.y)));
   }
 }

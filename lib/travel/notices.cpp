@@ -29,9 +29,8 @@ void check_combing(const TravelSettings& t, const RetractionSettings& r, Check& 
                        "retraction_combing_offset", "it moves the boundary of retraction_combing = all only");
   check.without_effect(off && t.retraction_combing_max_distance, "retraction_combing_max_distance",
                        "retraction_combing is off");
-  check.without_effect(
-      off && t.retraction_combing_max_distance_wall_0 != usual.retraction_combing_max_distance_wall_0,
-      "retraction_combing_max_distance_wall_0", "retraction_combing is off");
+  check.without_effect(off && t.retraction_combing_max_distance_wall_0 != usual.retraction_combing_max_distance_wall_0,
+                       "retraction_combing_max_distance_wall_0", "retraction_combing is off");
   check.without_effect(!off && t.retraction_combing_max_distance && t.retraction_combing_max_distance_wall_0 &&
                            t.retraction_combing_max_distance_wall_0 != usual.retraction_combing_max_distance_wall_0 &&
                            *t.retraction_combing_max_distance_wall_0 >= *t.retraction_combing_max_distance,

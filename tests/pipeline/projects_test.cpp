@@ -297,17 +297,18 @@ TEST_CASE("project: Cura's retraction before outer walls is a length of ways ins
   const Folder folder;
   for (const auto& [theirs, ours] : {std::pair{"True", "0"}, {"False", "auto"}}) {
     CAPTURE(theirs);
-    const std::string said = std::string("<metadatagroup><metadata name=\"cura:travel_retract_before_outer_wall\" "
-                                         "type=\"xs:string\">") +
+    const std::string said = std::string(
+                                 "<metadatagroup><metadata name=\"cura:travel_retract_before_outer_wall\" "
+                                 "type=\"xs:string\">") +
                              theirs + "</metadata></metadatagroup>";
-    const auto file = folder.write(
-        "w.3mf", fixtures::three_mf(model("<object id=\"1\" name=\"thing\" type=\"model\">" + said +
-                                              mesh_of({body}) + "</object>",
-                                          "<item objectid=\"1\"/>")));
+    const auto file = folder.write("w.3mf", fixtures::three_mf(model("<object id=\"1\" name=\"thing\" type=\"model\">" +
+                                                                         said + mesh_of({body}) + "</object>",
+                                                                     "<item objectid=\"1\"/>")));
     const auto out = printed(plain_job(file));
     CHECK(out.report.warnings.empty());
-    CHECK_THAT(out.text, Contains(std::string("; weft_overlay = object 'thing': retraction_combing_max_distance_wall_0 = ") +
-                                  ours + " ("));
+    CHECK_THAT(out.text,
+               Contains(std::string("; weft_overlay = object 'thing': retraction_combing_max_distance_wall_0 = ") +
+                        ours + " ("));
   }
 }
 

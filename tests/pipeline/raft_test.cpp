@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "adhesion/raft.h"
+
 #include "model_of_boxes.h"
 #include "plain_job.h"
 
 #include <algorithm>
 #include <sstream>
 #include <string>
+#include <tuple>
 
 #include <catch2/catch.hpp>
 
@@ -22,20 +25,22 @@ std::string printed(const Job& job) {
 }
 
 /// Where lines of a kind are laid, mm.
-struct Extent {
-  double least_x = 1e9, lowest = 1e9, highest = 0;
+struct Laid {
+  double least_x = 1e9, lowest = 1e9, highest = 0, filament = 0;
 };
 
-Extent laid(const std::string& gcode, const std::string& kind) {
+/// @param up_to  mm above the bed
+Laid laid(const std::string& gcode, const std::string& kind, double up_to = 1e9) {
   std::istringstream lines(gcode);
-  Extent out;
+  Laid out;
   double z = 0;
   bool own = false;
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with(";TYPE:")) own = line == ";TYPE:" + kind;
     if (line.starts_with(";Z:")) z = std::stod(line.substr(3));
     const auto x = line.find(" X"), e = line.find(" E");
-    if (!own || !line.starts_with("G1") || x == std::string::npos || e == std::string::npos) continue;
+    if (!own || z > up_to || !line.starts_with("G1") || x == std::string::npos || e == std::string::npos) continue;
+    out.filament += std::stod(line.substr(e + 2));
     out.least_x = std::min(out.least_x, std::stod(line.substr(x + 2)));
     out.lowest = std::min(out.lowest, z), out.highest = std::max(out.highest, z);
   }
@@ -49,8 +54,8 @@ TEST_CASE("raft: at the border of the bed it lies under the outermost walls, too
   Job job = test::plain_job({model.path()}, 100_mm);
   auto& adhesion = job.settings.adhesion;
   adhesion.adhesion_type = AdhesionType::raft, adhesion.skirt_line_count = 0;  // which would lie beyond the bed
-  job.placement.centre = {10'050, 50'000};  // its wall's outer edge at x 0.05
-  const auto text = printed(job);  // and nothing of the raft beyond the bed
+  job.placement.centre = {10'050, 50'000};                                     // its wall's outer edge at x 0.05
+  const auto text = printed(job);                                              // and nothing of the raft beyond the bed
   CHECK(laid(text, "External perimeter").least_x == Approx(0.05 + 0.2).margin(0.05));
   for (const char* kind : {"Support material", "Support material interface"}) {
     INFO(kind);
@@ -65,7 +70,7 @@ TEST_CASE("raft: the skirt lies around it, on the bed alone") {
   job.settings.adhesion.adhesion_type = AdhesionType::raft;
   const auto gap = to_mm(job.settings.adhesion.skirt_gap);
   auto text = printed(job);
-  const Extent raft = laid(text, "Support material"), skirt = laid(text, "Skirt/Brim");
+  const Laid raft = laid(text, "Support material"), skirt = laid(text, "Skirt/Brim");
   CHECK(skirt.least_x == Approx(raft.least_x - gap).margin(0.6));
   CHECK(skirt.highest == Approx(raft.lowest));
   CHECK(text.find(";TYPE:Skirt/Brim") < text.find(";TYPE:Support material"));
@@ -81,4 +86,42 @@ TEST_CASE("raft: the skirt lies around it, on the bed alone") {
 
   job.settings.adhesion.skirt_line_count = 0;
   CHECK(printed(job).find(";TYPE:Skirt/Brim") == std::string::npos);
+}
+
+TEST_CASE("raft: its surface is dense under the parts alone, and support stands on lines with air between") {
+  const ModelOfBoxes tee({{-3, -10, 0, 3, 10, 8}, {-30, -10, 7, 30, 10, 9}});
+  Job job = test::plain_job({tee.path()});
+  auto& s = job.settings;
+  s.adhesion.adhesion_type = AdhesionType::raft;
+  s.support.support_enable = true, s.support.support_structure = SupportStructure::normal;
+  const auto layers = adhesion::raft_layers(s.raft, s.machine.nozzle_diameter, s.layers.layer_height);
+  const double top = to_mm(layers.back().z) + 0.001, below = to_mm(layers[1].z) + 0.001, middle = 100;
+  const auto text = printed(job);
+  const auto dense = laid(text, "Support material interface", top), open = laid(text, "Support material", top);
+  CHECK(dense.least_x == Approx(middle - 3 - to_mm(s.raft.raft_margin)).margin(0.6));
+  CHECK(open.highest == Approx(to_mm(layers.back().z)));
+  // Two layers of half a line each on either side of the dense part.
+  const double area_mm2 = 2 * (30.0 - 3 - to_mm(s.raft.raft_margin)) * 20, thick = 2 * to_mm(s.layers.layer_height);
+  const double filament_mm2 = 3.14159265 / 4 * 1.75 * 1.75;
+  const double laid_mm = (open.filament - laid(text, "Support material", below).filament);
+  CHECK(laid_mm * filament_mm2 / (area_mm2 * thick) == Approx(0.5).margin(0.1));
+  // The support's first layer lies on them: nothing is left out between.
+  const auto first = laid(text, "Support material", top + to_mm(s.layers.layer_height) + 0.15);
+  CHECK(first.highest > top);
+  CHECK(first.filament > open.filament);
+}
+
+TEST_CASE("raft: where it lifts a part out of the machine, that is what the user is told") {
+  for (const auto& [height, raft, says] :
+       {std::tuple{99.6, true, "the raft lifts the print by"}, std::tuple{103.0, true, "see machine_height"},
+        std::tuple{101.0, false, "see machine_height"}}) {
+    CAPTURE(height, raft);
+    const ModelOfBoxes post({{0, 0, 0, 20, 20, height}});
+    Job job = test::plain_job({post.path()}, 100_mm);
+    job.settings.adhesion.skirt_line_count = 0;
+    if (raft) job.settings.adhesion.adhesion_type = AdhesionType::raft;
+    Report report;
+    CHECK_FALSE(run(job, {}, report));
+    CHECK_THAT(report.error, Catch::Matchers::Contains(says));
+  }
 }

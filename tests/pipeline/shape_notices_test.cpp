@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the shape of a model makes a printer do that nobody would guess from its picture is told.
 #include "model_of_boxes.h"
-#include "pipeline/pipeline.h"
+#include "pipeline/estimate.h"
 
 #include <string>
 #include <vector>
@@ -62,6 +62,13 @@ TEST_CASE("shape: what is too thin to be laid is told once, with the place of th
   CHECK(says(lines, "layer 0 (z 0.200)"));
   CHECK(says(lines, ", at 105.0"));  // the middle of the longer fin, x 5 … 9 of a box of -5 … 9 that is put at 100
   CHECK(says(lines, "29 more places up to layer 29"));
+  Report report;  // of an estimate that lays the walls of every fourth layer, and of the first two
+  estimate(job, {}, {}, report);
+  std::vector<std::string> estimated;
+  for (const auto& warning : report.warnings)
+    if (warning.code == "thin_feature_dropped") estimated.push_back(warning.message);
+  CHECK_FALSE(says(estimated, "29 more places"));
+  CHECK(says(estimated, "; one of 4 layers was looked at"));
 }
 
 TEST_CASE("shape: what gives way to the nozzle is told, and what stands is not") {
