@@ -4,7 +4,9 @@
 #include "tasks/parallel.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <iterator>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -115,14 +117,25 @@ std::vector<ScopeId> scopes_filling(const Shelled& object, const InnerLayers& in
 }
 
 std::vector<infill::LayerAreas> find_all_areas(const Shelled& object) {
-  constexpr std::size_t run = 8;
-  const std::size_t count = object.layers.size();
-  auto runs = tasks::parallel_map((count + run - 1) / run, [&](std::size_t r) {
-    return find_areas(object, r * run, std::min(run, count - r * run));
+  constexpr std::size_t run = 8;  // layers around it are looked at for each run as well
+  const std::size_t count = object.layers.size(), runs = (count + run - 1) / run;
+  // Whoever has the last one is waited for: those that take long are begun first.
+  std::vector<std::size_t> corners(runs), order(runs);
+  for (std::size_t i = 0; i < count; ++i)
+    for (const Region& region : *object.layers[i].inside) {
+      corners[i / run] += region.outer.size();
+      for (const Ring& hole : region.holes) corners[i / run] += hole.size();
+    }
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return corners[a] > corners[b]; });
+  std::vector<infill::LayerAreas> areas(count);
+  const auto find = [&](std::size_t k) {
+    const std::size_t first = order[k] * run;
+    return find_areas(object, first, std::min(run, count - first));
+  };
+  tasks::parallel_in_order(runs, find, [&](std::size_t k, std::vector<infill::LayerAreas> found) {
+    std::move(found.begin(), found.end(), areas.begin() + static_cast<std::ptrdiff_t>(order[k] * run));
   });
-  std::vector<infill::LayerAreas> areas;
-  areas.reserve(count);
-  for (auto& part : runs) std::move(part.begin(), part.end(), std::back_inserter(areas));
   return areas;
 }
 

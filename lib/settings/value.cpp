@@ -350,6 +350,15 @@ std::size_t parse_choice(std::string_view text, const std::vector<std::string_vi
 }
 
 std::string number(double v, int decimals) {
+  // The shortest text that is read as v, which most values of settings have, is found in a tenth of the time that
+  // rounding takes. Below 1e9 it is what rounding to its digits gives: the nearest number of so many.
+  if (std::abs(v) < 1e9) {
+    std::string out = fmt::format("{}", v);
+    const auto dot = out.find('.');
+    if (out.find('e') == std::string::npos &&
+        (dot == std::string::npos || out.size() - dot - 1 <= static_cast<std::size_t>(std::clamp(decimals, 0, 6))))
+      return out == "-0" ? "0" : out;
+  }
   std::string out = fmt::format("{:.{}f}", v, decimals);
   if (out.find('.') != std::string::npos) {
     while (out.back() == '0') out.pop_back();
