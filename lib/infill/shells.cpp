@@ -312,7 +312,7 @@ std::vector<LayerAreas> find_areas(const ShellSettings& settings, const InfillSe
     std::optional<Mask> sparse = split.sparse;
     if (i >= run.from) {
       const Kinds kinds = kinds_of(settings, infill, object, window, i, std::move(split), sparse_below);
-      SmallPatches small(settings.infill_solid_below_area, sparse_below);
+      const SmallPatches small(settings.infill_solid_below_area, sparse_below);
       result.push_back(exact_areas(object.layers[i], kinds, infill.infill_sparse_density > 0 ? &small : nullptr));
     }
     sparse_below = std::move(sparse), unclosed_below = std::move(unclosed);

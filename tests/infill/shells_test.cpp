@@ -407,6 +407,20 @@ TEST_CASE("shells: a small patch that solid cuts off of sparse infill stays spar
   CHECK(solid_at(areas[13], patch));  // what is that small by its walls
 }
 
+TEST_CASE("shells: a patch that a bridge leaves of sparse infill stays sparse over any that goes on below",
+          "[infill]") {
+  std::vector<Regions> outlines(10, {rectangle(0, 0, 6000, 8000), rectangle(16000, 0, 22000, 8000)});
+  outlines.insert(outlines.end(), 10, {rectangle(0, 0, 22000, 8000)});
+  Object object(std::move(outlines));
+  const Regions open{rectangle(1000, 1000, 4200, 7000)};  // 19 mm²
+  object.layers[9].open = &open;
+  const auto areas = object.areas(skin(0, 1, 0, 0));
+  const Point patch{2000, 4000};  // 18 mm² beside the anchor
+  REQUIRE(bridged(areas[10]) > 14 * 6);
+  REQUIRE_FALSE(solid_at(areas[9], patch));
+  CHECK_FALSE(solid_at(areas[10], patch));
+}
+
 TEST_CASE("shells: full density is solid everywhere", "[infill]") {
   const Object block(std::vector<Regions>(20, {rectangle(0, 0, 20000, 20000)}));
   InfillSettings full;
