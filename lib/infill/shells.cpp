@@ -206,6 +206,16 @@ void give_strips_to_top(const Mask& seen_above, double line, Kinds& kinds) {
   kinds.top |= to_top, kinds.solid -= to_top;
 }
 
+/// Strips of solid between tops, below walls that stand there, are top: between letters' floors they would be a
+/// patchwork.
+void give_what_lies_between_to_top(double line, Kinds& kinds) {
+  constexpr double widest = 3.5;  // lines, as strips that lines run along
+  if (!kinds.top.any() || !kinds.solid.any()) return;
+  const int by = cells(widest / 2 * line, kinds.top.grid());
+  const Mask between = kinds.top.grown(by).shrunk(by) & kinds.solid;
+  kinds.top |= between, kinds.solid -= between;
+}
+
 /// A patch of solid that is no larger than the top of its layer, and lies beside no other fill, is top: what of a top
 /// is covered by something that stands on it, letters or a boss. One surface has fewer ends of lines than two that fit
 /// into each other, and none of them shows around what stands there.
@@ -252,6 +262,7 @@ Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, cons
     kinds.solid -= kinds.top;
   }
   give_strips_to_top(split.seen_above, line, kinds);
+  give_what_lies_between_to_top(line, kinds);
   give_patches_to_top(kinds);
   if (settings.bridges && index > 0) {
     const ShellLayer& below = object.layers[index - 1];
