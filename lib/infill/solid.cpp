@@ -84,6 +84,30 @@ Chains chains_of(std::size_t count, const std::vector<std::pair<std::uint32_t, s
   return chains;
 }
 
+/// Whole lines between the two longest edges that lines run along, one below and one above, and as many beyond them as
+/// there is room for: a corner that stands out of a strip does not make its lines too narrow.
+LineSet fitted_lines(const Outline& outline, double band) {
+  constexpr double most_of = 0.5;  // of the outline's length along the lines
+  struct Edge {
+    double length = 0, y = 0;
+  } floor, ceiling;
+  const std::vector<Turned>& points = outline.points();
+  double left = points.front().x, right = left;
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    const Turned a = points[i], b = points[outline.next(i)];
+    left = std::min(left, a.x), right = std::max(right, a.x);
+    Edge& edge = b.x > a.x ? floor : ceiling;  // the inside is to the left
+    if (SideFit::along(a, b) && std::abs(b.x - a.x) > edge.length) edge = {std::abs(b.x - a.x), (a.y + b.y) / 2};
+  }
+  double low = outline.least_y(), high = outline.greatest_y();
+  if (std::min(floor.length, ceiling.length) >= most_of * (right - left) && ceiling.y - floor.y > band / 2)
+    low = floor.y, high = ceiling.y;
+  const double count = std::max(1.0, std::round((high - low) / band)), spacing = (high - low) / count,
+               below = std::round((low - outline.least_y()) / spacing),
+               above = std::round((outline.greatest_y() - high) / spacing);
+  return {low + (0.5 - below) * spacing, spacing, static_cast<int>(below + count + above)};
+}
+
 class Filler {
  public:
   Filler(const Region& region, const SolidStyle& style, Beads& beads)
@@ -97,10 +121,8 @@ class Filler {
 
  private:
   void lay() {
-    const double reach = outline_.greatest_y() - outline_.least_y();
-    if (!(reach > 0)) return;
-    const double count = std::max(1.0, std::round(reach / style_.band));
-    lines_ = {outline_.least_y() + reach / count / 2, reach / count, static_cast<int>(count)};
+    if (!(outline_.greatest_y() > outline_.least_y())) return;
+    lines_ = fitted_lines(outline_, style_.band);
     width_ = style_.fixed_strand ? style_.band : std::max(1, rounded(lines_.spacing));
     all_ = outline_.cut(lines_);
     if (!style_.fixed_strand) sides_.emplace(outline_, lines_, all_, lines_.spacing);
