@@ -129,7 +129,7 @@ std::optional<double> internal_bridge_angle_rad(const Region& area, const OverSp
   constexpr int directions = 18;
   constexpr double runs_on = 0.5;    // of its edge: then strands may run along it
   constexpr double short_way = 3;    // strands: lines that hang no further in any direction do not sag
-  constexpr double clearly = 0.95;   // of a span: directions that are as good as the first give way to it
+  constexpr double clearly = 0.8;    // of a span, so 0.4 of its sag: else the first direction stays
   constexpr double most_free = 0.5;  // of the strands' length: more ends over nothing
   const EdgeDirection edge = direction_of_edge(area);
   const bool runs = edge.share > runs_on;

@@ -67,7 +67,7 @@ void cut_apart(const Regions& mixed, std::span<const Kind> kinds, const Mask& in
 }
 
 /// Patches of sparse infill that bridges and belts leave too small to be worth it become solid.
-void drop_small_sparse(PartAreas& areas, SmallPatches& which) {
+void drop_small_sparse(PartAreas& areas, const SmallPatches& which) {
   const auto small = std::stable_partition(areas.sparse.begin(), areas.sparse.end(),
                                            [&](const Region& patch) { return !which.closes(patch); });
   if (small == areas.sparse.end()) return;
@@ -90,7 +90,7 @@ std::vector<std::uint32_t> parts_of(const Regions& inside, const Regions& outlin
 
 }  // namespace
 
-LayerAreas exact_areas(const ShellLayer& layer, const Kinds& kinds, SmallPatches* small) {
+LayerAreas exact_areas(const ShellLayer& layer, const Kinds& kinds, const SmallPatches* small) {
   const std::vector<std::uint32_t> parts = parts_of(*layer.inside, *layer.outline);
   std::vector<std::size_t> order(parts.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;

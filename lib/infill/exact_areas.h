@@ -28,6 +28,6 @@ struct Kinds {
 
 /// The areas of a layer by its cells: along walls exactly, between two kinds of fill within a cell.
 /// @param small which patches of sparse infill that bridges and belts leave become solid; nothing: none
-LayerAreas exact_areas(const ShellLayer& layer, const Kinds& kinds, SmallPatches* small);
+LayerAreas exact_areas(const ShellLayer& layer, const Kinds& kinds, const SmallPatches* small);
 
 }  // namespace weft::infill

@@ -206,6 +206,16 @@ void give_strips_to_top(const Mask& seen_above, double line, Kinds& kinds) {
   kinds.top |= to_top, kinds.solid -= to_top;
 }
 
+/// Strips of solid between tops, below walls that stand there, are top: between letters' floors they would be a
+/// patchwork.
+void give_what_lies_between_to_top(double line, Kinds& kinds) {
+  constexpr double widest = 3.5;  // lines, as strips that lines run along
+  if (!kinds.top.any() || !kinds.solid.any()) return;
+  const int by = cells(widest / 2 * line, kinds.top.grid());
+  const Mask between = kinds.top.grown(by).shrunk(by) & kinds.solid;
+  kinds.top |= between, kinds.solid -= between;
+}
+
 /// A patch of solid that is no larger than the top of its layer, and lies beside no other fill, is top: what of a top
 /// is covered by something that stands on it, letters or a boss. One surface has fewer ends of lines than two that fit
 /// into each other, and none of them shows around what stands there.
@@ -252,6 +262,7 @@ Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, cons
     kinds.solid -= kinds.top;
   }
   give_strips_to_top(split.seen_above, line, kinds);
+  give_what_lies_between_to_top(line, kinds);
   give_patches_to_top(kinds);
   if (settings.bridges && index > 0) {
     const ShellLayer& below = object.layers[index - 1];
@@ -312,7 +323,7 @@ std::vector<LayerAreas> find_areas(const ShellSettings& settings, const InfillSe
     std::optional<Mask> sparse = split.sparse;
     if (i >= run.from) {
       const Kinds kinds = kinds_of(settings, infill, object, window, i, std::move(split), sparse_below);
-      SmallPatches small(settings.infill_solid_below_area, sparse_below);
+      const SmallPatches small(settings.infill_solid_below_area, sparse_below);
       result.push_back(exact_areas(object.layers[i], kinds, infill.infill_sparse_density > 0 ? &small : nullptr));
     }
     sparse_below = std::move(sparse), unclosed_below = std::move(unclosed);

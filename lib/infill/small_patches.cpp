@@ -6,42 +6,44 @@
 #include <utility>
 
 namespace weft::infill {
+namespace {
 
-bool SmallPatches::closes(const Region& patch) {
-  return area_mm2(patch) < least_mm2_ && !goes_on_below(patch);
+/// The parts of an area that are that large, or those that are not.
+Mask parts_of(const Mask& area, double least_mm2, bool large) {
+  Mask out(area.grid());
+  const MaskParts parts(area);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if ((parts.mm2(i) >= least_mm2) == large)
+      for (const CellRun& run : parts.runs(i)) out.set(run);
+  return out;
 }
 
-void SmallPatches::close(Mask& sparse, Mask& solid) {
-  const MaskParts parts(sparse);
-  Mask candidates(sparse.grid());  // a patch is looked at without its holes, and no smaller for that
-  bool any = false;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (parts.mm2(i) >= least_mm2_) continue;
-    for (const CellRun& run : parts.runs(i)) candidates.set(run);
-    any = true;
-  }
-  if (!any) return;
+bool lies_on(const Mask& below, const Region& patch) {
+  constexpr int edge_cells = 2;  // of a patch: what it may lie beside what is below with
+  const Grid& grid = below.grid();
+  return Mask(grid.window(weft::box_of(patch.outer), grid.cell), {&patch, 1}).shrunk(edge_cells).meets(below);
+}
+
+}  // namespace
+
+void SmallPatches::close(Mask& sparse, Mask& solid) const {
+  const Mask candidates = parts_of(sparse, least_mm2_, false);
+  if (!candidates.any()) return;
+  std::optional<Mask> large;
   Regions small;
-  for (Ring& ring : candidates.outlines())
-    if (double_area(ring) > 0)
-      if (Region patch{std::move(ring), {}}; closes(patch)) small.push_back(std::move(patch));
+  for (Ring& ring : candidates.outlines()) {
+    Region patch{std::move(ring), {}};  // looked at without its holes, and no smaller for that
+    if (double_area(patch.outer) < 0 || area_mm2(patch) >= least_mm2_) continue;
+    if (below_ && !large) large = parts_of(*below_, least_mm2_, true);
+    if (!large || !lies_on(*large, patch)) small.push_back(std::move(patch));
+  }
   if (small.empty()) return;
   const Mask closed = Mask(sparse.grid(), small) & sparse;
   sparse -= closed, solid |= closed;
 }
 
-bool SmallPatches::goes_on_below(const Region& patch) {
-  constexpr int edge_cells = 2;  // of a patch: what it may lie beside what is below with
-  if (!below_) return false;
-  const Grid& grid = below_->grid();
-  if (!large_) {
-    large_.emplace(grid);
-    const MaskParts parts(*below_);
-    for (std::size_t i = 0; i < parts.size(); ++i)
-      if (parts.mm2(i) >= least_mm2_)
-        for (const CellRun& run : parts.runs(i)) large_->set(run);
-  }
-  return Mask(grid.window(weft::box_of(patch.outer), grid.cell), {&patch, 1}).shrunk(edge_cells).meets(*large_);
+bool SmallPatches::closes(const Region& patch) const {
+  return area_mm2(patch) < least_mm2_ && !(below_ && lies_on(*below_, patch));
 }
 
 }  // namespace weft::infill

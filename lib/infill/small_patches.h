@@ -13,17 +13,16 @@ class SmallPatches {
   /// @param below the sparse infill of the layer below
   SmallPatches(double least_mm2, const std::optional<Mask>& below) : least_mm2_(least_mm2), below_(below) {}
 
-  bool closes(const Region& patch);
+  /// Closes those among cells that lie on no large patch.
+  void close(Mask& sparse, Mask& solid) const;
 
-  /// Closes those among cells.
-  void close(Mask& sparse, Mask& solid);
+  /// Whether a patch that bridges and belts left is closed: none that lies on sparse infill, as bridges know nothing of
+  /// it any more.
+  bool closes(const Region& patch) const;
 
  private:
-  bool goes_on_below(const Region& patch);
-
   double least_mm2_;
   const std::optional<Mask>& below_;
-  std::optional<Mask> large_;
 };
 
 }  // namespace weft::infill

@@ -84,6 +84,30 @@ Chains chains_of(std::size_t count, const std::vector<std::pair<std::uint32_t, s
   return chains;
 }
 
+/// Whole lines between the two longest edges that lines run along, one below and one above, and as many beyond them as
+/// there is room for: a corner that stands out of a strip does not make its lines too narrow.
+LineSet fitted_lines(const Outline& outline, double band) {
+  constexpr double most_of = 0.5;  // of the outline's length along the lines
+  struct Edge {
+    double length = 0, y = 0;
+  } floor, ceiling;
+  const std::vector<Turned>& points = outline.points();
+  double left = points.front().x, right = left;
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    const Turned a = points[i], b = points[outline.next(i)];
+    left = std::min(left, a.x), right = std::max(right, a.x);
+    Edge& edge = b.x > a.x ? floor : ceiling;  // the inside is to the left
+    if (SideFit::along(a, b) && std::abs(b.x - a.x) > edge.length) edge = {std::abs(b.x - a.x), (a.y + b.y) / 2};
+  }
+  double low = outline.least_y(), high = outline.greatest_y();
+  if (std::min(floor.length, ceiling.length) >= most_of * (right - left) && ceiling.y - floor.y > band / 2)
+    low = floor.y, high = ceiling.y;
+  const double count = std::max(1.0, std::round((high - low) / band)), spacing = (high - low) / count,
+               below = std::round((low - outline.least_y()) / spacing),
+               above = std::round((outline.greatest_y() - high) / spacing);
+  return {low + (0.5 - below) * spacing, spacing, static_cast<int>(below + count + above)};
+}
+
 class Filler {
  public:
   Filler(const Region& region, const SolidStyle& style, Beads& beads)
@@ -97,10 +121,8 @@ class Filler {
 
  private:
   void lay() {
-    const double reach = outline_.greatest_y() - outline_.least_y();
-    if (!(reach > 0)) return;
-    const double count = std::max(1.0, std::round(reach / style_.band));
-    lines_ = {outline_.least_y() + reach / count / 2, reach / count, static_cast<int>(count)};
+    if (!(outline_.greatest_y() > outline_.least_y())) return;
+    lines_ = fitted_lines(outline_, style_.band);
     width_ = style_.fixed_strand ? style_.band : std::max(1, rounded(lines_.spacing));
     all_ = outline_.cut(lines_);
     if (!style_.fixed_strand) sides_.emplace(outline_, lines_, all_, lines_.spacing);
@@ -192,22 +214,39 @@ class Filler {
     if (lines_from < chain.size()) emit_lines(all.subspan(lines_from));
   }
 
-  /// Width of the strip that a chain runs along, across its middle line.
-  double across(std::span<const std::uint32_t> chain, std::size_t i) const {
+  Turned middle(std::uint32_t i) const { return {(all_[i].from + all_[i].to) / 2, y(i)}; }
+
+  /// About how wide the strip is that a chain runs along, across the line through the middles.
+  double about_across(std::span<const std::uint32_t> chain, std::size_t i) const {
     const Turned a = middle(chain[i == 0 ? 0 : i - 1]), b = middle(chain[std::min(i + 1, chain.size() - 1)]);
     const double way = std::hypot(b.x - a.x, b.y - a.y);
     return way > 0 ? length(chain[i]) * (b.y - a.y) / way : length(chain[i]);
   }
 
+  /// A place in the strip that a chain runs along, on a line of the chain, and how wide the strip is across there.
+  struct Across {
+    double x = 0, width = 0;
+  };
+  /// The place that is as many times as far from the strip's right side as from its left one as `share` says: half is
+  /// on its axis, which runs beside the lines' middles where its sides lean towards each other.
+  Across across(std::span<const std::uint32_t> chain, std::size_t i, double share = 0.5) const {
+    const std::uint32_t before = chain[i == 0 ? 0 : i - 1], after = chain[std::min(i + 1, chain.size() - 1)];
+    const double way = y(after) - y(before);
+    const auto sine = [way](double from, double to) { return way > 0 ? way / std::hypot(way, to - from) : 1; };
+    const double left = sine(all_[before].from, all_[after].from), right = sine(all_[before].to, all_[after].to);
+    const double from_left = length(chain[i]) * share * right / ((1 - share) * left + share * right);
+    return {all_[chain[i]].from + from_left, from_left * left + (length(chain[i]) - from_left) * right};
+  }
+
   /// How many lines from i on cross a strip of that many strands; none when the place is not a strip.
   std::pair<std::size_t, int> strip_at(std::span<const std::uint32_t> chain, std::size_t i) const {
-    const double lines = across(chain, i) / lines_.spacing;
+    const double lines = about_across(chain, i) / lines_.spacing;
     if (lines > widest_strip) return {0, 0};
     const int strands = lines < widest_strand ? 1 : 2;
     bool turns = false;  // one of the lines is long enough to turn at
     std::size_t end = i;
     for (; end < chain.size(); ++end) {
-      const double width = across(chain, end) / lines_.spacing / strands;
+      const double width = about_across(chain, end) / lines_.spacing / strands;
       if (width > widest_strand || (strands > 1 && width < narrowest_strand)) break;
       turns |= length(chain[end]) >= short_lines * lines_.spacing;
     }
@@ -332,29 +371,26 @@ class Filler {
     return bump && *bump <= deepest_bump * lines_.spacing ? length : 0;
   }
 
-  Turned middle(std::uint32_t i) const { return {(all_[i].from + all_[i].to) / 2, y(i)}; }
-
   /// Beads along a strip, side by side, together as wide as the strip is across.
   void emit_strip(std::span<const std::uint32_t> strip, int strands) {
     end_bead();
     if (strands == 1 && !style_.gaps) return;
     const Role role = strands == 1 && !style_.fixed_strand ? Role::gap_fill : style_.role;
     for (int k = 0; k < strands; ++k) {
-      const double share = (k + 0.5) / strands;
-      const auto at = [&](std::uint32_t i) { return Turned{all_[i].from + share * length(i), y(i)}; };
-      std::vector<Turned> path;
-      // the strip reaches half a line beyond its first and its last line
-      const Turned first = at(strip[0]), second = at(strip[1]), last = at(strip.back()),
-                   before = at(strip[strip.size() - 2]);
-      path.push_back({first.x - (second.x - first.x) / 2, first.y - lines_.spacing / 2});
-      for (const std::uint32_t i : strip) path.push_back(at(i));
-      path.push_back({last.x + (last.x - before.x) / 2, last.y + lines_.spacing / 2});
       std::vector<Vertex> vertices;
-      for (std::size_t i = 0; i < path.size(); ++i)
-        vertices.push_back(
-            {path[i], rounded(across(strip, std::clamp<std::size_t>(i, 1, strip.size()) - 1) / strands)});
-      const bool turned = started_ && std::hypot(path.back().x - at_.x, path.back().y - at_.y) <
-                                          std::hypot(path.front().x - at_.x, path.front().y - at_.y);
+      for (std::size_t i = 0; i < strip.size(); ++i) {
+        const Across at = across(strip, i, (k + 0.5) / strands);
+        vertices.push_back({{at.x, y(strip[i])}, rounded(at.width / strands)});
+      }
+      // the strip reaches half a line beyond its first and its last line
+      const auto beyond = [](const Vertex& end, const Vertex& next) {
+        return Vertex{{end.at.x - (next.at.x - end.at.x) / 2, end.at.y - (next.at.y - end.at.y) / 2}, end.width};
+      };
+      const Vertex first = beyond(vertices[0], vertices[1]),
+                   last = beyond(vertices.back(), vertices[vertices.size() - 2]);
+      vertices.insert(vertices.begin(), first), vertices.push_back(last);
+      const auto away = [&](const Vertex& v) { return std::hypot(v.at.x - at_.x, v.at.y - at_.y); };
+      const bool turned = started_ && away(vertices.back()) < away(vertices.front());
       if (turned) std::reverse(vertices.begin(), vertices.end());
       add(without_thin_ends(vertices), role);
     }

@@ -2,6 +2,7 @@
 #include "infill/shells.h"
 
 #include "areas.h"
+#include "geometry/boolean.h"
 #include "geometry/offset.h"
 
 #include <algorithm>
@@ -123,6 +124,27 @@ TEST_CASE("shells: narrow solid beside a top stays what it is beside sparse infi
   bars.resize(8, {rectangle(5000, 0, 30000, 3000)});
   const LayerAreas bar = Object(std::move(bars)).areas(skin(5, 4, 0, 0))[2];
   CHECK(sum(bar, &PartAreas::top) == Approx(4.2).epsilon(0.05));
+}
+
+TEST_CASE("shells: what lies between two floors that are near each other is top like them, also beside sparse infill",
+          "[infill]") {
+  const auto between = [](Um width) {  // two pockets in a block, and how much of the strip between their floors is top
+    Region pocketed = rectangle(0, 0, 40000, 30000);
+    const Um left = 20000 - width / 2, right = 20000 + width / 2;
+    pocketed.holes = {rectangle(left - 6000, 10000, left, 20000).outer,
+                      rectangle(right, 10000, right + 6000, 20000).outer};
+    for (Ring& hole : pocketed.holes) std::reverse(hole.begin(), hole.end());
+    std::vector<Regions> outlines(10, {rectangle(0, 0, 40000, 30000)});
+    outlines.resize(20, {pocketed});
+    const LayerAreas floor = Object(std::move(outlines)).areas(skin(4, 4, 0, 0))[9];
+    CHECK(sum(floor, &PartAreas::sparse) > 300);
+    double mm2 = 0;
+    for (const PartAreas& part : floor)
+      mm2 += area_mm2(geometry::intersect(part.top, {rectangle(left, 10000, right, 20000)}));
+    return mm2 / (to_mm(width) * 10);
+  };
+  CHECK(between(1500) > 0.95);
+  CHECK(between(5000) < 0.2);
 }
 
 TEST_CASE("shells: infill_support_enabled keeps infill only below what does not carry itself", "[infill]") {
@@ -405,6 +427,20 @@ TEST_CASE("shells: a small patch that solid cuts off of sparse infill stays spar
   CHECK(solid_at(areas[8], slot));
   CHECK_FALSE(solid_at(areas[8], patch));
   CHECK(solid_at(areas[13], patch));  // what is that small by its walls
+}
+
+TEST_CASE("shells: a patch that a bridge leaves of sparse infill stays sparse over any that goes on below",
+          "[infill]") {
+  std::vector<Regions> outlines(10, {rectangle(0, 0, 6000, 8000), rectangle(16000, 0, 22000, 8000)});
+  outlines.insert(outlines.end(), 10, {rectangle(0, 0, 22000, 8000)});
+  Object object(std::move(outlines));
+  const Regions open{rectangle(1000, 1000, 4200, 7000)};  // 19 mm²
+  object.layers[9].open = &open;
+  const auto areas = object.areas(skin(0, 1, 0, 0));
+  const Point patch{2000, 4000};  // 18 mm² beside the anchor
+  REQUIRE(bridged(areas[10]) > 14 * 6);
+  REQUIRE_FALSE(solid_at(areas[9], patch));
+  CHECK_FALSE(solid_at(areas[10], patch));
 }
 
 TEST_CASE("shells: full density is solid everywhere", "[infill]") {

@@ -197,6 +197,36 @@ TEST_CASE("solid: a strip that runs out to nothing has no bead where it is thinn
   if (angle > 30 && angle < 150) CHECK(gaps >= 3);
 }
 
+TEST_CASE("solid: a corner that stands out of a strip makes its lines no narrower", "[infill]") {
+  const Region strip{{{0, 0}, {20000, 0}, {20000, 1480}, {19400, 1480}, {19400, 1230}, {0, 1230}}, {}};
+  const Beads beads = filled(strip, {.band = 410});
+  int lines = 0;
+  for (const Bead& bead : beads)
+    for (std::size_t i = 1; i < bead.path.size(); ++i) {
+      const Junction &a = bead.path[i - 1], &b = bead.path[i];
+      if (std::abs(b.at.x - a.at.x) < 15000) continue;
+      ++lines;
+      CHECK(a.width == Approx(410).margin(2));
+      CHECK(b.width == Approx(410).margin(2));
+    }
+  CHECK(lines == 3);
+  CHECK(covered_mm2(beads) == Approx(area_mm2(strip)).epsilon(0.01));
+}
+
+TEST_CASE("solid: a bead along a strip whose sides lean towards each other lies on its axis", "[infill]") {
+  const Region wedge{{{0, 100}, {0, -100}, {9000, -300}, {9000, 300}}, {}};  // its axis is y = 0
+  const double angle = GENERATE(30, 45, 60, 120, 135);
+  CAPTURE(angle);
+  int looked_at = 0;
+  for (const Bead& bead : filled(wedge, {.band = 420, .angle_rad = degrees(angle)}))
+    for (std::size_t i = 1; i + 1 < bead.path.size() && bead.role == Role::gap_fill; ++i, ++looked_at) {
+      const Junction& j = bead.path[i];
+      CHECK(std::abs(j.at.y) <= 3);
+      CHECK(j.width == Approx(200 + 400.0 * j.at.x / 9000).margin(5));
+    }
+  CHECK(looked_at >= 5);
+}
+
 TEST_CASE("solid: a strand along a narrow strip of a bridge is a bridge", "[infill]") {
   const SolidStyle bridge{
       .role = Role::bridge, .band = 400, .angle_rad = degrees(60), .fixed_strand = true, .flow = 1.57};
