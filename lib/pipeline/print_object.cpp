@@ -374,10 +374,9 @@ void tell_scopes(const Areas& areas, const std::vector<std::uint32_t>& inner_bea
   }
 }
 
-/// @param at where the object's first copy stands: places are told as they are on the bed
 /// @param held of each layer, what rests on support; empty: nothing does
 PrintedLayers put_together(Cuts cuts, const std::vector<Areas>& areas, Walls walls, Fills fills,
-                           const std::vector<Regions>& held, Point at, Notices& notices) {
+                           const std::vector<Regions>& held, Notices& notices) {
   PrintedLayers out(cuts.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
     auto& layer = cuts[i].layer;
@@ -454,8 +453,7 @@ PrintedLayers print_object(const Running& job, const Scopes& all_scopes, const T
   move_outlines(wall_hands, all_scopes, areas, cuts);
   Walls walls = std::move(walled).take();
   tell_walls(object.name, walls, job.sample, at, notices);
-  auto out =
-      put_together(std::move(cuts), areas, std::move(walls), std::move(filled).take(), support.held, at, notices);
+  auto out = put_together(std::move(cuts), areas, std::move(walls), std::move(filled).take(), support.held, notices);
   drop_empty_top(job.sample, out);
   for (auto& layer : out) tools.tell(layer.beads, all_scopes);
   if (job.sample.all()) tell_infill(all_scopes[scopes.front().of_mix.front()], out, job.report);

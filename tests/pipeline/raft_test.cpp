@@ -25,14 +25,14 @@ std::string printed(const Job& job) {
 }
 
 /// Where lines of a kind are laid, mm.
-struct Laid {
+struct Extent {
   double least_x = 1e9, lowest = 1e9, highest = 0, filament = 0;
 };
 
 /// @param up_to  mm above the bed
-Laid laid(const std::string& gcode, const std::string& kind, double up_to = 1e9) {
+Extent laid(const std::string& gcode, const std::string& kind, double up_to = 1e9) {
   std::istringstream lines(gcode);
-  Laid out;
+  Extent out;
   double z = 0;
   bool own = false;
   for (std::string line; std::getline(lines, line);) {
@@ -70,7 +70,7 @@ TEST_CASE("raft: the skirt lies around it, on the bed alone") {
   job.settings.adhesion.adhesion_type = AdhesionType::raft;
   const auto gap = to_mm(job.settings.adhesion.skirt_gap);
   auto text = printed(job);
-  const Laid raft = laid(text, "Support material"), skirt = laid(text, "Skirt/Brim");
+  const Extent raft = laid(text, "Support material"), skirt = laid(text, "Skirt/Brim");
   CHECK(skirt.least_x == Approx(raft.least_x - gap).margin(0.6));
   CHECK(skirt.highest == Approx(raft.lowest));
   CHECK(text.find(";TYPE:Skirt/Brim") < text.find(";TYPE:Support material"));

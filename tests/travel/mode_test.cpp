@@ -310,16 +310,17 @@ TEST_CASE("travel: a way inside is retracted from a length of its own on where a
 }
 
 TEST_CASE("travel: it is the bead that a way leads to that says whether an outer wall begins", "[travel]") {
-  // Infill at the left, a rib's wall at the right.
+  // Infill at the left, a pin's wall at the right.
   auto layer = sample::layer({sample::rectangle({0, 0}, {40000, 10000})});
   auto& beads = layer.objects[0].beads;
   beads.clear();
-  const auto add = [&](Um x, Role role) {
+  const auto add = [&](Role role, const Polyline& path) {
     auto& bead = beads.emplace_back();
-    bead.path = {{{x, 3000}, sample::width, 1.F}, {{x, 7000}, sample::width, 1.F}};
-    bead.role = role;
+    for (const Point at : path) bead.path.push_back({at, sample::width, 1.F});
+    bead.role = role, bead.closed = path.size() > 2;
   };
-  add(35000, Role::outer_wall), add(5000, Role::infill);
+  add(Role::outer_wall, {{34000, 4000}, {36000, 4000}, {36000, 6000}, {34000, 6000}});
+  add(Role::infill, {{5000, 3000}, {5000, 7000}});
   const auto retractions = [&](bool infill_first, std::optional<Um> from) {
     TravelSettings settings;
     settings.infill_before_walls = infill_first, settings.retraction_combing_max_distance_wall_0 = from;
