@@ -43,9 +43,9 @@ inline constexpr Um path_inside = 20_um;
 /// lays nothing that is finer; so does band_leap. motion/resample.
 inline constexpr Um band_inside = 50_um;
 
-/// What is planned stays this far within where it may be, beside the half of its width: widths and places are rounded on
-/// the way into the file, and neither the bed's border nor a head beside a part gives way. As much as `audit_tolerance`
-/// is by default. pipeline/add_raft, arranged, support_object.
+/// What is planned stays this far within where it may be, beside the half of its width: widths and places are rounded
+/// on the way into the file, and neither the bed's border nor a head beside a part gives way. As much as
+/// `audit_tolerance` is by default. pipeline/add_raft, arranged, support_object.
 inline constexpr Um border = 10_um;
 
 }  // namespace weft::tolerances

@@ -310,7 +310,7 @@ TEST_CASE("travel: a way inside is retracted from a length of its own on where a
 }
 
 TEST_CASE("travel: it is the bead that a way leads to that says whether an outer wall begins", "[travel]") {
-  // Infill at the left, a pin's wall at the right.
+  // Infill at the left; the wall begins in a corner at the right.
   auto layer = sample::layer({sample::rectangle({0, 0}, {40000, 10000})});
   auto& beads = layer.objects[0].beads;
   beads.clear();
@@ -319,10 +319,11 @@ TEST_CASE("travel: it is the bead that a way leads to that says whether an outer
     for (const Point at : path) bead.path.push_back({at, sample::width, 1.F});
     bead.role = role, bead.closed = path.size() > 2;
   };
-  add(Role::outer_wall, {{34000, 4000}, {36000, 4000}, {36000, 6000}, {34000, 6000}});
+  add(Role::outer_wall, {{200, 200}, {39800, 200}, {39800, 9800}, {200, 9800}});
   add(Role::infill, {{5000, 3000}, {5000, 7000}});
   const auto retractions = [&](bool infill_first, std::optional<Um> from) {
     TravelSettings settings;
+    settings.z_seam_type = SeamType::user, settings.z_seam_x = 40000, settings.z_seam_y = 10000;
     settings.infill_before_walls = infill_first, settings.retraction_combing_max_distance_wall_0 = from;
     return sample::count(plan(settings, {}, {layer})).retractions;
   };

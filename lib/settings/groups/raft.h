@@ -28,13 +28,15 @@ struct RaftSettings {
 };
 
 inline constexpr Rows raft_schema{
-    setting("raft_surface_layers", Scope::plate, &RaftSettings::raft_surface_layers, Unit::layers, 0, 100,
-            "Dense layers on top of the raft, under the parts; under support alone they are laid as the layers between."),
+    setting(
+        "raft_surface_layers", Scope::plate, &RaftSettings::raft_surface_layers, Unit::layers, 0, 100,
+        "Dense layers on top of the raft, under the parts; under support alone they are laid as the layers between."),
     setting("raft_interface_layers", Scope::plate, &RaftSettings::raft_interface_layers, Unit::layers, 0, 100,
             "Layers of the raft between its base and its surface."),
-    setting("raft_airgap", Scope::plate, &RaftSettings::raft_airgap, Unit::mm, 0_mm, 5_mm,
-            "Gap between the raft and the part on it; support has none. The part's first lines fall through it onto the "
-            "raft, and hold little where it is more than they are high."),
+    setting(
+        "raft_airgap", Scope::plate, &RaftSettings::raft_airgap, Unit::mm, 0_mm, 5_mm,
+        "Gap between the raft and the part on it; support has none. The part's first lines fall through it onto the "
+        "raft, and hold little where it is more than they are high."),
     setting("raft_margin", Scope::plate, &RaftSettings::raft_margin, Unit::mm, 0_mm, 50_mm,
             "How far the raft reaches beyond what stands on it."),
     setting("raft_smoothing", Scope::plate, &RaftSettings::raft_smoothing, Unit::mm, 0_mm, 50_mm,

@@ -200,9 +200,10 @@ inline constexpr Rows support_schema{
             31, "Tool that prints columns and branches; auto: whichever is loaded."),
     setting("support_interface_extruder_nr", Scope::object, &SupportSettings::support_interface_extruder_nr, Unit::none,
             0, 31, "Tool that prints interfaces; auto: whichever is loaded."),
-    setting("support_conical_enabled", Scope::object, &SupportSettings::support_conical_enabled,
-            "Columns get narrower downwards, by support_conical_angle, what lines fill only along them: less plastic, and "
-            "less that holds on to the bed."),
+    setting(
+        "support_conical_enabled", Scope::object, &SupportSettings::support_conical_enabled,
+        "Columns get narrower downwards, by support_conical_angle, what lines fill only along them: less plastic, and "
+        "less that holds on to the bed."),
     setting("support_conical_angle", Scope::object, &SupportSettings::support_conical_angle, Unit::degrees, -85, 85,
             "How far the faces of conical columns lean inwards on the way down; below 0 they get wider."),
     setting("support_conical_min_width", Scope::object, &SupportSettings::support_conical_min_width, Unit::mm, 0_mm,
