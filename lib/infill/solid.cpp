@@ -343,16 +343,17 @@ class Filler {
       const double share = (k + 0.5) / strands;
       const auto at = [&](std::uint32_t i) { return Turned{all_[i].from + share * length(i), y(i)}; };
       std::vector<Turned> path;
-      // the strip reaches half a line beyond its first and its last line
+      // The strip reaches half a line beyond its first and its last line, and so do round ends that lie there.
       const Turned first = at(strip[0]), second = at(strip[1]), last = at(strip.back()),
                    before = at(strip[strip.size() - 2]);
-      path.push_back({first.x - (second.x - first.x) / 2, first.y - lines_.spacing / 2});
+      if (!style_.ends_within) path.push_back({first.x - (second.x - first.x) / 2, first.y - lines_.spacing / 2});
       for (const std::uint32_t i : strip) path.push_back(at(i));
-      path.push_back({last.x + (last.x - before.x) / 2, last.y + lines_.spacing / 2});
+      if (!style_.ends_within) path.push_back({last.x + (last.x - before.x) / 2, last.y + lines_.spacing / 2});
       std::vector<Vertex> vertices;
+      const std::size_t begun = style_.ends_within ? 0 : 1;  // before the first line
       for (std::size_t i = 0; i < path.size(); ++i)
         vertices.push_back(
-            {path[i], rounded(across(strip, std::clamp<std::size_t>(i, 1, strip.size()) - 1) / strands)});
+            {path[i], rounded(across(strip, std::clamp(i, begun, strip.size() - 1 + begun) - begun) / strands)});
       const bool turned = started_ && std::hypot(path.back().x - at_.x, path.back().y - at_.y) <
                                           std::hypot(path.front().x - at_.x, path.front().y - at_.y);
       if (turned) std::reverse(vertices.begin(), vertices.end());
