@@ -382,13 +382,15 @@ class Filler {
         const Across at = across(strip, i, (k + 0.5) / strands);
         vertices.push_back({{at.x, y(strip[i])}, rounded(at.width / strands)});
       }
-      // the strip reaches half a line beyond its first and its last line
+      // The strip reaches half a line beyond its first and its last line, and so do round ends that lie there.
       const auto beyond = [](const Vertex& end, const Vertex& next) {
         return Vertex{{end.at.x - (next.at.x - end.at.x) / 2, end.at.y - (next.at.y - end.at.y) / 2}, end.width};
       };
-      const Vertex first = beyond(vertices[0], vertices[1]),
-                   last = beyond(vertices.back(), vertices[vertices.size() - 2]);
-      vertices.insert(vertices.begin(), first), vertices.push_back(last);
+      if (!style_.ends_within) {
+        const Vertex first = beyond(vertices[0], vertices[1]),
+                     last = beyond(vertices.back(), vertices[vertices.size() - 2]);
+        vertices.insert(vertices.begin(), first), vertices.push_back(last);
+      }
       const auto away = [&](const Vertex& v) { return std::hypot(v.at.x - at_.x, v.at.y - at_.y); };
       const bool turned = started_ && away(vertices.back()) < away(vertices.front());
       if (turned) std::reverse(vertices.begin(), vertices.end());

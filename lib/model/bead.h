@@ -27,7 +27,7 @@ struct Bead {
   std::uint16_t inset = 0;  ///< walls: 0 is the outermost, counted inwards
   std::uint32_t part = 0;   ///< index of the region of the layer it belongs to: beads of a part are printed together
   std::uint32_t sequence =
-      0;  ///< fills: beads of equal non-zero value are printed in their order in the list (monotonic skin)
+      0;  ///< skin: those of equal non-zero value are printed in their order; support: not 0, after all others
   ToolId tool = any_tool;   ///< what it is printed with
   ScopeId scope = 0;        ///< what settings it is printed with
   bool on_support = false;  ///< skin that rests on support

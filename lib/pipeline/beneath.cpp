@@ -67,6 +67,7 @@ Hanging Beneath::hanging(std::span<const Bead> beads, Um span) const {
         out.at.push_back(box.centre());
         continue;
       }
+      if (length < span / 4.0) continue;  // so short an end holds itself
       double next = apart / 2, along = 0;
       for (std::size_t i = 1; i < piece.size(); ++i) {
         along += distance(piece[i - 1], piece[i]);

@@ -26,9 +26,10 @@ class Beneath {
   /// What of beads has nothing below: no quarter of their width lies on anything. What crosses from one rest to another
   /// within a span does not count: a bead that is held at both ends sags little.
   Hanging hanging(std::span<const Bead> beads, Um span) const;
+  /// Whether a bead's middle there has a quarter of its width on something.
+  bool lies(Point p) const;
 
  private:
-  bool lies(Point p) const;
   std::vector<Polyline> hanging(const Bead& bead, Um span) const;
 
   geometry::SegmentIndex areas_, beads_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/fill_support.h"
 
+#include "core/stop.h"
 #include "geometry/spatial_index.h"
 #include "geometry/touching.h"
 #include "model/flow.h"
@@ -12,7 +13,6 @@
 #include "tasks/parallel.h"
 
 #include <iterator>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <utility>
@@ -31,7 +31,8 @@ class Layers {
       : settings_(settings),
         layers_(layers),
         origin_(origin),
-        line_(support::line_width(settings.support, settings.machine.nozzle_diameter)) {
+        line_(support::line_width(settings.support, settings.machine.nozzle_diameter)),
+        span_(support::roof_span(settings.machine.nozzle_diameter)) {
     if (settings.support.support_wall_count.value_or(0) == 0)
       columns_.emplace(settings, layers, origin);
     else
@@ -40,13 +41,23 @@ class Layers {
 
   std::vector<PrintedLayer> filled() && {
     auto filled = tasks::parallel_map(
-        layers_.size(), [&](std::size_t k) { return fill_support_layer(to_fill(k), columns_of(k), beneath(k)); });
+        layers_.size(), [&](std::size_t k) { return fill_support_layer(to_fill(k), columns_of(k), beneath_roof(k)); });
+    const auto hollow = tasks::parallel_map(layers_.size(), [&](std::size_t k) { return hang_of_columns(k); });
     std::vector<std::vector<Point>> hang_above(layers_.size());
     for (std::size_t k = 0; k < layers_.size(); ++k)
-      if (const auto& at = filled[k].hang_at; !at.empty())
-        for (const std::size_t j : below(k)) hang_above[j].insert(hang_above[j].end(), at.begin(), at.end());
+      for (const std::vector<Point>* at : {&std::as_const(filled[k].hang_at), &hollow[k]})
+        if (!at->empty())
+          for (const std::size_t j : below(k)) hang_above[j].insert(hang_above[j].end(), at->begin(), at->end());
+    std::vector<Beads> rungs(layers_.size());
+    for (std::size_t k = 0; k < layers_.size(); ++k) {
+      if (hang_above[k].empty()) continue;
+      stop_if_asked();
+      Beads under;
+      for (const std::size_t j : below(k)) under.insert(under.end(), rungs[j].begin(), rungs[j].end());
+      rungs[k] = rungs_on(k, hang_above[k], filled[k].beads, under);
+    }
     return tasks::parallel_map(layers_.size(), [&](std::size_t k) {
-      if (!hang_above[k].empty()) add_rungs(k, hang_above[k], filled[k].beads);
+      std::move(rungs[k].begin(), rungs[k].end(), std::back_inserter(filled[k].beads));
       return printed(layers_[k], std::move(filled[k].beads));
     });
   }
@@ -63,36 +74,45 @@ class Layers {
     return out;
   }
   /// What a layer lies on that has a roof, but where that is the same as below.
-  Beneath beneath(std::size_t k) const {
+  Beneath beneath_roof(std::size_t k) const {
     const support::SupportLayer& layer = layers_[k];
     if (layer.roof.empty() && layer.bottom.empty()) return {};
+    for (const std::size_t j : below(k))
+      if (layers_[j].roof == layer.roof && layers_[j].bottom == layer.bottom) return {};
+    return beneath(k);
+  }
+  Beneath beneath(std::size_t k) const {
     Regions areas;
     Beads beads;
     for (const std::size_t j : below(k)) {
       const support::SupportLayer& under = layers_[j];
-      if (under.roof == layer.roof && under.bottom == layer.bottom) return {};
       for (const Regions* some : {&under.roof, &under.bottom, &under.branches, &under.joists.area})
         append(areas, *some);
       Beads more = columns_of(j);
       std::move(more.begin(), more.end(), std::back_inserter(beads));
       for (const Polyline& line : under.joists.lines) {
         Bead& bead = beads.emplace_back();
-        for (const Point p : line) bead.path.push_back({p, 0, 1.F});
+        for (Point p : line) bead.path.push_back({p, 0, 1.F});
       }
     }
     return {areas, beads, line_};
   }
-  void add_rungs(std::size_t k, std::span<const Point> hang, Beads& beads) const {
+  /// Where walls of narrow columns hang that are not the same as below.
+  std::vector<Point> hang_of_columns(std::size_t k) const {
+    const auto under = below(k);
+    if (!columns_ || under.empty()) return {};
+    const Beads walls = columns_->hollow_unlike(k, under.front());
+    return walls.empty() ? std::vector<Point>{} : beneath(k).hanging(walls, span_).at;
+  }
+  Beads rungs_on(std::size_t k, std::span<const Point> hang, const Beads& beads, const Beads& under) const {
     const auto& s = settings_.support;
-    auto rungs = rungs_below(hang, beads, layers_[k].columns,
-                             {.direction_rad = (s.support_infill_angle + 90) * std::numbers::pi / 180,
-                              .span = support::roof_span(settings_.machine.nozzle_diameter),
-                              .line = line_,
-                              .band = flow::band(line_, layers_[k].height)});
-    for (Bead& rung : rungs) {
-      if (s.support_infill_extruder_nr) rung.tool = static_cast<ToolId>(*s.support_infill_extruder_nr);
-      beads.push_back(std::move(rung));
-    }
+    Regions area = layers_[k].columns;
+    append(area, layers_[k].roof), append(area, layers_[k].bottom);
+    Beads out = rungs_below(hang, beads, geometry::joined(area), beneath(k), under,
+                            {.span = span_, .line = line_, .band = flow::band(line_, layers_[k].height)});
+    if (s.support_infill_extruder_nr)
+      for (Bead& rung : out) rung.tool = static_cast<ToolId>(*s.support_infill_extruder_nr);
+    return out;
   }
   static PrintedLayer printed(const support::SupportLayer& layer, Beads beads) {
     PrintedLayer out;
@@ -112,7 +132,7 @@ class Layers {
   const Settings& settings_;
   const std::vector<support::SupportLayer>& layers_;
   Point origin_;
-  Um line_;
+  Um line_, span_;
   std::optional<SupportColumns> columns_;  ///< without walls
   std::vector<Beads> walled_;              ///< columns with walls, by layer
 };

@@ -136,8 +136,12 @@ class Filler {
     for (double n = std::ceil(first / half_wave - 0.5); (n + 0.5) * half_wave < first + length; ++n) {
       const double along = (n + 0.5) * half_wave - first, aside = std::fmod(n, 2) == 0 ? apart / 3 : -apart / 3;
       Junction bent = from;
-      bent.at = from.at + Point{rounded(along * x - aside * y), rounded(along * y + aside * x)};
-      if (inside.region_at(bent.at)) path.push_back(bent);
+      for (const double share : {1.0, 0.5, 0.0}) {  // where a bend has no room, the line itself lies on what is below
+        bent.at = from.at + Point{rounded(along * x - share * aside * y), rounded(along * y + share * aside * x)};
+        if (!inside.region_at(bent.at)) continue;
+        path.push_back(bent);
+        break;
+      }
     }
     path.push_back(to);
     line.path = std::move(path);
@@ -195,8 +199,13 @@ class Filler {
         continue;
       }
       const Regions reached = coarsely(wide, half / 2);
+      const std::size_t from = beads_.size();
       solid(geometry::intersect({area}, reached), s_.support_infill_angle + 90, Role::support_interface,
             row_of(pattern_rows, s_.support_interface_pattern).connect);
+      if (!below_->empty()) {
+        const auto hanging = below_->hanging(laid(from), span_);
+        hang_at_.insert(hang_at_.end(), hanging.at.begin(), hanging.at.end());
+      }
       narrow(geometry::opening(geometry::subtract({area}, reached), band_ / 4));
     }
   }
@@ -240,7 +249,7 @@ class Filler {
     for (const Polyline& line : layer_.joists.lines) {
       Bead bead;
       bead.role = Role::support;
-      for (const Point p : line) bead.path.push_back({p, band_, 1.F});
+      for (Point p : line) bead.path.push_back({p, band_, 1.F});
       beads_.push_back(std::move(bead));
     }
   }
@@ -281,7 +290,7 @@ class Filler {
   void loop(const Ring& ring, int inset, Role role) {
     Bead bead;
     bead.role = role, bead.closed = true, bead.inset = static_cast<std::uint16_t>(inset);
-    for (const Point p : geometry::simplified(ring, support::outline_bound)) bead.path.push_back({p, band_, 1.F});
+    for (Point p : geometry::simplified(ring, support::outline_bound)) bead.path.push_back({p, band_, 1.F});
     beads_.push_back(std::move(bead));
   }
 

@@ -12,7 +12,7 @@ namespace weft::pipeline {
 /// The beads of a layer of support.
 struct SupportBeads {
   Beads beads;
-  std::vector<Point> hang_at;  ///< places where narrow roofs have nothing below
+  std::vector<Point> hang_at;  ///< places where roofs have nothing below
 };
 
 /// A layer of support that is to be filled.

@@ -7,6 +7,7 @@
 #include "tasks/parallel.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <tuple>
 
@@ -37,6 +38,15 @@ SupportColumns::SupportColumns(const Settings& settings, const std::vector<suppo
 Beads SupportColumns::of(std::size_t layer) const {
   Beads out;
   for (const std::size_t i : like_[layer]) out.insert(out.end(), filled_[i].begin(), filled_[i].end());
+  return out;
+}
+
+Beads SupportColumns::hollow_unlike(std::size_t layer, std::size_t other) const {
+  Beads out;
+  for (const std::size_t i : like_[layer])
+    if (std::find(like_[other].begin(), like_[other].end(), i) == like_[other].end())
+      std::copy_if(filled_[i].begin(), filled_[i].end(), std::back_inserter(out),
+                   [](const Bead& b) { return b.closed; });
   return out;
 }
 

@@ -12,7 +12,6 @@
 #include "support/landing.h"
 #include "support/lengths.h"
 #include "support/resting.h"
-#include "support/rungs.h"
 #include "support/support.h"
 #include "support/thin.h"
 #include "support/trapped.h"
@@ -363,7 +362,6 @@ Plan plan(const SupportSettings& settings, const Object& object, const Demand& d
   Caps caps = caps_on(room, stack, demand, out.layers);
   note_reached(object, stack, demand, caps, out);
   out.figures.on_part_mm2 = land(room, out.layers);
-  lay_rungs(room, {out.layers.data(), used});
   std::move(caps.layers.begin(), caps.layers.end(), std::back_inserter(out.layers));
   std::stable_sort(out.layers.begin(), out.layers.end(),
                    [](const SupportLayer& a, const SupportLayer& b) { return a.z < b.z; });

@@ -36,12 +36,15 @@ class BlockOrder {
       first_fills.swap(last_fills);
     else
       find_bridges_under_walls(first_fills, last_fills);
-    const auto ironing = taken(first_fills, last_fills);
+    const auto ironing =
+        taken(first_fills, last_fills, [this](std::uint32_t b) { return beads_[b].role == Role::ironing; });
+    const auto rungs = taken(first_fills, last_fills, [this](std::uint32_t b) { return is_rung(beads_[b]); });
     if (!first_fills.empty()) at = fills(first_fills, at, linked_.places[index_]);
-    const bool walls_last = last_fills.empty() && ironing.empty();
+    const bool walls_last = last_fills.empty() && rungs.empty() && ironing.empty();
     const auto walls = order_walls(settings_, layer_, linked_, index_, at, walls_last ? then : std::nullopt);
     for (const auto& turn : walls) at = append(turn);
     if (!last_fills.empty()) at = fills(last_fills, at, then);
+    if (!rungs.empty()) at = fills(rungs, at, then);
     if (!ironing.empty()) at = fills(ironing, at, then);
     if (settings_.path_order == PathOrder::nearest) return at;
     fit_open_walls(beads_, std::span(turns_).subspan(first), {from, then});
@@ -56,13 +59,16 @@ class BlockOrder {
     return end_of(beads_[turn.bead], turn);
   }
 
-  /// Ironing goes over all that a part holds.
-  std::vector<std::uint32_t> taken(std::vector<std::uint32_t>& first, std::vector<std::uint32_t>& last) const {
+  /// Over nothing, from one bead of support to another of its layer: these come first, or its ends hold on to nothing.
+  static bool is_rung(const Bead& bead) { return bead.role == Role::support && bead.sequence != 0; }
+
+  /// What has its time after all else that a part holds: ironing goes over it, rungs end on it.
+  template <class Is>
+  static std::vector<std::uint32_t> taken(std::vector<std::uint32_t>& first, std::vector<std::uint32_t>& last, Is is) {
     std::vector<std::uint32_t> out;
     for (auto* fills : {&first, &last}) {
-      const auto irons = [&](std::uint32_t b) { return beads_[b].role == Role::ironing; };
-      std::copy_if(fills->begin(), fills->end(), std::back_inserter(out), irons);
-      std::erase_if(*fills, irons);
+      std::copy_if(fills->begin(), fills->end(), std::back_inserter(out), is);
+      std::erase_if(*fills, is);
     }
     return out;
   }

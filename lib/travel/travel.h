@@ -190,7 +190,7 @@ std::vector<Linked> link(const TravelSettings& settings, std::span<const Prepare
 /// The order of all beads of a layer.
 /// Post: every bead has exactly one turn; beads of a part follow each other, its walls in their order where they touch,
 ///       then its fills, with open walls anywhere between; beads of equal non-zero sequence keep their order where it
-///       shows: top skin, bridges and the first layer (all but top skin may have it turned around as a whole).
+///       shows: top skin, bridges and the first layer (all but top skin may have it turned around); support's are last.
 Ordered order(const TravelSettings& settings, const Prepared& layer, const Linked& linked);
 
 /// How long the ways between the beads of a layer are in that order, and what no order could go below, µm: straight,

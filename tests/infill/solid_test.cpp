@@ -56,6 +56,28 @@ TEST_CASE("solid: with ends_within no end of a line stands out of the area", "[i
   CHECK(near_the_edge(false) >= within + (connect ? 2 : 30));
 }
 
+TEST_CASE("solid: with ends_within a strand along a strip keeps its round ends in it", "[infill]") {
+  constexpr Um length = 3000, wide = 430;
+  const double lean = GENERATE(-1.2, -0.35, 0.35, 0.8, 1.5);  // of the strip against the lines
+  CAPTURE(lean);
+  const auto turned = [&](double x, double y) {
+    return Point{rounded(x * std::cos(lean) - y * std::sin(lean)), rounded(x * std::sin(lean) + y * std::cos(lean))};
+  };
+  const Region strip{{turned(0, 0), turned(length, 0), turned(length, wide), turned(0, wide)}, {}};
+  const auto ends = [&](bool within) {
+    double least = length;
+    for (const Bead& bead : filled(strip, {.band = wide, .angle_rad = 0, .ends_within = within}))
+      for (const Junction& j : {bead.path.front(), bead.path.back()}) {
+        const double along = j.at.x * std::cos(lean) + j.at.y * std::sin(lean);
+        least = std::min(least, std::min(along, length - along) - j.width / 2.0);
+      }
+    return least;
+  };
+  CHECK(ends(true) > -wide / 4.0);  // at 60° a line in its corner has its middle a fifth of a line nearer
+  CHECK(ends(true) < wide / 2.0);   // and no further in than that
+  CHECK(ends(false) < ends(true) - 100);
+}
+
 TEST_CASE("solid: lines lie side by side without gap and without overlap", "[infill][law]") {
   const double angle = GENERATE(0.0, 45.0, 77.0);
   const Beads beads = filled(rectangle(0, 0, 8000, 5000), {.band = 430, .angle_rad = degrees(angle)});

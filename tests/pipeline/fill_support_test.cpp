@@ -5,6 +5,7 @@
 #include "model/flow.h"
 #include "pipeline/beneath.h"
 #include "rectangle.h"
+#include "support/body.h"
 
 #include <algorithm>
 #include <cmath>
@@ -254,4 +255,54 @@ TEST_CASE("support: a dab under a tip between two lines of a column lies on a ru
   CHECK(std::abs(*ends.begin() - row) <= 1);
   CHECK(std::abs(*ends.rbegin() - next) <= 1);
   CHECK(std::abs(rung.path.front().at.x - 20000) <= 1);
+}
+
+TEST_CASE("support: what hangs over hollow columns lies on rungs, which end on beads and are laid after them") {
+  Body body;
+  body.add(30, {rectangle(-2000, -2000, 2000, 2000)});
+  for (Um out = 2800; out <= 14000; out += 800) body.add(1, {rectangle(-out, -out, out, out)});
+  body.add(5, {rectangle(-14000, -14000, 14000, 14000)});
+  const auto plan = planned(on(), body);
+  Settings s;
+  s.support = on();
+  std::size_t rungs = 0;
+  for (const auto& layer : pipeline::fill_support(s, plan.layers, {})) {
+    Beads others;
+    std::copy_if(layer.beads.begin(), layer.beads.end(), std::back_inserter(others),
+                 [](const Bead& bead) { return bead.sequence == 0; });
+    const auto laid = pipeline::segments_of(others);
+    for (const Bead& bead : layer.beads) {
+      if (bead.sequence == 0) continue;
+      ++rungs;
+      CHECK(length_mm(bead) <= 4);
+      CHECK(laid.nearest(bead.path.front().at, 2));
+      CHECK(laid.nearest(bead.path.back().at, 2));
+    }
+  }
+  CHECK(rungs > 10);
+}
+
+TEST_CASE("support: a strip of roof beside the one below it lies on rungs between that and the next line") {
+  const auto s = fine_lines();
+  auto of_column = level(2000, 200, &support::SupportLayer::columns, {rectangle(0, 0, 40000, 40000)});
+  const auto alone = pipeline::fill_support(s, {of_column}, {});
+  std::set<Um> rows;
+  for (const Bead& bead : alone.front().beads) rows.insert(bead.path[0].at.y);
+  REQUIRE(rows.size() > 10);
+  const Um row = *std::next(rows.begin(), 5), next = *std::next(rows.begin(), 6);
+  of_column.columns = {rectangle(0, row + 800, 40000, 40000)};
+  of_column.roof = {rectangle(0, row, 40000, row + 800)};
+  const auto strip = level(2200, 200, &support::SupportLayer::roof, {rectangle(5000, row + 900, 25000, row + 1700)});
+  const auto filled = pipeline::fill_support(s, {of_column, strip}, {});
+  std::size_t rungs = 0;
+  for (const Bead& bead : filled.front().beads) {
+    if (bead.sequence == 0) continue;
+    ++rungs;
+    const auto [low, high] = std::minmax(bead.path.front().at.y, bead.path.back().at.y);
+    CHECK(low <= row + 800);  // on the roof's outermost bead
+    CHECK(std::abs(high - next) <= 1);
+  }
+  CHECK(rungs >= 5);
+  const pipeline::Beneath below({}, filled.front().beads, 400);
+  CHECK(below.hanging(filled[1].beads, 5000).um == 0);
 }

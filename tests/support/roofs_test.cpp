@@ -92,24 +92,3 @@ TEST_CASE("support: a branch stands on a floor, also where nothing spreads on th
     CHECK_FALSE(plan.layers[1].branches.empty());
   }
 }
-
-TEST_CASE("support: a roof that begins above a hollow column lies on rungs from wall to wall") {
-  Body body;
-  body.add(30, {rectangle(-2000, -2000, 2000, 2000)});
-  for (Um out = 2800; out <= 14000; out += 800) body.add(1, {rectangle(-out, -out, out, out)});
-  body.add(5, {rectangle(-14000, -14000, 14000, 14000)});
-  const auto plan = planned(on(), body);
-  std::size_t rungs = 0;
-  for (const auto& level : plan.layers) {
-    const geometry::SegmentIndex column(grown(level.columns, 10));
-    for (const auto& rung : level.joists.lines) {
-      ++rungs;
-      CHECK(length_of(rung) < 5000);
-      for (const Point end : {rung.front(), rung.back()}) {
-        CHECK(column.region_at(end));
-        CHECK(column.nearest(end, 400));
-      }
-    }
-  }
-  CHECK(rungs > 10);
-}

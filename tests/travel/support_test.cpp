@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "travel/layers.h"
 
+#include <algorithm>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -85,4 +86,33 @@ TEST_CASE("travel: ways go round support that stands in them, unless that is far
   CHECK(meets(settings) == 0);
   settings.travel_avoid_supports = false;
   CHECK(meets(settings) > 0);
+}
+
+TEST_CASE("travel: a rung of support is printed after the beads that it ends on", "[travel]") {
+  for (const auto kind : {PathOrder::nearest, PathOrder::optimized}) {
+    TravelSettings settings;
+    settings.path_order = kind;
+    LayerInput input;
+    input.time.index = input.time.number = 3;
+    input.z = 800, input.height = 200;
+    auto column = sample::object({sample::rectangle({0, 0}, {8000, 8000})});
+    column.support = true;
+    for (auto& bead : column.beads) bead.role = Role::support, bead.sequence = 0;
+    const std::size_t others = column.beads.size();
+    REQUIRE(others > 3);
+    Bead rung;  // the nozzle comes from where it begins
+    rung.role = Role::support, rung.sequence = 1;
+    rung.path = {{{0, 0}, 400, 1.F}, {{2000, 400}, 400, 1.F}};
+    column.beads.insert(column.beads.begin(), rung);
+    input.objects.push_back(std::move(column));
+    std::vector<Polyline> printed;
+    const auto plans = plan(settings, {}, {input});
+    for (const auto& step : plans[0].steps)
+      if (const auto* bead = std::get_if<Extrude>(&step))
+        printed.push_back({bead->path.front().at, bead->path.back().at});
+    REQUIRE(printed.size() > others);
+    Polyline last = printed.back();
+    std::sort(last.begin(), last.end());
+    CHECK(last == Polyline{{0, 0}, {2000, 400}});
+  }
 }
