@@ -2,6 +2,7 @@
 #include "infill/strips.h"
 
 #include "geometry/offset.h"
+#include "infill/scan.h"
 
 #include <cmath>
 
@@ -15,8 +16,11 @@ double edge_um(const Region& region) {
   return um;
 }
 
-}  // namespace
-
+/// The direction (against X) that an edge has on the mean, weighted by the square of its parts' lengths: ends that
+/// slant do not turn it. And the share of its length that runs one way, less what runs across.
+struct EdgeDirection {
+  double angle_rad = 0, share = 0;
+};
 EdgeDirection direction_of_edge(const Region& region) {
   struct Sum {
     double x = 0, y = 0;
@@ -35,6 +39,18 @@ EdgeDirection direction_of_edge(const Region& region) {
   for (const Ring& hole : region.holes) look(hole);
   if (all == 0) return {};
   return {std::atan2(by_square.y, by_square.x) / 2, std::hypot(by_length.x, by_length.y) / all};
+}
+
+}  // namespace
+
+std::optional<double> angle_along_edge(const Region& region, std::optional<double> bend) {
+  constexpr double most = 0.5;
+  const EdgeDirection edge = direction_of_edge(region);
+  if (edge.share < most) return std::nullopt;
+  if (!bend) return edge.angle_rad;
+  const Outline outline(region, Frame(edge.angle_rad, region.outer.front()));
+  const double width = 2e6 * area_mm2(region) / edge_um(region);
+  return outline.greatest_y() - outline.least_y() <= width + *bend ? std::optional(edge.angle_rad) : std::nullopt;
 }
 
 std::optional<double> angle_along_strip(const Region& region, Um band) {
