@@ -130,7 +130,7 @@ std::optional<double> internal_bridge_angle_rad(const Region& area, const OverSp
   constexpr double short_way = 3;    // strands: lines that hang no further in any direction do not sag
   constexpr double clearly = 0.8;    // of a span, so 0.4 of its sag: else the first direction stays
   constexpr double most_free = 0.5;  // of the strands' length: more ends over nothing
-  const auto along = angle_along_edge(area, narrow ? std::optional<double>(nozzle) : std::nullopt);
+  const auto along = angle_of_axis(area, narrow ? std::optional<double>(nozzle) : std::nullopt);
   if (narrow && !along) return std::nullopt;
   Beads infill;
   SparseStyle lines = below;
