@@ -127,13 +127,11 @@ Ways ways_of(const Regions& areas, const OverSparse& around, const Beads& held_b
 std::optional<double> internal_bridge_angle_rad(const Region& area, const OverSparse& around, const SparseStyle& below,
                                                 Um nozzle, bool narrow) {
   constexpr int directions = 18;
-  constexpr double runs_on = 0.5;    // of its edge: then strands may run along it
   constexpr double short_way = 3;    // strands: lines that hang no further in any direction do not sag
   constexpr double clearly = 0.8;    // of a span, so 0.4 of its sag: else the first direction stays
   constexpr double most_free = 0.5;  // of the strands' length: more ends over nothing
-  const EdgeDirection edge = direction_of_edge(area);
-  const bool runs = edge.share > runs_on;
-  if (narrow && !runs) return std::nullopt;
+  const auto along = angle_of_axis(area, narrow ? std::optional<double>(nozzle) : std::nullopt);
+  if (narrow && !along) return std::nullopt;
   Beads infill;
   SparseStyle lines = below;
   lines.connect = false;  // its lines turn along the edge of the sparse area, not of this one
@@ -142,12 +140,12 @@ std::optional<double> internal_bridge_angle_rad(const Region& area, const OverSp
   Regions inner = geometry::offset({area}, {.by = -2 * nozzle});
   if (inner.empty()) inner = {area};
   const auto ways_at = [&](double angle) { return ways_of(inner, around, infill, angle); };
-  Ways best = ways_at(runs ? edge.angle_rad : below.angle_rad);
+  Ways best = ways_at(along.value_or(below.angle_rad));
   const bool sags = best.mean_um > short_way * nozzle, held = best.free_share <= most_free;
-  if (narrow || (runs && held && sags && best.mean_um <= easy_span * nozzle))
+  if (narrow || (along && held && sags && best.mean_um <= easy_span * nozzle))
     return held && sags ? std::optional(best.angle_rad) : std::nullopt;
   double most_um = best.mean_um;
-  for (int d = runs ? 0 : 1; d < directions; ++d) {
+  for (int d = along ? 0 : 1; d < directions; ++d) {
     stop_if_asked();
     const Ways ways = ways_at(below.angle_rad + d * std::numbers::pi / directions);
     if (ways.mean_um < clearly * best.mean_um) best = ways;

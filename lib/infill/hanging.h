@@ -22,7 +22,9 @@ struct HangingLayer {
 void find_bridges(const ShellSettings& settings, const HangingLayer& layer, const Mask& air, const Mask& below,
                   Kinds& kinds);
 
-/// Solid over sparse infill hangs from line to line of it: strands run across the shortest free spans.
+/// Solid over sparse infill hangs from line to line of it: strands run along a straight area whose spans are easy, else
+/// across the shortest free spans. What is narrow is a bridge only along, with strands that both ends hold: shreds
+/// across it, or along a bend, would hang no better than the lines beside them.
 /// @param below, sparse  the infill of the layer below, and where it is
 void find_internal_bridges(const ShellSettings& settings, const HangingLayer& layer, const SparseStyle& below,
                            const std::optional<Mask>& sparse, Kinds& kinds);

@@ -24,7 +24,7 @@ struct SolidStyle {
 
 /// Fills a region with parallel lines, in an order in which every line is printed after its neighbour on one and the
 /// same side. Neighbouring lines are joined by a turn along the edge; both are shortened by half of it, so that the
-/// turn adds no plastic. Strips narrower than a line and a third get one bead along their middle as wide as they are
+/// turn adds no plastic. Strips narrower than a line and a third get one bead along their axis as wide as they are
 /// (Role::gap_fill; of a bridge a strand of it) where that is a quarter of a line at least, or none without `gaps`.
 /// Post: Σ volume = area × height × flow, but for what overlaps and for what stays open.
 void fill_solid(const Region& region, const SolidStyle& style, Beads& beads);

@@ -2,8 +2,10 @@
 #include "infill/strips.h"
 
 #include "geometry/offset.h"
+#include "infill/scan.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace weft::infill {
 
@@ -15,8 +17,11 @@ double edge_um(const Region& region) {
   return um;
 }
 
-}  // namespace
-
+/// The direction (against X) that an edge has on the mean, weighted by the square of its parts' lengths: ends that
+/// slant do not turn it. And the share of its length that runs one way, less what runs across.
+struct EdgeDirection {
+  double angle_rad = 0, share = 0;
+};
 EdgeDirection direction_of_edge(const Region& region) {
   struct Sum {
     double x = 0, y = 0;
@@ -35,6 +40,35 @@ EdgeDirection direction_of_edge(const Region& region) {
   for (const Ring& hole : region.holes) look(hole);
   if (all == 0) return {};
   return {std::atan2(by_square.y, by_square.x) / 2, std::hypot(by_length.x, by_length.y) / all};
+}
+
+}  // namespace
+
+std::optional<double> angle_of_axis(const Region& region, std::optional<double> bend) {
+  constexpr double longer = 2;                            // than wide
+  double area = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;  // moments of the triangles between edges and a corner
+  const Point corner = box_of(region.outer).min;
+  const auto add = [&](const Ring& ring) {
+    for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+      const double ax = ring[j].x - corner.x, ay = ring[j].y - corner.y, bx = ring[i].x - corner.x,
+                   by = ring[i].y - corner.y, twice = ax * by - bx * ay;
+      area += twice / 2, x += twice * (ax + bx) / 6, y += twice * (ay + by) / 6;
+      xx += twice * (ax * ax + ax * bx + bx * bx) / 12, yy += twice * (ay * ay + ay * by + by * by) / 12;
+      xy += twice * (2 * ax * ay + ax * by + bx * ay + 2 * bx * by) / 24;
+    }
+  };
+  add(region.outer);
+  for (const Ring& hole : region.holes) add(hole);
+  if (area <= 0) return std::nullopt;
+  xx -= x * x / area, yy -= y * y / area, xy -= x * y / area;
+  const double mean = (xx + yy) / 2, apart = std::hypot((xx - yy) / 2, xy);
+  if (mean + apart < longer * longer * (mean - apart)) return std::nullopt;
+  const double angle = std::atan2(2 * xy, xx - yy) / 2;
+  if (!bend) return angle;
+  const Outline along(region, Frame(angle, region.outer.front())),
+      across(region, Frame(angle + std::numbers::pi / 2, region.outer.front()));
+  const double width = area / (across.greatest_y() - across.least_y());
+  return along.greatest_y() - along.least_y() <= width + *bend ? std::optional(angle) : std::nullopt;
 }
 
 std::optional<double> angle_along_strip(const Region& region, Um band) {

@@ -390,6 +390,30 @@ TEST_CASE("shells: a belt of solid over sparse infill is a bridge along it, wher
   }
 }
 
+TEST_CASE("shells: a bridge over sparse infill runs along its area also where that lies aslant on the grid",
+          "[infill]") {
+  const double turned = degrees(GENERATE(17, 27, 63, 110));
+  CAPTURE(turned);
+  const auto turn = [&](Regions regions) {
+    for (Region& region : regions)
+      for (Point& p : region.outer)
+        p = {rounded(p.x * std::cos(turned) - p.y * std::sin(turned)),
+             rounded(p.x * std::sin(turned) + p.y * std::cos(turned))};
+    return regions;
+  };
+  std::vector<Regions> outlines;
+  for (int i = 0; i < 12; ++i) outlines.push_back(turn({rectangle(0, 0, 40000 - i * 1100, 20000)}));
+  InfillSettings infill;
+  infill.infill_sparse_density = 20, infill.infill_angle = 45 + turned * 180 / std::numbers::pi;
+  std::vector<infill::BridgeArea> found;
+  const auto areas = Object(std::move(outlines)).areas(skin(2, 0, 0, 0), infill);
+  for (std::size_t i = 0; i + 2 < areas.size(); ++i)  // what is below the top
+    for (const PartAreas& part : areas[i]) found.insert(found.end(), part.bridges.begin(), part.bridges.end());
+  CHECK(found.size() >= 8);
+  for (const infill::BridgeArea& bridge : found)
+    CHECK(std::abs(std::cos(bridge.angle_rad - turned)) < std::sin(degrees(1)));
+}
+
 TEST_CASE("shells: a narrow belt of solid whose lines along would end over nothing is no bridge", "[infill]") {
   // a ring, on sparse infill between two walls: across it lines are short, along it they would leave it
   constexpr int corners = 60;
