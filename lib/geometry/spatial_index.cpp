@@ -100,7 +100,7 @@ void SegmentIndex::build() {
     const auto size = box_.size();
     return ((std::int64_t{size.x} >> shift) + 1) * ((std::int64_t{size.y} >> shift) + 1);
   };
-  const auto wanted = static_cast<std::int64_t>(segments_.size()) + 1;
+  const auto wanted = 4 * static_cast<std::int64_t>(segments_.size()) + 1;  // an outline runs through few of them
   while (cells_at(shift_) > wanted) ++shift_;
   columns_ = column(box_.max.x) + 1;
   rows_ = row(box_.max.y) + 1;

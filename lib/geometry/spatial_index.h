@@ -28,7 +28,7 @@ struct EdgeOfRegion {
 
 /// Answers questions about many segments without looking at all of them. Immutable, so any number of threads may ask.
 ///
-/// How it works: a uniform grid of about one cell a segment, cells of 2^k µm, the segments of each cell in one flat
+/// How it works: a uniform grid of about four cells a segment, cells of 2^k µm, the segments of each cell in one flat
 /// array. Cost: built in O(n), about 50 ns a segment; a query looks at the cells it must, usually a handful.
 class SegmentIndex {
  public:
