@@ -207,6 +207,22 @@ std::optional<RingChains::Pairs> RingChains::clean_crossings() const {
   return out;
 }
 
+std::optional<RingChains::Pairs> RingChains::touching_pairs() const {
+  if (has_points_) return std::nullopt;
+  Pairs out;
+  const Found found =
+      for_each_near_pair(true, [&](std::uint32_t i, const Segment& s, std::uint32_t j, const Segment& t) {
+        if (!segments_touch(s.a, s.b, t.a, t.b) || join(i, j)) return true;
+        if (neighbours(i, j)) return false;
+        out.emplace_back(i, j);
+        return true;
+      });
+  if (found == Found::too_slow) return grid().clean_crossings();
+  if (found == Found::stopped) return std::nullopt;
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
 bool RingChains::simple() const {
   if (has_points_) return false;
   const Found found =

@@ -39,6 +39,9 @@ class RingChains {
   /// As in SegmentIndex.
   Pairs crossing_pairs() const;
   std::optional<Pairs> clean_crossings() const;
+  /// The pairs of edges that have a point in common, ascending, but for neighbours their common end; nothing where
+  /// neighbours lie on each other, or where there are too many to find them by chains and some only touch. Exact.
+  std::optional<Pairs> touching_pairs() const;
   bool simple() const;
   void windings(Point p, std::vector<SegmentIndex::RingWinding>& found) const;
   static constexpr std::uint32_t none = SegmentIndex::none, unsure = SegmentIndex::unsure;
