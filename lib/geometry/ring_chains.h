@@ -39,9 +39,15 @@ class RingChains {
   /// As in SegmentIndex.
   Pairs crossing_pairs() const;
   std::optional<Pairs> clean_crossings() const;
-  /// The pairs of edges that have a point in common, ascending, but for neighbours their common end; nothing where
-  /// neighbours lie on each other, or where there are too many to find them by chains and some only touch. Exact.
-  std::optional<Pairs> touching_pairs() const;
+  /// The pairs of edges of two sets of rings that have a point in common, ascending. Exact.
+  struct Touching {
+    Pairs pairs;
+    enum class How { clean, tangled, unclear } how = How::clean;  ///< tangled: edges of one set cross
+    std::size_t set = 0;                                          ///< which, 0 or 1
+  };
+  /// Stops where edges of one set meet; unclear, too, where neighbours lie on each other.
+  /// @param second  the first edge of the second set
+  Touching touching(std::uint32_t second) const;
   bool simple() const;
   void windings(Point p, std::vector<SegmentIndex::RingWinding>& found) const;
   static constexpr std::uint32_t none = SegmentIndex::none, unsure = SegmentIndex::unsure;

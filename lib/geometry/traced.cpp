@@ -65,19 +65,14 @@ class Outlines {
   std::uint32_t ring_of(std::uint32_t segment) const { return chains_.ring_of(segment); }
 
   bool find_crossings() {
-    const auto pairs = chains_.touching_pairs();
-    if (!pairs) return false;
+    const auto touching = chains_.touching(chains_.first_of(first_of_b_));
+    if (touching.how == RingChains::Touching::How::tangled) crosses_itself_ = touching.set;
+    if (touching.how != RingChains::Touching::How::clean) return false;
     crossed_.assign(rings_.size(), 0);
-    for (const auto& [i, j] : *pairs) {  // i < j, so i is a's where they are of different sets
-      if (of_b(ring_of(i)) == of_b(ring_of(j))) {
-        const Segment s = chains_.edge(i), t = chains_.edge(j);
-        if (segments_cross(s.a, s.b, t.a, t.b)) crosses_itself_ = of_b(ring_of(i)) ? 1 : 0;
-        return false;
-      }
-      if (!add_crossing(i, j)) return false;
-    }
-    return true;
+    return std::all_of(touching.pairs.begin(), touching.pairs.end(),
+                       [&](const auto& pair) { return add_crossing(pair.first, pair.second); });
   }
+  /// Of an edge of a and one of b.
   bool add_crossing(std::uint32_t i, std::uint32_t j) {
     const Segment s = chains_.edge(i), t = chains_.edge(j);
     if (segments_cross(s.a, s.b, t.a, t.b)) {
