@@ -2,6 +2,7 @@
 #include "command.h"
 
 #include "core/write_file.h"
+#include "key_options.h"
 #include "pipeline/field_files.h"
 #include "pipeline/made_at.h"
 #include "pipeline/model_parts.h"
@@ -9,7 +10,6 @@
 #include "pipeline/project.h"
 #include "profile/tool_values.h"
 #include "profile_folders.h"
-#include "prusaslicer/keys.h"
 #include "settings/catalogue.h"
 #include "settings/value.h"
 
@@ -66,45 +66,6 @@ po::options_description common_options() {
 }
 
 namespace {
-
-std::string dashed(std::string_view key) {
-  std::string out(key);
-  std::replace(out.begin(), out.end(), '_', '-');
-  return out;
-}
-
-std::string underscored(std::string key) {
-  std::replace(key.begin(), key.end(), '-', '_');
-  return key;
-}
-
-/// Every setting as an option of its own; hidden from the help, which points to `weft settings`.
-po::options_description setting_options() {
-  po::options_description out;
-  std::set<std::string> names;
-  for (const auto& entry : catalogue()) {
-    auto* value = po::value<std::vector<std::string>>();
-    if (entry.type == "flag") value->implicit_value({"true"}, "true");
-    if (names.insert(dashed(entry.key)).second) out.add_options()(dashed(entry.key).c_str(), value);
-  }
-  return out;
-}
-
-/// PrusaSlicer's keys that are none of weft's, as options too.
-po::options_description prusaslicer_options(const po::options_description& ours) {
-  po::options_description out;
-  std::set<std::string> names;  // that are taken: asking the descriptions takes as long as slicing a small part
-  for (const auto& options : {ours, common_options()})
-    for (const auto& option : options.options()) names.insert(option->long_name());
-  for (const auto& row : prusaslicer::keys()) {
-    const auto name = dashed(row.name);
-    if (!names.insert(name).second) continue;
-    auto* value = po::value<std::vector<std::string>>();
-    if (row.written == prusaslicer::Written::flag) value->implicit_value({"1"}, "1");
-    out.add_options()(name.c_str(), value);
-  }
-  return out;
-}
 
 /// Options that are followed by a word and any number of settings: they become one word, a line each.
 std::vector<std::string> gathered(const std::vector<std::string>& words) {
@@ -401,20 +362,19 @@ Command parse_command(const std::vector<std::string>& words, const po::options_d
                       Result result) {
   po::options_description all, hidden;
   hidden.add_options()("input", po::value<std::vector<std::string>>());
-  const auto settings = setting_options();
-  const auto foreign = prusaslicer_options(settings);
+  const auto joined = gathered(words);
+  const auto keys = keys_typed(joined);
+  const auto settings = setting_options(keys), foreign = prusaslicer_options(keys);
   po::options_description theirs;  // what the verb itself understands means that
-  std::set<std::string> own;       // asking the descriptions hundreds of times is a fifth of reading the command line
-  for (const auto& option : verb_options.options()) own.insert(option->long_name());
   for (const auto& option : foreign.options())
-    if (own.count(option->long_name()) == 0) theirs.add(option);
+    if (verb_options.find_nothrow(option->long_name(), false) == nullptr) theirs.add(option);
   all.add(common_options()).add(verb_options).add(hidden).add(settings).add(theirs);
   po::positional_options_description positional;
   positional.add("input", -1);
 
   Command command;
   try {
-    const auto typed = normalised(gathered(words), settings, foreign);
+    const auto typed = normalised(joined, settings, foreign);
     const auto style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
     const auto parsed = po::command_line_parser(typed).options(all).positional(positional).style(style).run();
     po::store(parsed, command.options);

@@ -209,6 +209,7 @@ void SegmentIndex::crossings(Point a, Point b, std::vector<Crossing>& found) con
     found.push_back({i, static_cast<double>(at_a) / (static_cast<double>(at_a) - static_cast<double>(at_b)), at_b > 0});
     return true;
   });
+  if (found.size() < 2) return;
   std::sort(found.begin(), found.end(), [](const Crossing& l, const Crossing& r) {
     return l.along != r.along ? l.along < r.along : l.segment < r.segment;
   });

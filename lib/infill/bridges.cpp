@@ -4,6 +4,7 @@
 #include "core/stop.h"
 #include "geometry/offset.h"
 #include "infill/scan.h"
+#include "infill/strips.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,50 +72,68 @@ std::vector<Crossing> crossings(const Beads& beads, const Frame& frame, const Li
   return out;
 }
 
-/// Whether a strand that ends there, or runs on out of what hangs, ends over nothing.
-bool ends_in_air(Turned end, double along, const Frame& frame, const OverSparse& around) {
-  constexpr int most_cells = 30;  // until it leaves what hangs: else it runs along the edge
+/// How far a strand that runs on out of what hangs stands out from there, where it ends over nothing.
+std::optional<double> stands_out_by(Turned end, double along, const Frame& frame, const OverSparse& around) {
+  constexpr int most_cells = 100;  // until it leaves what hangs: else it runs along the edge
   const double cell = around.open.grid().cell;
   for (int k = 0; k < most_cells; ++k, end.x += along * cell)
-    if (!around.hanging.at(frame.back(end))) return around.open.at(frame.back({end.x + along * cell, end.y}));
-  return false;
+    if (!around.hanging.at(frame.back(end)))
+      return around.open.at(frame.back({end.x + along * cell, end.y})) ? std::optional(k * cell) : std::nullopt;
+  return std::nullopt;
 }
 
-/// The mean free way of strands in that direction, µm, weighted by its length cubed: sag grows with the third power of
-/// a span and more, so the long ones decide.
-double mean_span_um(const Regions& areas, const OverSparse& around, const Beads& held_by, double angle_rad) {
+/// How strands of one direction hang between lines of infill.
+struct Ways {
+  double angle_rad = 0;
+  double mean_um = 0;     ///< free ways, weighted by their length cubed: sag grows with a span's third power and more
+  double free_share = 0;  ///< of their length: those that end over nothing
+};
+
+Ways ways_of(const Regions& areas, const OverSparse& around, const Beads& held_by, double angle_rad) {
   constexpr double spacing = 400;  // about a strand
-  constexpr double stands_out =
-      2.6;  // a beam held at one end sags as one so much longer that is held at both: (384/8)^¼
+  // A strand is laid straight because it is pulled; an end that nothing holds is not, and curls. So much longer is one
+  // that sags as far.
+  constexpr double stands_out = 6;
   const Frame frame(angle_rad, areas.front().outer.front());
   const Outline outline(areas, frame);
   const double height = outline.greatest_y() - outline.least_y();
   const int count = std::clamp(static_cast<int>(height / spacing), 4, 200);
   const LineSet lines{outline.least_y() + height / count / 2, height / count, count};
   const auto met = crossings(held_by, frame, lines);
-  double cubes = 0, fourths = 0;
-  const auto span = [&](double length) { cubes += std::pow(length, 3), fourths += std::pow(length, 4); };
+  double all = 0, free = 0, cubes = 0, fourths = 0;
+  const auto span = [&](double length, bool stands) {
+    all += length, free += stands ? length : 0;
+    if (stands) length *= stands_out;
+    cubes += std::pow(length, 3), fourths += std::pow(length, 4);
+  };
   auto at = met.begin();
   int line = -1;
   for (const Interval& i : outline.cut(lines)) {
     if (i.line != line)
       line = i.line, at = std::find_if(at, met.end(), [&](const Crossing& c) { return c.line >= line; });
     const double y = lines.y(line);
-    double from = i.from, first = ends_in_air({i.from, y}, -1, frame, around) ? stands_out : 1;
+    const auto first = stands_out_by({i.from, y}, -1, frame, around), last = stands_out_by({i.to, y}, 1, frame, around);
+    double from = i.from - first.value_or(0);
+    bool stands = first.has_value();
     for (; at != met.end() && at->line == line && at->x < i.to; ++at)
-      if (at->x > from) span(std::exchange(first, 1) * (at->x - from)), from = at->x;
-    span(first * (i.to - from) * (ends_in_air({i.to, y}, 1, frame, around) ? stands_out : 1));
+      if (at->x > from) span(at->x - from, std::exchange(stands, false)), from = at->x;
+    span(i.to + last.value_or(0) - from, stands || last);
   }
-  return cubes > 0 ? fourths / cubes : 0;
+  return {angle_rad, cubes > 0 ? fourths / cubes : 0, all > 0 ? free / all : 0};
 }
 
 }  // namespace
 
 std::optional<double> internal_bridge_angle_rad(const Region& area, const OverSparse& around, const SparseStyle& below,
-                                                Um nozzle) {
+                                                Um nozzle, bool narrow) {
   constexpr int directions = 18;
-  constexpr double short_way = 3;   // strands: lines that hang no further in any direction do not sag
-  constexpr double clearly = 0.95;  // of a span: directions that are as good as the infill's own give way to it
+  constexpr double runs_on = 0.5;    // of its edge: then strands may run along it
+  constexpr double short_way = 3;    // strands: lines that hang no further in any direction do not sag
+  constexpr double clearly = 0.95;   // of a span: directions that are as good as the first give way to it
+  constexpr double most_free = 0.5;  // of the strands' length: more ends over nothing
+  const EdgeDirection edge = direction_of_edge(area);
+  const bool runs = edge.share > runs_on;
+  if (narrow && !runs) return std::nullopt;
   Beads infill;
   SparseStyle lines = below;
   lines.connect = false;  // its lines turn along the edge of the sparse area, not of this one
@@ -122,16 +141,20 @@ std::optional<double> internal_bridge_angle_rad(const Region& area, const OverSp
   // A strand beside the edge, where no line of the infill ends yet, lies on what holds the edge.
   Regions inner = geometry::offset({area}, {.by = -2 * nozzle});
   if (inner.empty()) inner = {area};
-  const auto span_at = [&](double angle) { return mean_span_um(inner, around, infill, angle); };
-  double best = below.angle_rad, least = span_at(best), most = least;
-  for (int d = 1; d < directions; ++d) {
+  const auto ways_at = [&](double angle) { return ways_of(inner, around, infill, angle); };
+  Ways best = ways_at(runs ? edge.angle_rad : below.angle_rad);
+  const bool sags = best.mean_um > short_way * nozzle, held = best.free_share <= most_free;
+  if (narrow || (runs && held && sags && best.mean_um <= easy_span * nozzle))
+    return held && sags ? std::optional(best.angle_rad) : std::nullopt;
+  double most_um = best.mean_um;
+  for (int d = runs ? 0 : 1; d < directions; ++d) {
     stop_if_asked();
-    const double angle = below.angle_rad + d * std::numbers::pi / directions, span = span_at(angle);
-    if (span < clearly * least) best = angle, least = span;
-    most = std::max(most, span);
+    const Ways ways = ways_at(below.angle_rad + d * std::numbers::pi / directions);
+    if (ways.mean_um < clearly * best.mean_um) best = ways;
+    most_um = std::max(most_um, ways.mean_um);
   }
-  if (most <= short_way * nozzle) return std::nullopt;
-  return best;
+  if (most_um <= short_way * nozzle) return std::nullopt;
+  return best.angle_rad;
 }
 
 std::optional<Held> held_over(const Regions& gaps, const Mask& below) {

@@ -7,6 +7,8 @@
 
 namespace weft::infill {
 
+constexpr double easy_span = 12.5;  ///< nozzles, 5 mm of 0.4: strands that hang no further do in any direction
+
 /// How lines over a gap run.
 struct Held {
   double angle_rad = 0;
@@ -29,10 +31,12 @@ struct OverSparse {
 
 /// The direction in which strands over the sparse infill below `area` span the shortest free ways from line to line.
 /// What is around the area holds them too, but where it is open: a strand that ends there stands out from the last
-/// line. Nothing where no way is long in any direction: there ordinary lines do.
+/// line. Along the area, where it has a direction, unless another is clearly better. Nothing where no way is long in
+/// any direction: there ordinary lines do.
 /// @param nozzle diameter
-/// Cost: the infill of the area, and 18 scans of it.
+/// @param narrow strands across it would be dabs: they run along it and are held at both ends, or there are none
+/// Cost: the infill of the area, and up to 19 scans of it.
 std::optional<double> internal_bridge_angle_rad(const Region& area, const OverSparse& around, const SparseStyle& below,
-                                                Um nozzle);
+                                                Um nozzle, bool narrow);
 
 }  // namespace weft::infill

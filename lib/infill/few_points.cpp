@@ -13,39 +13,54 @@ namespace {
 constexpr std::size_t most_dropped = 256;  // points of a chord
 constexpr double corner = 0.5;             // cosine of the angle between chords from which on a point stays where it is
 
-/// What a line's points stand off a chord, to its left.
-struct Off {
-  double least = 0, most = 0;
-  double middle() const { return (least + most) / 2; }
-};
-
-/// From the first to the last point.
-/// @param beyond  whether a point lies farther than the bound beyond an end
-Off off_chord(std::span<const Point> points, double bound, bool& beyond) {
-  const Point a = points.front(), b = points.back();
-  const double dx = b.x - a.x, dy = b.y - a.y, length = std::max(std::sqrt(dx * dx + dy * dy), 1e-9);
-  // all times the length: the loop divides nothing
-  double least = 0, most = 0, first = 0, last = 0;
-  for (const Point p : points.subspan(1)) {
-    const double x = p.x - a.x, y = p.y - a.y, off = dx * y - dy * x, along = x * dx + y * dy;
-    least = std::min(least, off), most = std::max(most, off);
-    first = std::min(first, along), last = std::max(last, along);
-  }
-  beyond = first < -bound * length || last > (length + bound) * length;
-  return {least / length, most / length};
-}
-
 /// A chord of the new line: where it ends in the old one, and how far it is to be moved.
 struct Chord {
   std::size_t end = 0;
   double aside = 0;
 };
 
+/// What points stand off a chord, to its left and along it, all times its length: looking at a point divides nothing.
+class Off {
+ public:
+  explicit Off(std::span<const Point> points)
+      : points_(points),
+        dx_(points.back().x - points.front().x),
+        dy_(points.back().y - points.front().y),
+        length_(std::max(std::sqrt(dx_ * dx_ + dy_ * dy_), 1e-9)) {}
+
+  /// Looks at every so manieth point.
+  void look(std::size_t first, std::size_t step) {
+    const Point a = points_.front();
+    for (std::size_t i = first; i < points_.size(); i += step) {
+      const double x = points_[i].x - a.x, y = points_[i].y - a.y, off = dx_ * y - dy_ * x, along = x * dx_ + y * dy_;
+      least_ = std::min(least_, off), most_ = std::max(most_, off);
+      first_ = std::min(first_, along), last_ = std::max(last_, along);
+    }
+  }
+  /// Whether all that was looked at lies within the bound of where the chord can be moved to, and no farther than that
+  /// beyond its ends.
+  bool within(double bound) const {
+    return first_ >= -bound * length_ && last_ <= (length_ + bound) * length_ &&
+           most_ / length_ - least_ / length_ <= 2 * bound;
+  }
+  double middle() const { return (least_ / length_ + most_ / length_) / 2; }
+
+ private:
+  std::span<const Point> points_;
+  double dx_, dy_, length_;
+  double least_ = 0, most_ = 0, first_ = 0, last_ = 0;
+};
+
 /// The chord to that point, if all between lie within the bound of where it can be moved to.
 bool reaches(std::span<const Point> line, std::size_t from, std::size_t to, double bound, Chord& chord) {
-  bool beyond = false;
-  const Off off = off_chord(line.subspan(from, to - from + 1), bound, beyond);
-  if (beyond || off.most - off.least > 2 * bound) return false;
+  constexpr std::size_t few = 8;  // of many points tell mostly that it is too long
+  Off off(line.subspan(from, to - from + 1));
+  if (to - from > 2 * few) {
+    off.look(few / 2, few);
+    if (!off.within(bound)) return false;
+  }
+  off.look(1, 1);
+  if (!off.within(bound)) return false;
   chord = {to, off.middle()};
   return true;
 }

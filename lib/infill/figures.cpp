@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <unordered_set>
 #include <vector>
@@ -81,6 +82,15 @@ void see_segments(const Beads& beads, const See& see) {
 struct Laid {
   double mm = 0, mm3 = 0, in_room_mm3 = 0;
 };
+
+/// A layer of its own.
+struct LayerFigures {
+  double room_mm3 = 0;
+  Laid laid;
+  std::array<double, 3> cosines{}, sines{};  ///< Σ ℓ e^{inα}, µm, of n = 2, 4, 6
+  double looked_mm = 0, over_air_mm = 0;
+};
+
 Laid laid_in(const LookedAtLayer& layer) {
   Laid out;
   for (const Bead& bead : *layer.beads) {
@@ -108,7 +118,7 @@ double room_of(const LookedAtLayer& layer) {
 }
 
 /// Length of a layer's infill that lies neither on the infill below nor on its walls and solid areas.
-void look_below(const LookedAtLayer& layer, const LookedAtLayer& below, Figures& out) {
+void look_below(const LookedAtLayer& layer, const LookedAtLayer& below, LayerFigures& out) {
   constexpr Um cell = 100;
   const Box box = box_of(*layer.sparse);
   if (box.empty()) return;
@@ -126,11 +136,18 @@ void look_below(const LookedAtLayer& layer, const LookedAtLayer& below, Figures&
   see_segments(*below.beads, [&](const Junction& a, const Junction& b) {
     const double half = a.width / 2.0 / grid.cell;
     const int around = static_cast<int>(half);
+    std::vector<int> reach;  // of the disc's rows, from its middle up
+    for (int j = 0, i = around; j <= around; ++j) {
+      while (i * i + j * j > half * half) --i;
+      reach.push_back(i);
+    }
     along(a, b, [&](Point p, double) {
       const int column = grid.column_of(p.x), row = grid.row_of(p.y);
-      for (int j = -around; j <= around; ++j)
-        for (int i = -around; i <= around; ++i)
-          if (i * i + j * j <= half * half) held.set(column + i, row + j);
+      for (int r = std::max(0, row - around); r <= std::min(grid.rows - 1, row + around); ++r) {
+        const int i = reach[static_cast<std::size_t>(std::abs(r - row))];
+        const CellRun run{r, std::max(0, column - i), std::min(grid.columns, column + i + 1)};
+        if (run.from < run.to) held.set(run);
+      }
     });
   });
   see_segments(*layer.beads, [&](const Junction& a, const Junction& b) {
@@ -139,6 +156,22 @@ void look_below(const LookedAtLayer& layer, const LookedAtLayer& below, Figures&
       if (!held.at(p)) out.over_air_mm += um / 1000;
     });
   });
+}
+
+LayerFigures figures_of(const LookedAtLayer& layer, const LookedAtLayer* below) {
+  stop_if_asked();
+  LayerFigures out{room_of(layer), laid_in(layer)};
+  see_segments(*layer.beads, [&](const Junction& a, const Junction& b) {
+    const double dx = b.at.x - a.at.x, dy = b.at.y - a.at.y, way = std::hypot(dx, dy);
+    if (way <= 0) return;
+    // e^{2iα}, and its powers
+    const double c = (dx * dx - dy * dy) / (way * way), s = 2 * dx * dy / (way * way);
+    const std::array<double, 3> cs{c, c * c - s * s, c * (c * c - 3 * s * s)},
+        ss{s, 2 * s * c, s * (3 * c * c - s * s)};
+    for (std::size_t n = 0; n < 3; ++n) out.cosines[n] += way * cs[n], out.sines[n] += way * ss[n];
+  });
+  if (below != nullptr) look_below(layer, *below, out);
+  return out;
 }
 
 /// The greatest square of a distance over the way between, of places along each path.
@@ -200,45 +233,39 @@ Bounds bounds_of(InfillPattern pattern, double density) {
           row.way == Way::upright ? f : sheets};
 }
 
-Figures figures_of(const InfillSettings& infill, std::span<const LookedAtLayer> layers) {
+Figures figures_of(const InfillSettings& infill, std::span<const LookedAtLayer> layers, const ForEach& for_each) {
   constexpr std::size_t every = 5;
   constexpr double much = 0.2;  // of the largest layer's room
+  std::vector<LayerFigures> all(layers.size());
+  for_each(layers.size(),
+           [&](std::size_t i) { all[i] = figures_of(layers[i], i > 0 && i % every == 0 ? &layers[i - 1] : nullptr); });
   Figures out;
   std::array<double, 3> cosines{}, sines{};
-  std::vector<double> rooms;
-  std::vector<Laid> all;
-  for (std::size_t i = 0; i < layers.size(); ++i) {
-    stop_if_asked();
-    const double room = room_of(layers[i]);
-    const Laid laid = laid_in(layers[i]);
+  double largest = 0;
+  for (const LayerFigures& layer : all) {
+    const auto& [room, laid, cs, ss, looked, over_air] = layer;
     out.room_mm3 += room, out.mm += laid.mm, out.mm3 += laid.mm3, out.in_room_mm3 += laid.in_room_mm3;
-    rooms.push_back(room), all.push_back(laid);
-    see_segments(*layers[i].beads, [&](const Junction& a, const Junction& b) {
-      const double dx = b.at.x - a.at.x, dy = b.at.y - a.at.y, way = std::hypot(dx, dy);
-      if (way <= 0) return;
-      // e^{2iα}, and its powers
-      const double c = (dx * dx - dy * dy) / (way * way), s = 2 * dx * dy / (way * way);
-      const std::array<double, 3> cs{c, c * c - s * s, c * (c * c - 3 * s * s)},
-          ss{s, 2 * s * c, s * (3 * c * c - s * s)};
-      for (std::size_t n = 0; n < 3; ++n) cosines[n] += way * cs[n], sines[n] += way * ss[n];
-    });
-    if (i > 0 && i % every == 0) look_below(layers[i], layers[i - 1], out);
+    out.looked_mm += looked, out.over_air_mm += over_air;
+    for (std::size_t n = 0; n < 3; ++n) cosines[n] += cs[n], sines[n] += ss[n];
+    largest = std::max(largest, room);
   }
   for (std::size_t n = 0; n < 3; ++n)
     if (out.mm > 0) out.fabric[n] = std::hypot(cosines[n], sines[n]) / (1000 * out.mm);
-  const double largest = rooms.empty() ? 0 : *std::max_element(rooms.begin(), rooms.end());
   std::vector<double> densities, lengths;
-  for (std::size_t i = 0; i < rooms.size(); ++i)
-    if (rooms[i] > much * largest && all[i].mm3 > 0)
-      densities.push_back(all[i].in_room_mm3 / rooms[i]), lengths.push_back(all[i].mm / rooms[i]);
+  for (const auto& layer : all)
+    if (layer.room_mm3 > much * largest && layer.laid.mm3 > 0)
+      densities.push_back(layer.laid.in_room_mm3 / layer.room_mm3), lengths.push_back(layer.laid.mm / layer.room_mm3);
   out.density_spread = spread_of(densities).first;
   if (const auto [deviation, mean] = spread_of(lengths); mean > 0) out.length_spread = deviation / mean;
   out.bounds = bounds_of(infill.infill_pattern, out.density());
   if (largest <= 0 || out.density() <= 0) return out;
-  const auto middle = static_cast<std::size_t>(std::max_element(rooms.begin(), rooms.end()) - rooms.begin());
-  if (all[middle].mm <= 0 || all[middle].mm3 <= 0) return out;
+  const auto middle = static_cast<std::size_t>(
+      std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.room_mm3 < b.room_mm3; }) -
+      all.begin());
+  const Laid& laid = all[middle].laid;
+  if (laid.mm <= 0 || laid.mm3 <= 0) return out;
   const double spacing =
-      1000 * rooms[middle] / (all[middle].mm * to_mm(layers[middle].height));  // b/ρ of what was laid
+      1000 * all[middle].room_mm3 / (laid.mm * to_mm(layers[middle].height));  // b/ρ of what was laid
   if (!(spacing > 0)) return out;
   out.locality = locality_of(*layers[middle].beads, spacing);
   out.box_dimension = box_dimension_of(*layers[middle].beads, box_of(*layers[middle].sparse), spacing);

@@ -5,6 +5,7 @@
 #include "geometry/boolean.h"
 #include "geometry/simplify.h"
 #include "infill/bridges.h"
+#include "infill/scan.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +18,7 @@ namespace {
 
 // Lines: what is narrower hangs on what is beside it, whichever way its lines run; over sparse infill, where nobody
 // sees them and the infill's lines are below, on less.
-constexpr double narrowest_ledge = 3, narrowest_over_infill = 2;
+constexpr double narrowest_ledge = 3, narrow_over_infill = 2, narrowest_over_infill = 1;
 
 Regions regions_of(const Mask& cells) {
   std::vector<Ring> rings = cells.outlines();
@@ -28,6 +29,22 @@ Regions regions_of(const Mask& cells) {
 /// All cells of one region of `regions_of(cells)`, whose edges pass through the middles of some.
 Mask cells_of(const Region& region, const Mask& cells) {
   return Mask(cells.grid(), {&region, 1}).grown(1) & cells;
+}
+
+/// What strands over an area cover with their anchors. Those of a narrow area are anchored where they end: what lies
+/// beside it needs none, and would be most of the bridge.
+Mask anchored(const Region& area, double angle_rad, Um anchor, double line, const Grid& grid) {
+  Mask all = Mask(grid, {&area, 1}).grown(cells(anchor, grid));
+  const Frame frame(angle_rad, area.outer.front());
+  const Outline outline(area, frame);
+  if (outline.greatest_y() - outline.least_y() > 2.0 * anchor) return all;
+  double left = 0, right = 0;
+  for (const Turned& t : outline.points()) left = std::min(left, t.x), right = std::max(right, t.x);
+  const double low = outline.least_y() - line / 2, high = outline.greatest_y() + line / 2;
+  left -= 2.0 * anchor, right += 2.0 * anchor;
+  const Region along{
+      {frame.back({left, low}), frame.back({right, low}), frame.back({right, high}), frame.back({left, high})}, {}};
+  return all &= Mask(grid, {&along, 1});
 }
 
 /// A bridge takes what it covers from the other kinds. Strands that run the same way are of one bridge.
@@ -54,7 +71,6 @@ struct Gap {
 
 /// Gaps one bridge may span run the way that is best for all of them.
 void turn_alike(std::vector<Gap>& gaps, const Mask& place, const Mask& below, Um nozzle) {
-  constexpr double easy_span = 12.5;  // nozzles, 5 mm of 0.4: strands that hang no further are as good in any direction
   std::vector<Gap*> here;
   Regions outlines;
   double worst_um = easy_span * nozzle;
@@ -108,13 +124,15 @@ void find_internal_bridges(const ShellSettings& settings, const HangingLayer& la
   const Grid& grid = kinds.inside.grid();
   const Mask hanging = (kinds.solid & *sparse).opened(cells(narrowest_over_infill / 2 * layer.line, grid));
   if (!hanging.any()) return;
+  const Mask wide = hanging.opened(cells(narrow_over_infill / 2 * layer.line, grid));
   const Mask open = kinds.sparse ? *kinds.sparse & *sparse : Mask(grid);
   for (const Region& outline : regions_of(hanging)) {
     stop_if_asked();
-    std::optional<double> angle = internal_bridge_angle_rad(outline, {hanging, open}, below, layer.nozzle);
+    const bool narrow = !Mask(grid, {&outline, 1}).meets(wide);
+    std::optional<double> angle = internal_bridge_angle_rad(outline, {hanging, open}, below, layer.nozzle, narrow);
     if (!angle) continue;
     if (settings.bridge_angle) angle = *settings.bridge_angle * std::numbers::pi / 180;
-    Mask bridge = Mask(grid, {&outline, 1}).grown(cells(settings.bridge_anchor, grid)) & kinds.solid;
+    Mask bridge = anchored(outline, *angle, settings.bridge_anchor, layer.line, grid) & kinds.solid;
     // Strips that its anchors leave of the solid beside it would be slivers along their ends.
     const Mask rest = kinds.solid - bridge;
     if (rest.any())

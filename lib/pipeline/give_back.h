@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <atomic>
 #include <cstddef>
 
 #ifdef __GLIBC__
@@ -16,7 +17,18 @@ inline void give_back_memory() {
 #endif
 }
 
-/// How many layers are worth it, where layers take and free memory one by one.
-inline constexpr std::size_t layers_between_giving_back = 8;
+/// Gives back where pieces are let go of one after the other, each time that they come to what is worth it.
+class GiveBackNowAndThen {
+ public:
+  /// May be called by several threads.
+  void let_go_of(std::size_t bytes) {
+    const std::size_t before = bytes_.fetch_add(bytes, std::memory_order_relaxed);
+    if (before / worth_it != (before + bytes) / worth_it) give_back_memory();
+  }
+
+ private:
+  static constexpr std::size_t worth_it = std::size_t{1} << 20U;
+  std::atomic<std::size_t> bytes_ = 0;
+};
 
 }  // namespace weft::pipeline

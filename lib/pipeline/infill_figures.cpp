@@ -3,6 +3,7 @@
 
 #include "infill/figures.h"
 #include "pipeline/report.h"
+#include "tasks/tasks.h"
 
 #include <algorithm>
 #include <vector>
@@ -13,7 +14,7 @@ void tell_infill(const Settings& settings, const PrintedLayers& layers, Report& 
   std::vector<infill::LookedAtLayer> seen;
   seen.reserve(layers.size());
   for (const PrintedLayer& layer : layers) seen.push_back({layer.height, &layer.outline, &layer.sparse, &layer.beads});
-  const infill::Figures figures = infill::figures_of(settings.infill, seen);
+  const infill::Figures figures = infill::figures_of(settings.infill, seen, tasks::for_each_index);
   if (figures.mm3 <= report.infill.mm3) return;
   const auto& f = figures;
   Report::Infill& to = report.infill;

@@ -66,14 +66,16 @@ void write_gcode(const gcode::Job& job, PrintPlan& plan, std::vector<std::string
   check.add(writer.head());
   const std::string tail = writer.tail();
   const auto let_go = [](auto& list) { std::exchange(list, {}); };  // not `list = {}`: that keeps its room
+  GiveBackNowAndThen give_back;
   const auto write = [&](std::size_t i) {
     unpack_steps(packed[i], plan.layers[i]);
+    const std::size_t bytes = packed[i].size();
     let_go(packed[i]);
     if (i < heat.size()) add_heat(heat[i], plan.layers[i]);
     auto block = writer.layer(i);
     let_go(plan.layers[i].steps);
     // Here, and not beside the audit: that takes one layer after another, and is what is waited for.
-    if (i % layers_between_giving_back == 0) give_back_memory();
+    give_back.let_go_of(bytes);
     return block;
   };
   tasks::parallel_in_order(plan.layers.size(), write, [&](std::size_t, const std::string& block) {
@@ -437,9 +439,12 @@ auto run_stages(const Job& job, const Watch& watch, Report& report, const Prepar
   const StopWhen stop_when(&watch.cancelled);
   try {
     const Stopwatch stopwatch(report.timings_ms.total);
+    const std::string settings = as_text(job.settings);
+    report.settings_sha256 = sha256(settings);  // of a job whose models cannot be read
     gcode::check_custom_code(job.settings);
     Printing what = prepare();
-    report.settings_sha256 = sha256(as_text(job.settings) + overlay_lines(what.plate));
+    if (const auto overlays = overlay_lines(what.plate); !overlays.empty())
+      report.settings_sha256 = sha256(settings + overlays);
     return end(std::move(what));
   } catch (const Stopped&) {
     throw Error{Error::Kind::interrupted, "interrupted", {}, "nothing was written"};
@@ -449,7 +454,6 @@ auto run_stages(const Job& job, const Watch& watch, Report& report, const Prepar
 }  // namespace
 
 std::optional<audit::Passed> run(const Job& job, const Watch& watch, Report& report, StageCache* cache) {
-  report.settings_sha256 = sha256(as_text(job.settings));
   return run_stages(
       job, watch, report,
       [&] {
@@ -473,7 +477,6 @@ std::size_t plates_of(const Job& job, const Watch& watch, StageCache* cache) {
 
 std::size_t estimate(const Job& job, const EstimateOptions& options, const Watch& watch, Report& report,
                      StageCache* cache) {
-  report.settings_sha256 = sha256(as_text(job.settings));
   return run_stages(
       job, watch, report,
       [&] {

@@ -125,7 +125,11 @@ Regions Lean::narrower(const Regions& falling, Um by) const {
                        }) > 0;
   const Regions wide = geometry::offset(solid, with(-least_ / 2));
   if (wide.empty()) return falling;
-  const Regions kept = geometry::subtract(solid, geometry::offset(wide, with(least_ / 2 + 20)));
+  const Regions opened_wide = geometry::offset(wide, with(least_ / 2 + 20));
+  Regions kept = geometry::subtract(solid, opened_wide);
+  // A tooth of an edge draws back with it, or it would be left alone as a needle.
+  const Regions beside = grown(opened_wide, 2 * line_);
+  std::erase_if(kept, [&](const Region& piece) { return geometry::subtract({piece}, beside).empty(); });
   Regions out = of_lines(s_) ? shortened(solid, by, s_.support_infill_angle * std::numbers::pi / 180)
                              : geometry::offset(solid, with(-by));
   append(out, kept);

@@ -71,18 +71,17 @@ class Interfaces {
       out.bottom = bottom(level, standing);
       if (!out.roof.empty()) out.bottom = geometry::subtract(out.bottom, out.roof);
     }
-    if (!out.roof.empty() || !out.bottom.empty()) {
-      Regions dense = out.roof, sparse;
-      append(dense, out.bottom);
-      for (Region& column : out.columns) {
-        const Regions near = geometry::trimmed(dense, box_of(column.outer).grown(1));
-        if (near.empty())
-          sparse.push_back(std::move(column));
-        else if (near != Regions{column})
-          append(sparse, without_thin(geometry::subtract({column}, near), line_ * 4 / 10));
-      }
-      out.columns = std::move(sparse);
+    if (out.roof.empty() && out.bottom.empty()) return out;
+    Regions dense = out.roof, sparse;
+    append(dense, out.bottom);
+    for (Region& column : out.columns) {
+      const Regions near = geometry::trimmed(dense, box_of(column.outer).grown(1));
+      if (near.empty())
+        sparse.push_back(std::move(column));
+      else if (near != Regions{column})
+        append(sparse, without_thin(geometry::subtract({column}, near), line_ * 4 / 10));
     }
+    out.columns = std::move(sparse);
     return out;
   }
 
@@ -307,6 +306,15 @@ void add_branches(const Room& room, std::size_t k, const Standing& standing, Sup
   layer.branches = beside(layer.branches, others, 0, half / 2);
 }
 
+/// What of a column has no room for a bead beside a roof is left out: what stands on that alone has nothing below.
+void let_columns_rest(const Room& room, const Stack& stack, std::vector<SupportLayer>& layers) {
+  for (std::size_t k = 1; k < layers.size(); ++k) {
+    if (layers[k].columns.empty() || (layers[k - 1].roof.empty() && layers[k - 1].bottom.empty())) continue;
+    stop_if_asked();
+    rest_on(room, stack.levels[k], all_areas(layers[k - 1]), layers[k].columns);
+  }
+}
+
 /// Where columns or roofs took the place of branches, those above may have nothing left below them.
 void let_branches_rest(const Room& room, const Stack& stack, const Standing& standing,
                        std::vector<SupportLayer>& layers) {
@@ -349,6 +357,7 @@ Plan plan(const SupportSettings& settings, const Object& object, const Demand& d
     if (k < standing.branches.areas.size()) add_branches(room, k, standing, layer);
     return layer;
   });
+  let_columns_rest(room, stack, out.layers);
   let_branches_rest(room, stack, standing, out.layers);
   if (used > 0) spread_first(room, stack, out.layers[0]);
   Caps caps = caps_on(room, stack, demand, out.layers);

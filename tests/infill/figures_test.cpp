@@ -35,7 +35,9 @@ infill::Figures figures(InfillPattern pattern, double density, bool joined = fal
   }
   InfillSettings settings;
   settings.infill_pattern = pattern;
-  return infill::figures_of(settings, seen);
+  return infill::figures_of(settings, seen, [](std::size_t count, const auto& of_layer) {
+    for (std::size_t i = 0; i < count; ++i) of_layer(i);
+  });
 }
 
 }  // namespace

@@ -343,21 +343,50 @@ TEST_CASE("shells: dense infill carries ordinary lines, and bridges are laid onl
   for (const LayerAreas& layer : block.areas(none, infill)) CHECK(bridged(layer) == 0);
 }
 
-TEST_CASE("shells: a belt of solid narrower than two lines hangs on its own sides, wider ones are bridges",
-          "[infill]") {
-  const auto widest_bridge = [](Um step) {  // a roof that falls by that much a layer
+TEST_CASE("shells: a belt of solid over sparse infill is a bridge along it, where a line finds room", "[infill]") {
+  const auto bridges = [](Um step) {  // under a roof that falls by that much a layer, towards x
     std::vector<Regions> outlines;
     for (int i = 0; i < 12; ++i) outlines.push_back({rectangle(0, 0, 40000 - i * step, 20000)});
     InfillSettings infill;
-    infill.infill_sparse_density = 10;
-    double mm2 = 0;
+    infill.infill_sparse_density = 20;
+    std::vector<infill::BridgeArea> out;
     const auto areas = Object(std::move(outlines)).areas(skin(2, 0, 0, 0), infill);
-    for (std::size_t i = 0; i + 2 < areas.size(); ++i) mm2 = std::max(mm2, bridged(areas[i]));
-    return mm2;
+    for (std::size_t i = 0; i + 2 < areas.size(); ++i)
+      for (const PartAreas& part : areas[i]) out.insert(out.end(), part.bridges.begin(), part.bridges.end());
+    return out;
   };
-  CHECK(widest_bridge(300) == 0);
-  CHECK(widest_bridge(800) == 0);
-  CHECK(widest_bridge(2000) > 2 * 18);
+  CHECK(bridges(300).empty());
+  for (const Um step : {800, 2000}) {
+    CAPTURE(step);
+    const auto found = bridges(step);
+    CHECK(found.size() >= 8);
+    for (const infill::BridgeArea& bridge : found) {
+      CHECK(std::abs(std::cos(bridge.angle_rad)) < std::sin(degrees(1)));
+      CHECK(area_mm2(bridge.regions) > 18 * to_mm(step));
+      CHECK(area_mm2(bridge.regions) < 18 * to_mm(step + 1200));  // what is beside it is no anchor
+    }
+  }
+}
+
+TEST_CASE("shells: a narrow belt of solid whose lines along would end over nothing is no bridge", "[infill]") {
+  // a ring, on sparse infill between two walls: across it lines are short, along it they would leave it
+  constexpr int corners = 60;
+  const auto round = [](double radius_um) {
+    Ring ring;
+    for (int i = 0; i < corners; ++i)
+      ring.push_back({20000 + rounded(radius_um * std::cos(2 * std::numbers::pi * i / corners)),
+                      20000 + rounded(radius_um * std::sin(2 * std::numbers::pi * i / corners))});
+    return ring;
+  };
+  const auto tube = [&](double outer, double inner) {
+    Ring hole = round(inner);
+    std::reverse(hole.begin(), hole.end());
+    return Regions{{round(outer), {hole}}};
+  };
+  InfillSettings infill;
+  infill.infill_sparse_density = 10;
+  const Object object(std::vector<Regions>(20, tube(15000, 11900)));  // 1.1 mm between the walls
+  for (const LayerAreas& layer : object.areas(skin(4, 4, 0, 0, 0), infill)) CHECK(bridged(layer) == 0);
 }
 
 TEST_CASE("shells: small patches of sparse infill become solid", "[infill]") {
