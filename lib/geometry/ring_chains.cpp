@@ -207,34 +207,6 @@ std::optional<RingChains::Pairs> RingChains::clean_crossings() const {
   return out;
 }
 
-RingChains::Touching RingChains::touching(std::uint32_t second) const {
-  Touching out;
-  out.how = Touching::How::unclear;
-  if (has_points_) return out;
-  const Found found =
-      for_each_near_pair(true, [&](std::uint32_t i, const Segment& s, std::uint32_t j, const Segment& t) {
-        if (!segments_touch(s.a, s.b, t.a, t.b)) return true;
-        if (i < second && j >= second) {
-          out.pairs.emplace_back(i, j);
-          return true;
-        }
-        if (join(i, j)) return true;
-        if (segments_cross(s.a, s.b, t.a, t.b)) out.how = Touching::How::tangled, out.set = i < second ? 0 : 1;
-        return false;
-      });
-  if (found == Found::stopped) return out;
-  if (found == Found::too_slow) {
-    auto clean = grid().clean_crossings();
-    if (!clean || std::any_of(clean->begin(), clean->end(),
-                              [&](const auto& pair) { return pair.first >= second || pair.second < second; }))
-      return out;
-    out.pairs = *std::move(clean);
-  }
-  out.how = Touching::How::clean;
-  std::sort(out.pairs.begin(), out.pairs.end());
-  return out;
-}
-
 bool RingChains::simple() const {
   if (has_points_) return false;
   const Found found =

@@ -39,15 +39,6 @@ class RingChains {
   /// As in SegmentIndex.
   Pairs crossing_pairs() const;
   std::optional<Pairs> clean_crossings() const;
-  /// The pairs of edges of two sets of rings that have a point in common, ascending. Exact.
-  struct Touching {
-    Pairs pairs;
-    enum class How { clean, tangled, unclear } how = How::clean;  ///< tangled: edges of one set cross
-    std::size_t set = 0;                                          ///< which, 0 or 1
-  };
-  /// Stops where edges of one set meet; unclear, too, where neighbours lie on each other.
-  /// @param second  the first edge of the second set
-  Touching touching(std::uint32_t second) const;
   bool simple() const;
   void windings(Point p, std::vector<SegmentIndex::RingWinding>& found) const;
   static constexpr std::uint32_t none = SegmentIndex::none, unsure = SegmentIndex::unsure;

@@ -15,12 +15,9 @@ namespace weft::geometry {
 inline constexpr std::size_t most_rings_followed = 2048;
 
 /// What each of several operations leaves of two sets of regions: outers counter-clockwise, holes clockwise, crossings
-/// rounded to whole microns, collinear points left out. A set whose rings cross each other is united first. Where an
-/// outline of one set touches or follows one of the other, the second set is taken to be a hair wider, or narrower
-/// where the operation is intersect (aside.h): what only touches leaves nothing, and no slit.
-/// Nothing where an answer would need more than following outlines from crossing to crossing: where outlines of one set
-/// touch each other or do not wind as regions do, where doubles cannot tell which crossing comes first, or where there
-/// are many rings.
+/// rounded to whole microns, collinear points left out. Nothing where an answer would need more than following
+/// outlines from crossing to crossing: where two edges have a point in common otherwise than by crossing properly,
+/// where rings of one set cross each other or do not wind as regions do, or where there are many rings.
 /// Pre: no operation is exclusive_or. Cost: O(n + k log k), k crossings; about 0.1 µs a vertex, a fifth of a sweep's.
 /// Source: Weiler & Atherton 1977, "Hidden surface removal using polygon area sorting", section 4.
 std::optional<std::vector<std::vector<Ring>>> traced(std::span<const clipper::Operation> operations, const Regions& a,

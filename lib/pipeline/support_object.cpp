@@ -166,8 +166,7 @@ bool is_printed(const Settings& settings, const SlicedLayer& layer, std::size_t 
 
 /// Whether any corner of a region lies on what is below.
 bool lies_on(const geometry::SegmentIndex& below, const Region& region) {
-  return std::any_of(region.outer.begin(), region.outer.end(),
-                     [&](Point p) { return below.region_at(p).has_value(); });
+  return std::any_of(region.outer.begin(), region.outer.end(), [&](Point p) { return below.region_at(p).has_value(); });
 }
 
 /// What is too small to be printed asks for no support and lies on none: what is printed first above it does. What lies

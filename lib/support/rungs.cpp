@@ -89,8 +89,8 @@ std::vector<Hollow> hollows_under(const Room& room, const SupportLayer& level, c
     if (begins.empty()) continue;
     const Point size = box.size();
     // Rungs are needed where the roof begins, and reach no further than they span.
-    Regions hollow = geometry::trimmed(
-        {&column, 1}, box_of(begins).grown(2 * half + roof_span(room.object().nozzle) + 2 * line));
+    Regions hollow =
+        geometry::trimmed({&column, 1}, box_of(begins).grown(2 * half + roof_span(room.object().nozzle) + 2 * line));
     if (std::min(size.x, size.y) > 2 * half) {
       hollow = geometry::subtract(hollow, opened(hollow, half));
       begins = opened(geometry::intersect(hollow, begins), thin);

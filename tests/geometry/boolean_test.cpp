@@ -267,75 +267,20 @@ TEST_CASE("geometry: outlines that are followed enclose what a sweep finds", "[l
   CHECK(followed > 250);
 }
 
-TEST_CASE("geometry: outlines that touch are followed where each set is clean") {
+TEST_CASE("geometry: outlines that touch are swept, not followed") {
   using clipper::Operation;
-  constexpr std::array all{Operation::intersect, Operation::subtract, Operation::unite};
+  constexpr std::array both{Operation::intersect, Operation::subtract};
   const Regions square{rectangle({0, 0}, {10000, 10000})};
-  const auto areas = [&](const Regions& by) {
-    const auto rings = traced(all, square, by);
-    REQUIRE(rings);
-    std::vector<double> out;
-    for (const auto& some : *rings) out.push_back(area_mm2(clipper::tidied(some, {})));
-    return out;
-  };
-  CHECK(areas({rectangle({5000, 5000}, {15000, 15000})}) == std::vector{25.0, 75.0, 175.0});
-  CHECK(areas({rectangle({20000, 0}, {30000, 10000})}) == std::vector{0.0, 100.0, 200.0});
-  CHECK(areas(square) == std::vector{100.0, 0.0, 100.0});
-  CHECK(areas({rectangle({10000, 0}, {20000, 10000})}) == std::vector{0.0, 100.0, 200.0});     // a common edge
-  CHECK(areas({rectangle({5000, 10000}, {6000, 12000})}) == std::vector{0.0, 100.0, 102.0});   // lies on an edge
-  CHECK(areas({rectangle({5000, 8000}, {6000, 10000})}) == std::vector{2.0, 98.0, 100.0});     // within, on an edge
-  CHECK(areas({rectangle({0, 0}, {2000, 10000})}) == std::vector{20.0, 80.0, 100.0});          // on three
-  CHECK(areas({{{{10000, 5000}, {15000, 2000}, {15000, 8000}}, {}}}) == std::vector{0.0, 100.0, 115.0});  // a corner
-  CHECK(areas({{{{5000, 0}, {10000, 5000}, {5000, 10000}, {0, 5000}}, {}}}) == std::vector{50.0, 50.0, 100.0});
-  const auto followed = [&](const Regions& by) { return traced(all, square, by).has_value(); };
-  CHECK(areas({rectangle({-1000, 1000}, {5000, 9000}), rectangle({4000, 2000}, {8000, 8000})}) ==
-        std::vector{58.0, 42.0, 108.0});  // cross each other
+  const auto followed = [&](const Regions& by) { return traced(both, square, by).has_value(); };
+  CHECK(followed({rectangle({5000, 5000}, {15000, 15000})}));
+  CHECK(followed({rectangle({2000, 2000}, {3000, 3000})}));
+  CHECK(followed({rectangle({20000, 0}, {30000, 10000})}));
+  CHECK_FALSE(followed(square));
+  CHECK_FALSE(followed({rectangle({10000, 0}, {20000, 10000})}));                // a common edge
+  CHECK_FALSE(followed({rectangle({5000, 10000}, {6000, 12000})}));              // lies on an edge
+  CHECK_FALSE(followed({{{{5000, 5000}, {10000, 10000}, {5000, 15000}}, {}}}));  // a corner on a corner
+  CHECK_FALSE(followed({{{{10000, 5000}, {15000, 2000}, {15000, 8000}}, {}}}));  // a corner on an edge
   CHECK_FALSE(followed({rectangle({1000, 1000}, {9000, 9000}), rectangle({2000, 2000}, {8000, 8000})}));  // winds twice
-  CHECK_FALSE(followed({rectangle({1000, 1000}, {5000, 9000}), rectangle({5000, 2000}, {8000, 8000})}));  // touch
-}
-
-TEST_CASE("geometry: outlines that touch, when they are followed, enclose what a sweep finds", "[law]") {
-  using clipper::Operation;
-  shapes::Dice dice(7);
-  constexpr std::array operations{Operation::intersect, Operation::subtract, Operation::unite};
-  int followed = 0, asked = 0;
-  const auto fine = [](const Regions& regions) {
-    clipper::FineRings out;
-    for (const Ring& ring : rings_of(regions)) {
-      out.emplace_back();
-      for (const Point p : ring)
-        out.back().push_back({std::int64_t{p.x} * clipper::steps, std::int64_t{p.y} * clipper::steps});
-    }
-    return out;
-  };
-  for (int i = 0; i < 2000; ++i) {
-    // Corners on a grid of few points: nearly all of them lie on edges and corners of others.
-    const auto some = [&] {
-      Regions out;
-      for (int n = dice.between(1, 4); n-- > 0;) {
-        const Point at{dice.between(0, 8) * 1000, dice.between(0, 8) * 1000};
-        if (dice.between(0, 1) == 0) {
-          out.push_back(rectangle(at, at + Point{dice.between(1, 4) * 1000, dice.between(1, 4) * 1000}));
-        } else {
-          const Point side{dice.between(1, 4) * 1000, dice.between(-2, 2) * 1000};
-          out.push_back({{at, at + side, at + Point{dice.between(-1, 2) * 1000, 4000}}, {}});
-        }
-      }
-      return geometry::unite(out);
-    };
-    Regions a = some(), b = some();
-    if (dice.between(0, 3) == 0) b = subtract(a, b);
-    if (dice.between(0, 3) == 0) a = subtract(a, b);
-    for (const Operation operation : operations) {
-      ++asked;
-      const auto rings = traced(std::span(&operation, 1), a, b);
-      if (!rings) continue;
-      ++followed;
-      const auto swept = clipper::run(operation, WindingRule::nonzero, fine(a), fine(b), {});
-      const Regions found = clipper::tidied(rings->front(), {});
-      INFO(i);
-      CHECK(area_mm2(exclusive_or(found, swept)) <= rounding_mm2(swept));
-    }
-  }
-  CHECK(followed > asked * 7 / 10);  // regions of one set often have a corner in common
+  CHECK_FALSE(
+      followed({rectangle({-1000, 1000}, {5000, 9000}), rectangle({4000, 2000}, {8000, 8000})}));  // cross each other
 }
