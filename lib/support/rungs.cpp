@@ -85,16 +85,15 @@ std::vector<Hollow> hollows_under(const Room& room, const SupportLayer& level, c
     if (above.empty()) continue;
     // Of what is no wider than a bead half lies on the wall that it runs along.
     const Um thin = line * 4 / 10;
-    Regions begins = opened(geometry::intersect({column}, above), thin);
-    if (begins.empty()) continue;
+    if (opened(geometry::intersect({column}, above), thin).empty()) continue;
     const Point size = box.size();
     // Rungs are needed where the roof begins, and reach no further than they span.
+    const Box begun = box_of(above), meets{{std::max(box.min.x, begun.min.x), std::max(box.min.y, begun.min.y)},
+                                           {std::min(box.max.x, begun.max.x), std::min(box.max.y, begun.max.y)}};
     Regions hollow =
-        geometry::trimmed({&column, 1}, box_of(begins).grown(2 * half + roof_span(room.object().nozzle) + 2 * line));
-    if (std::min(size.x, size.y) > 2 * half) {
-      hollow = geometry::subtract(hollow, opened(hollow, half));
-      begins = opened(geometry::intersect(hollow, begins), thin);
-    }
+        geometry::trimmed({&column, 1}, meets.grown(2 * half + roof_span(room.object().nozzle) + 2 * line));
+    if (std::min(size.x, size.y) > 2 * half) hollow = geometry::subtract(hollow, opened(hollow, half));
+    Regions begins = opened(geometry::intersect(hollow, above), thin);
     if (!begins.empty()) out.push_back({std::move(hollow), std::move(begins)});
   }
   return out;
