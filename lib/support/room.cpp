@@ -15,7 +15,7 @@ namespace {
 
 /// Corners of the part that lie nearer to the straight line are none to support. What is lost by that, the distances
 /// are larger.
-constexpr Um fine_outline = 20_um;
+constexpr Um fine_outline = 10_um;
 
 /// What is no further from the part than that. Corners are mitered: an arc a corner is what costs.
 Regions kept_off(const Regions& part, Um by) {
