@@ -83,9 +83,6 @@ std::vector<Hollow> hollows_under(const Room& room, const SupportLayer& level, c
     const Box box = box_of(column.outer);
     const Regions above = geometry::trimmed(roof_above, box);
     if (above.empty()) continue;
-    // Of what is no wider than a bead half lies on the wall that it runs along.
-    const Um thin = line * 4 / 10;
-    if (opened(geometry::intersect({column}, above), thin).empty()) continue;
     const Point size = box.size();
     // Rungs are needed where the roof begins, and reach no further than they span.
     const Box begun = box_of(above), meets{{std::max(box.min.x, begun.min.x), std::max(box.min.y, begun.min.y)},
@@ -93,7 +90,8 @@ std::vector<Hollow> hollows_under(const Room& room, const SupportLayer& level, c
     Regions hollow =
         geometry::trimmed({&column, 1}, meets.grown(2 * half + roof_span(room.object().nozzle) + 2 * line));
     if (std::min(size.x, size.y) > 2 * half) hollow = geometry::subtract(hollow, opened(hollow, half));
-    Regions begins = opened(geometry::intersect(hollow, above), thin);
+    // Of what is no wider than a bead half lies on the wall that it runs along.
+    Regions begins = opened(geometry::intersect(hollow, above), line * 4 / 10);
     if (!begins.empty()) out.push_back({std::move(hollow), std::move(begins)});
   }
   return out;

@@ -40,7 +40,7 @@ namespace {
 /// Whether no corner of one, and no middle of an edge, is further from the other than offsets are rounded: a neck has
 /// its corners where it begins to be one.
 bool within(const Regions& inner, const geometry::SegmentIndex& outer) {
-  constexpr double rounded_um = 10;
+  constexpr double rounded_um = 2;
   const auto lies = [&](Point p) { return outer.nearest(p, rounded_um) || outer.region_at(p); };
   const auto all_lie = [&](const Ring& ring) {
     for (std::size_t i = 0; i < ring.size(); ++i)
