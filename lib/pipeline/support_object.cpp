@@ -165,27 +165,39 @@ bool is_printed(const Settings& settings, const SlicedLayer& layer, std::size_t 
   return !walls.beads.empty() || !walls.inside.empty();
 }
 
-/// What is too small to be printed asks for no support and lies on none: what is printed first above it does.
+/// Whether any corner of a region lies on what is below.
+bool lies_on(const geometry::SegmentIndex& below, const Region& region) {
+  return std::any_of(region.outer.begin(), region.outer.end(), [&](Point p) { return below.region_at(p).has_value(); });
+}
+
+/// What is too small to be printed asks for no support and lies on none: what is printed first above it does. What lies
+/// on something that is printed is held already, so that only the lowest specks of what hangs down are asked, up to the
+/// first one that is.
 /// @param kept  takes the layers that have less
 void leave_out_specks(const Settings& settings, Outlines& outlines, std::vector<SlicedLayer>& kept) {
   const Um least = outlines.object.outer_line;
-  const auto speck = [&](const Region& region) {
-    const Point size = box_of(region.outer).size();
-    return std::max(size.x, size.y) < least;
-  };
-  kept.resize(outlines.layers.size());
-  tasks::for_each_index(outlines.layers.size(), [&](std::size_t i) {
-    const SlicedLayer& layer = *outlines.layers[i];
-    Regions left;
-    if (std::none_of(layer.regions.begin(), layer.regions.end(), speck)) return;
-    for (const Region& region : layer.regions)
-      if (!speck(region) || is_printed(settings, layer, i, region)) left.push_back(region);
-    if (left.size() == layer.regions.size()) return;
-    kept[i] = layer;
-    kept[i].regions = std::move(left);
+  const auto specks = tasks::parallel_map(outlines.layers.size(), [&](std::size_t i) {
+    const Regions& regions = outlines.layers[i]->regions;
+    std::vector<std::size_t> out;
+    for (std::size_t r = 0; r < regions.size(); ++r)
+      if (const Point size = box_of(regions[r].outer).size(); std::max(size.x, size.y) < least) out.push_back(r);
+    return out;
   });
-  for (std::size_t i = 0; i < kept.size(); ++i)
-    if (kept[i].height > 0) outlines.layers[i] = &kept[i];
+  kept.resize(outlines.layers.size());
+  for (std::size_t i = 0; i < specks.size(); ++i) {
+    if (specks[i].empty()) continue;
+    const SlicedLayer& layer = *outlines.layers[i];
+    const geometry::SegmentIndex below(i > 0 ? outlines.layers[i - 1]->regions : Regions{});
+    const auto stays = tasks::parallel_map(specks[i].size(), [&](std::size_t s) {
+      const Region& speck = layer.regions[specks[i][s]];
+      return char{lies_on(below, speck) || is_printed(settings, layer, i, speck)};
+    });
+    if (std::find(stays.begin(), stays.end(), 0) == stays.end()) continue;
+    kept[i] = layer;
+    for (std::size_t s = stays.size(); s-- > 0;)
+      if (stays[s] == 0) kept[i].regions.erase(kept[i].regions.begin() + static_cast<std::ptrdiff_t>(specks[i][s]));
+    outlines.layers[i] = &kept[i];
+  }
   outlines.object.layers = outlines.layers;
 }
 

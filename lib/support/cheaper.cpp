@@ -133,12 +133,10 @@ Split cheaper(const Room& room, const Stack& stack, const std::vector<Regions>& 
     for (const auto& [k, regions] : all[i].contacts) append((strips[i] != 0 ? out.for_columns : wide)[k], regions);
   }
   if (asked.empty()) return out;
-  out.field.emplace(room.settings(), room.object(), stack, wide);
-  // Branches are reckoned level by level: columns are meanwhile.
-  std::vector<double> by_branches_mm3;
+  // A field is made slab by slab: columns are reckoned meanwhile.
   tasks::for_each_index(2, [&](std::size_t structure) {
     if (structure == 0)
-      by_branches_mm3 = branches_mm3(room, stack, *out.field, wide, patches);
+      out.field.emplace(room.settings(), room.object(), stack, wide);
     else
       tasks::for_each_index(asked.size(), [&](std::size_t i) {
         if (auto& mm3 = columns_mm3[asked[i]]; !mm3) mm3 = guess.columns_mm3(all[asked[i]]);
@@ -147,9 +145,12 @@ Split cheaper(const Room& room, const Stack& stack, const std::vector<Regions>& 
   // Under a mushroom a mm³ of branches takes a third longer than one of columns: at three quarters of the plastic they
   // take the same time, and more of their roofs spans from tip to tip.
   constexpr double worth_branches = 0.7;
+  std::vector<double> least_mm3(all.size(), 0);  // for which branches are not taken
+  for (const std::size_t i : asked) least_mm3[i] = worth_branches * *columns_mm3[i];
+  const auto by_branches_mm3 = branches_mm3(room, stack, *out.field, wide, patches, least_mm3);
   for (const std::size_t i : asked)
     for (const auto& [k, regions] : all[i].contacts)
-      append((by_branches_mm3[i] < worth_branches * *columns_mm3[i] ? out.for_branches : out.for_columns)[k], regions);
+      append((by_branches_mm3[i] < least_mm3[i] ? out.for_branches : out.for_columns)[k], regions);
   return out;
 }
 

@@ -171,24 +171,28 @@ constexpr Um corner_bound = 40_um;
 class Falling {
  public:
   /// @param height  of the highest of them
-  /// @param lost    seen from above, where columns before these had nothing below: there they slide down slopes
-  Falling(const Room& room, const Stack& stack, const std::vector<Regions>& shadow, Um height, Regions lost)
+  /// @param first  the same columns before: where what they lost had nothing below, seen from above, these slide down
+  ///               slopes. Down to there they are the same
+  Falling(const Room& room, const Stack& stack, const std::vector<Regions>& shadow, Um height,
+          const Falling* first = nullptr)
       : s_(room.settings()),
         room_(room),
         stack_(stack),
         shadow_(shadow),
         line_(line_width(s_, room.object().nozzle)),
-        sliding_(grown(lost, 2 * line_)),
+        first_(first),
+        same_(first != nullptr && !s_.support_conical_enabled && !s_.support_use_towers),
+        sliding_(first != nullptr ? grown(first->lost_, 2 * line_) : Regions{}),
         lean_(s_, line_, height),
         towers_(s_),
         levels_(stack.levels.size()),
-        less_(stack.levels.size(), 0) {
+        steps_(stack.levels.size()) {
     const bool wider = s_.support_conical_enabled && s_.support_conical_angle < 0;
     if (!wider && !s_.support_use_towers) steady_.emplace(line_);
   }
 
   /// From the highest level down, once.
-  std::vector<Regions> under(const Patch& patch, const std::vector<Regions>* given) {
+  const std::vector<Regions>& under(const Patch& patch, const std::vector<Regions>* given) {
     auto next = patch.contacts.rbegin();
     static const Regions none;
     for (std::size_t k = stack_.levels.size(); k-- > 0;) {
@@ -197,12 +201,15 @@ class Falling {
       if (falling_.empty() && held.empty() && (given == nullptr || (*given)[k].empty())) continue;
       stop_if_asked();
       begin(k, held, given != nullptr ? (*given)[k] : none);
+      steps_[k].begun = falling_;
       clear(k, held);
-      levels_[k] = falling_;
+      steps_[k].cleared = levels_[k] = falling_;
+      steps_[k].ragged = ragged_;
     }
     let_rest();
-    return std::move(levels_);
+    return levels_;
   }
+  std::vector<Regions> levels() && { return std::move(levels_); }
   /// What had nothing below, seen from above.
   const Regions& lost() const { return lost_; }
 
@@ -210,8 +217,13 @@ class Falling {
   /// What begins on that level, and what comes down from above.
   void begin(std::size_t k, const Regions& contacts, const Regions& given) {
     const auto& level = stack_.levels[k];
+    if (same_) {
+      if (steady_) steady_->begin(contacts, level.z);
+      falling_ = first_->steps_[k].begun;
+      return edge_.reset();
+    }
     if (s_.support_conical_enabled && !falling_.empty() && lean_.narrow(level.height, falling_))
-      edge_.reset(), less_[k] = 1;
+      edge_.reset(), steps_[k].less = true;
     if (steady_ && steady_->widen(level.z, falling_)) edge_.reset();
     if (steady_) steady_->begin(contacts, level.z);
     towers_.begin(contacts, level.z);
@@ -235,46 +247,67 @@ class Falling {
   void clear(std::size_t k, const Regions& contacts) {
     const auto& level = stack_.levels[k];
     look_above(k, contacts);
+    if (same_) return clear_as_before(k, contacts.empty());
     if (contacts.empty() && (shadow_.empty() || shadow_[k].empty()) && room_.stands_free(falling_, edge(), level))
       return;
     if (ragged_ || !contacts.empty()) falling_ = geometry::simplified(falling_, corner_bound), edge_.reset();
     ragged_ = false;
     const bool shaded = !shadow_.empty() && !shadow_[k].empty(), slides = !sliding_.empty() && contacts.empty();
-    const Regions above = slides ? falling_ : Regions();
-    const Um least = line_ * 4 / 10;
+    Step& step = steps_[k];
+    step.whole = falling_;
+    const Um least = thin();
     Regions left;
     for (Region& region : falling_) {
       bool cut = shaded;
       Regions free = room_.free_part({region}, level, close_, cut ? nullptr : &cut, &above_);
       if (shaded) free = geometry::subtract(free, shadow_[k]);
       ragged_ = ragged_ || cut;
+      append(step.left, free);
       if (!cut)
         left.push_back(std::move(region));
       else
         append(left, slides ? std::move(free) : without_thin(free, least));
     }
     if (!ragged_) return void(falling_ = std::move(left));
-    if (slides) slide(k, above, left), left = without_thin(left, least);
+    if (slides) slide(k, step.whole, left), left = without_thin(left, least);
     falling_ = std::move(left);
     edge_.reset();
-    less_[k] = 1;
+    step.less = true;
   }
+  /// What the same columns did before, unless they slide.
+  void clear_as_before(std::size_t k, bool may_slide) {
+    const Step& before = first_->steps_[k];
+    Step& step = steps_[k];
+    step = before;
+    falling_ = before.cleared, ragged_ = before.ragged;
+    edge_.reset();
+    if (!may_slide || !before.less) return;
+    Regions left = before.left;
+    if (!slide(k, before.whole, left)) return;
+    falling_ = without_thin(left, thin()), ragged_ = true, same_ = false;
+  }
+  Um thin() const { return line_ * 4 / 10; }
   /// Beside a slope too steep to stand on a column gets thinner level by level, until nothing is left to stand on:
   /// what is thinner than two lines there gets as much wider on its other side as lets what is above rest on it, and so
-  /// slides down along the slope.
-  void slide(std::size_t k, const Regions& above, Regions& left) {
-    const Regions wide = geometry::offset(geometry::offset(left, {.by = -line_}), {.by = line_ + 20});
-    const Regions thin = geometry::subtract(left, wide);
-    if (thin.empty()) return;
-    const Regions cut_beside = grown(geometry::opening(geometry::subtract(above, left), 10), 2 * line_);
-    const Regions squeezed = geometry::intersect(geometry::intersect(thin, cut_beside), sliding_);
-    if (squeezed.empty()) return;
+  /// slides down along the slope. @return whether any does
+  bool slide(std::size_t k, const Regions& above, Regions& left) {
+    const Box there = box_of(sliding_).grown(4 * line_);  // discs of a line's radius tell what is thin
+    const Regions near = geometry::trimmed(left, there);
+    if (near.empty()) return false;
+    const Regions wide = geometry::offset(geometry::offset(near, {.by = -line_}), {.by = line_ + 20});
+    const Regions thin = geometry::intersect(geometry::subtract(near, wide), sliding_);
+    if (thin.empty()) return false;
+    const Regions cut_beside =
+        grown(geometry::opening(geometry::subtract(geometry::trimmed(above, there), near), 10), 2 * line_);
+    const Regions squeezed = geometry::intersect(thin, cut_beside);
+    if (squeezed.empty()) return false;
     Regions more = room_.free_part(grown(squeezed, line_ / 2), stack_.levels[k], close_, nullptr, &above_);
     if (!shadow_.empty() && !shadow_[k].empty()) more = geometry::subtract(more, shadow_[k]);
     append(left, more);
     left = geometry::unite(left);
     append(sliding_, more);
     sliding_ = geometry::unite(sliding_);
+    return true;
   }
   const geometry::SegmentIndex& edge() {
     if (!edge_) edge_.emplace(falling_);
@@ -295,10 +328,13 @@ class Falling {
   }
   /// From the bottom up: where the level below is no less than this one, all of it rests.
   void let_rest() {
-    bool less_below = less_[0] != 0;
+    bool less_below = steps_[0].less;
     for (std::size_t k = 1; k < levels_.size(); ++k) {
-      const bool less = less_[k] != 0;
-      if (less_below && !levels_[k].empty()) {
+      const bool less = steps_[k].less;
+      if (first_ != nullptr && levels_[k - 1] == first_->levels_[k - 1] && levels_[k] == first_->steps_[k].cleared) {
+        levels_[k] = first_->levels_[k];
+        less_below = less || steps_[k].cleared != levels_[k];
+      } else if (less_below && !levels_[k].empty()) {
         stop_if_asked();
         Regions all = levels_[k];
         rest_on(room_, stack_.levels[k], levels_[k - 1], levels_[k]);
@@ -344,6 +380,8 @@ class Falling {
   const Stack& stack_;
   const std::vector<Regions>& shadow_;
   Um line_;
+  const Falling* first_;
+  bool same_;               ///< so far as those
   Regions lost_, sliding_;  ///< seen from above: what had nothing below, and where columns slide
   Lean lean_;
   std::optional<Steady> steady_;  ///< where nothing else is set of how wide columns are
@@ -357,7 +395,14 @@ class Falling {
   std::optional<geometry::SegmentIndex> edge_;  ///< of what falls, once asked for
   bool ragged_ = false;                         ///< it has corners of what was cut from it
   std::vector<Regions> levels_;
-  std::vector<char> less_;  ///< of each level, whether it is not all of what lies above it
+  struct Step {
+    Regions begun, whole,
+        left;         ///< after what begins there; of that, what was cut, and what is left with its thin ends
+    Regions cleared;  ///< what is left, whether it rests or not
+    bool ragged = false;
+    bool less = false;  ///< it is not all of what lies above it
+  };
+  std::vector<Step> steps_;  ///< by level
 };
 
 }  // namespace
@@ -384,10 +429,12 @@ std::vector<Regions> columns(const Room& room, const Stack& stack, const std::ve
     return left_mm2 > s.minimum_support_area;
   };
   const auto under = [&](const Patch& patch, const std::vector<Regions>* drawn_there) {
-    Falling falling(room, stack, shadow, height_of(patch), {});
-    auto levels = falling.under(patch, drawn_there);
-    if (falling.lost().empty() || !leaves_some(patch, levels)) return levels;
-    return Falling(room, stack, shadow, height_of(patch), falling.lost()).under(patch, drawn_there);
+    Falling falling(room, stack, shadow, height_of(patch));
+    const auto& levels = falling.under(patch, drawn_there);
+    if (falling.lost().empty() || !leaves_some(patch, levels)) return std::move(falling).levels();
+    Falling sliding(room, stack, shadow, height_of(patch), &falling);
+    sliding.under(patch, drawn_there);
+    return std::move(sliding).levels();
   };
   // What gets wider on the way down meets others.
   const bool wider = drawn || s.support_normal_shape == SupportShape::grid || s.support_use_towers ||

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -75,16 +76,18 @@ class Grower {
     tree_.roofs = std::move(laid.areas), tree_.joists = std::move(laid.joists);
     return std::move(tree_);
   }
-  std::vector<double> plastic_mm3() && {
+  std::vector<double> plastic_mm3(std::span<const double> enough) && {
     Roofs roofs(room_, stack_, contacts_, Roofs::Use::reckoned);
-    grow(roofs);
+    grow(roofs, enough);
     return std::move(mm3_);
   }
 
  private:
-  void grow(Roofs& roofs) {
+  /// From the top down, or until each patch takes that much.
+  void grow(Roofs& roofs, std::span<const double> enough = {}) {
     for (std::size_t slab = field_.slabs(); slab-- > 0;) {
       stop_if_asked();
+      if (!enough.empty() && std::equal(enough.begin(), enough.end(), mm3_.begin(), std::less_equal<>())) return;
       begin_tips(slab, roofs);
       step(slab);
     }
@@ -366,8 +369,9 @@ Tree tree(const Room& room, const Stack& stack, const Field& field, const std::v
 }
 
 std::vector<double> branches_mm3(const Room& room, const Stack& stack, const Field& field,
-                                 const std::vector<Regions>& contacts, const Patches& patches) {
-  return Grower(room, stack, field, contacts, &patches).plastic_mm3();
+                                 const std::vector<Regions>& contacts, const Patches& patches,
+                                 std::span<const double> enough) {
+  return Grower(room, stack, field, contacts, &patches).plastic_mm3(enough);
 }
 
 }  // namespace weft::support

@@ -4,6 +4,7 @@
 #include "support/patches.h"
 #include "support/support.h"
 
+#include <span>
 #include <vector>
 
 namespace weft::support {
@@ -26,7 +27,9 @@ Tree tree(const Room& room, const Stack& stack, const Field& field, const std::v
 
 /// What branches for the contacts of each patch would take, mm³: those that patches share count for each by its tips,
 /// and what no branch gets to as columns. Points only: cheap beside the areas of branches.
+/// @param enough  of each patch: what takes more need be reckoned no further, once all do
 std::vector<double> branches_mm3(const Room& room, const Stack& stack, const Field& field,
-                                 const std::vector<Regions>& contacts, const Patches& patches);
+                                 const std::vector<Regions>& contacts, const Patches& patches,
+                                 std::span<const double> enough);
 
 }  // namespace weft::support
