@@ -17,6 +17,9 @@ double distance2_of(const PathVertex& a, const PathVertex& b) {
   return x * x + y * y;
 }
 
+/// In moves: of a piece beside whose line its path turns back, where none else is long enough.
+constexpr double last_resort = 1'000;
+
 /// A straight bead, as wide as changes evenly along it.
 struct StraightBead {
   double x = 0, y = 0, half_band = 0;  ///< of its middle
@@ -26,6 +29,8 @@ struct StraightBead {
 
   /// Half its band, so far along the path.
   double half_at(double way_there) const { return half_band + wider * (way_there - way); }
+  /// How far along it a place lies.
+  double along(const PathVertex& p) const { return (p.x - x) * ux + (p.y - y) * uy; }
   /// How far its edges are off a place so far along the path, on average, squared.
   double off2(const PathVertex& p, double way_to_p) const {
     const double aside = (p.x - x) * uy - (p.y - y) * ux;
@@ -124,6 +129,17 @@ class Course {
   double way(std::size_t i) const { return moments_[i].way; }
   double distance2(std::size_t i, std::size_t j) const { return distance2_of(path_[i], path_[j]); }
   Nearest nearest(std::size_t i, std::size_t j) const { return {moments_[i], moments_[j], even_}; }
+  /// Whether a stretch turns back on its nearest bead: a vertex lies behind one before by more than tolerances::path.
+  bool turns_back(const StraightBead& bead, std::size_t i, std::size_t j) const {
+    const double on = bead.along(path_[j]) < bead.along(path_[i]) ? -1 : 1;
+    double ahead = on * bead.along(path_[i]);
+    for (std::size_t k = i + 1; k <= j; ++k) {
+      const double here = on * bead.along(path_[k]);
+      if (here < ahead - tolerances::path) return true;
+      ahead = std::max(ahead, here);
+    }
+    return false;
+  }
   /// How many moves one of its own pieces becomes.
   double moves(std::size_t i) const {
     return even_ ? 1 : Nearest::moves_for(std::abs(path_[i + 1].band - path_[i].band), way(i + 1) - way(i));
@@ -184,7 +200,10 @@ std::vector<std::size_t> worth_most(const Course& course, double most) {
         continue;
       }
       least = nearest.misfit();
-      take(j, cost[i] + nearest.moves() + least / worth_of_a_move);
+      double sum = cost[i] + nearest.moves() + least / worth_of_a_move;
+      if (sum >= cost[j]) continue;
+      if (course.turns_back(nearest.bead(), i, j)) sum += last_resort;
+      take(j, sum);
     }
   }
   if (cost[last] >= never) return {};

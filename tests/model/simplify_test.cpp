@@ -122,6 +122,21 @@ TEST_CASE("simplify: a circle becomes a polygon that lies on both sides of it an
   }
 }
 
+TEST_CASE("simplify: where a path turns back along itself it is not cut off askew") {
+  // On, back within some microns of its own line, and off at a right angle: to one line there and back are alike.
+  for (const double back : {100.0, 200.0, 300.0}) {
+    const double x = 3'500 - back;
+    const VertexPath path{{0, 0, 400}, {3'000, 0, 400}, {3'500, 5, 400}, {x, 10, 400}, {x, -3'000, 400}};
+    VertexPath simple = path;
+    simplify(simple, false);
+    double most = 0;
+    for (std::size_t i = 1; i < simple.size(); ++i)
+      for (int k = 0; k <= 100; ++k) most = std::max(most, off(path, lerp(simple[i - 1], simple[i], k / 100.0), false));
+    CAPTURE(back, simple.size());
+    CHECK(most < 2 * tolerances::path);  // cut off they lay 0.1 to 0.28 mm beside the path
+  }
+}
+
 TEST_CASE("simplify: no path turns by more than 60° beside a piece shorter than a move") {
   std::mt19937 random(7);
   for (int n = 0; n < 300; ++n) {
