@@ -30,7 +30,8 @@ constexpr std::array extruder_keys{ExtruderKey{"extruder", "extruder_nr"},
                                    ExtruderKey{"infill_extruder", "infill_extruder_nr"},
                                    ExtruderKey{"solid_infill_extruder", "top_bottom_extruder_nr"}};
 
-/// Words of Cura's that mean a value of another setting here.
+/// Words of Cura's that mean a value of another setting here. Where that one holds for more than an object, what is
+/// told of it names it.
 struct CuraWord {
   std::string_view theirs, value, ours, text;
 };
