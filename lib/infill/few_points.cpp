@@ -28,7 +28,7 @@ class Off {
         dy_(points.back().y - points.front().y),
         length_(std::max(std::sqrt(dx_ * dx_ + dy_ * dy_), 1e-9)) {}
 
-  /// Looks at every so manieth point.
+  /// Looks at every point that is a multiple of `step` behind the first.
   void look(std::size_t first, std::size_t step) {
     const Point a = points_.front();
     for (std::size_t i = first; i < points_.size(); i += step) {

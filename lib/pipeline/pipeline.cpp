@@ -356,7 +356,7 @@ std::optional<audit::Passed> print(const Job& job, Printing what, const Watch& w
 
 /// Objects of fewer layers are planned whole: each is a large share of the print.
 constexpr std::size_t few_layers = 24;
-/// Every so manieth of more layers. The other stages read all layers, so that a larger one saves little.
+/// One of so many, where there are more layers. The other stages read all layers, so that a larger one saves little.
 constexpr std::size_t estimate_stride = 4;
 
 /// The layers of the tallest object, about.
