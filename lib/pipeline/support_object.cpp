@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/support_object.h"
 
+#include "core/alike.h"
 #include "core/tolerances.h"
 #include "geometry/boolean.h"
 #include "geometry/offset.h"
@@ -188,14 +189,20 @@ void leave_out_specks(const Settings& settings, Outlines& outlines, std::vector<
     if (specks[i].empty()) continue;
     const SlicedLayer& layer = *outlines.layers[i];
     const geometry::SegmentIndex below(i > 0 ? outlines.layers[i - 1]->regions : Regions{});
-    const auto stays = tasks::parallel_map(specks[i].size(), [&](std::size_t s) {
-      const Region& speck = layer.regions[specks[i][s]];
-      return char{lies_on(below, speck) || is_printed(settings, layer, i, speck)};
-    });
+    Regions small;
+    for (const std::size_t r : specks[i]) small.push_back(layer.regions[r]);
+    const auto held = tasks::parallel_map(small.size(), [&](std::size_t s) { return char{lies_on(below, small[s])}; });
+    const auto like = first_alike(small);  // one of each kind is built
+    std::vector<char> asked(small.size(), 0);
+    for (std::size_t s = 0; s < small.size(); ++s) asked[like[s]] |= char{held[s] == 0};
+    const auto printed = tasks::parallel_map(
+        small.size(), [&](std::size_t s) { return char{asked[s] != 0 && is_printed(settings, layer, i, small[s])}; });
+    std::vector<char> stays(layer.regions.size(), 1);
+    for (std::size_t s = 0; s < small.size(); ++s) stays[specks[i][s]] = char{held[s] != 0 || printed[like[s]] != 0};
     if (std::find(stays.begin(), stays.end(), 0) == stays.end()) continue;
-    kept[i] = layer;
-    for (std::size_t s = stays.size(); s-- > 0;)
-      if (stays[s] == 0) kept[i].regions.erase(kept[i].regions.begin() + static_cast<std::ptrdiff_t>(specks[i][s]));
+    kept[i] = {layer.z, layer.height, {}};
+    for (std::size_t r = 0; r < stays.size(); ++r)
+      if (stays[r] != 0) kept[i].regions.push_back(layer.regions[r]);
     outlines.layers[i] = &kept[i];
   }
   outlines.object.layers = outlines.layers;
