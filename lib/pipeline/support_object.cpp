@@ -233,6 +233,32 @@ std::vector<std::uint32_t> idle_enforcers(const Object& object, const std::vecto
   return out;
 }
 
+struct TwoLayers {
+  Regions own, below;
+};
+/// Two layers without what is the same in both: straight legs and pins, on which everything lies. Regions of a layer
+/// lie apart.
+TwoLayers but_for_equal(const Regions& own, const Regions& below) {
+  std::vector<const Region*> sorted;
+  for (const Region& region : below) sorted.push_back(&region);
+  const auto begins = [](const Region& region) { return region.outer.front(); };
+  const auto before = [&](const Region* a, const Region* b) { return begins(*a) < begins(*b); };
+  std::sort(sorted.begin(), sorted.end(), before);
+  TwoLayers out;
+  std::vector<char> equal(below.size(), 0);
+  for (const Region& region : own) {
+    const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), &region, before);
+    const auto same = std::find_if(first, last, [&](const Region* r) { return *r == region; });
+    if (same == last)
+      out.own.push_back(region);
+    else
+      equal[static_cast<std::size_t>(*same - below.data())] = 1;
+  }
+  for (std::size_t i = 0; i < below.size(); ++i)
+    if (equal[i] == 0) out.below.push_back(below[i]);
+  return out;
+}
+
 double plastic_mm3(const PrintedLayer& layer) {
   double um2 = 0;
   for (const Bead& bead : layer.beads) {
@@ -300,7 +326,11 @@ Supports make_supports(const Settings& of_object, const Settings& settings, cons
 }  // namespace
 
 Regions over_air_of(const std::vector<slice::Cut>& cuts, std::size_t i) {
-  return i > 0 ? geometry::subtract(cuts[i].layer.regions, cuts[i - 1].layer.regions) : Regions{};
+  if (i == 0) return {};
+  const Regions &own = cuts[i].layer.regions, &below = cuts[i - 1].layer.regions;
+  if (own.size() < 2 && below.size() < 2) return geometry::subtract(own, below);
+  const TwoLayers differ = but_for_equal(own, below);
+  return geometry::subtract(differ.own, differ.below);
 }
 
 std::vector<SupportOf> rooms_of(const Scopes& scopes, const Plate& plate) {

@@ -2,7 +2,7 @@
 #include "travel/comb.h"
 
 #include "core/stop.h"
-#include "travel/box_columns.h"
+#include "geometry/box_columns.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,7 +45,7 @@ Comb::Comb(std::vector<Ring> rings) {
   std::erase_if(rings, [](const Ring& r) { return r.size() < 3; });
   std::vector<Box> boxes;
   for (const auto& r : rings) boxes.push_back(box_of(r));
-  const BoxColumns columns(std::move(boxes));
+  const geometry::BoxColumns columns(std::move(boxes));
   std::vector<std::uint32_t> depth(rings.size(), 0), parent(rings.size(), outside);
   StopNowAndThen stop(64);
   for (std::size_t i = 0; i < rings.size(); ++i) {
@@ -151,7 +151,8 @@ void Comb::build_index() {
   each_edge([&](std::uint32_t e) { each_cell(e, [&](std::size_t c) { edges_[count[c]++] = e; }); });
 }
 
-/// Calls visit(edge) for edges near the segment, some twice, until it returns true; returns whether it did.
+/// Calls visit(edge) for edges near the segment, about from a to b and some twice, until it returns true; returns
+/// whether it did.
 template <class Visit>
 bool Comb::visit_edges(Point a, Point b, const Visit& visit) const {
   if (points_.empty()) return false;
@@ -165,7 +166,9 @@ bool Comb::visit_edges(Point a, Point b, const Visit& visit) const {
   const int r1 = std::min(rows_ - 1, floor_div(static_cast<double>(high.y) - box_.min.y + 1));
   const double rise = static_cast<double>(high.y) - low.y;
   const double slope = rise > 0 ? (static_cast<double>(high.x) - low.x) / rise : 0.0;
-  for (int r = r0; r <= r1; ++r) {
+  const bool up = a.y <= b.y, right = a.x <= b.x;
+  for (int row = r0; row <= r1; ++row) {
+    const int r = up ? row : r0 + r1 - row;
     double x0 = low.x, x1 = high.x;
     if (rise > 0) {
       const double y0 = static_cast<double>(box_.min.y) + static_cast<double>(r) * static_cast<double>(cell_);
@@ -174,7 +177,8 @@ bool Comb::visit_edges(Point a, Point b, const Visit& visit) const {
     }
     const int c0 = std::max(0, floor_div(std::min(x0, x1) - box_.min.x - 2));
     const int c1 = std::min(columns_ - 1, floor_div(std::max(x0, x1) - box_.min.x + 2));
-    for (int c = c0; c <= c1; ++c) {
+    for (int column = c0; column <= c1; ++column) {
+      const int c = right ? column : c0 + c1 - column;
       const std::size_t cell =
           static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(c);
       for (std::uint32_t k = first_[cell]; k < first_[cell + 1]; ++k)
