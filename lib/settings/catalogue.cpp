@@ -232,6 +232,8 @@ std::string_view nearest_setting(std::string_view wrong, std::string_view (*also
     for (const auto name : {e.key, also_called(e.key)})
       if (!name.empty())
         if (const auto d = edit_distance(wanted, name); d < least) least = d, best = e.key;
+  for (const std::string_view on : {"_enable", "_enabled"})  // "support", "ironing"
+    if (const auto* e = best.empty() ? find_setting(wanted + std::string(on)) : nullptr) best = e->key;
   return best;
 }
 

@@ -37,7 +37,7 @@ const CatalogueEntry* find_setting(std::string_view key);
 /// @param where what to name in messages
 std::any read_value(const CatalogueEntry& entry, const std::string& text, const std::string& where);
 
-/// The known key nearest to a wrong one by edit distance, or empty when nothing is near.
+/// The known key nearest to a wrong one by edit distance, else the switch that it names; empty when there is none.
 /// @param also_called another name of a key, which counts like the key itself; empty when it has none
 std::string_view nearest_setting(std::string_view wrong, std::string_view (*also_called)(std::string_view key));
 

@@ -69,6 +69,11 @@ TEST_CASE("settings: an unknown key is an error with the nearest known one") {
   Profile p;
   CHECK_THAT(settings_error([&] { apply_value(p, "layer_heigth", "0.2", "--set"); }),
              Contains("did you mean 'layer_height'?"));
+  // What is switched on by it is named, too.
+  CHECK_THAT(settings_error([&] { apply_value(p, "support", "1", "--set"); }),
+             Contains("did you mean 'support_enable'?"));
+  CHECK_THAT(settings_error([&] { apply_value(p, "ironing", "1", "--set"); }),
+             Contains("did you mean 'ironing_enabled'?"));
 }
 
 TEST_CASE("settings: a child overrides its parent, and the history is kept") {
