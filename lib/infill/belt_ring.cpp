@@ -67,9 +67,9 @@ BeltRing::BeltRing(Ring ring, double depth_um, const BeltGround& ground)
 /// What is in the cell that far from the wall. Grids have a margin: nothing is outside.
 BeltRing::Cell BeltRing::look(const Sample& s, double um) const {
   const Grid& grid = ground_.solid.grid();
-  const double cells_a_um = 1 / cell_;
-  const int column = static_cast<int>((s.at.x - grid.origin.x + (um - depth_) * s.nx) * cells_a_um),
-            row = static_cast<int>((s.at.y - grid.origin.y + (um - depth_) * s.ny) * cells_a_um);
+  // Divided, not multiplied: on the border of two cells it is the same one whichever window of the grid this is.
+  const int column = static_cast<int>((s.at.x - grid.origin.x + (um - depth_) * s.nx) / cell_),
+            row = static_cast<int>((s.at.y - grid.origin.y + (um - depth_) * s.ny) / cell_);
   return ground_.sparse.at(column, row) ? Cell::sparse : ground_.solid.at(column, row) ? Cell::solid : Cell::wall;
 }
 

@@ -120,10 +120,13 @@ Mask::Mask(const Grid& grid, std::span<const Region> regions) : Mask(grid) {
     if (first > last) return;
     const double slope = (static_cast<double>(b.x) - a.x) / (static_cast<double>(b.y) - a.y);
     const double step = slope;  // columns a row: the cell cancels
-    double column = (a.x + slope * (bottom + first * cell - a.y) - left) / cell;
+    // Counted from the column that the edge begins in: where it goes through the middle of a cell, rounding says the
+    // same in every window of a grid.
+    const double begins = std::floor((a.x - left) / cell);
+    double column = (a.x - left - begins * cell + slope * (bottom + first * cell - a.y)) / cell;
     for (int r = first; r <= last; ++r, column += step) {
-      const double at = std::max(column, 0.0);
-      const int whole = static_cast<int>(at), c = whole + static_cast<int>(whole < at);  // rounded up
+      const int whole = static_cast<int>(column);  // towards 0: what is below is rounded up by that
+      const int c = std::max(0, static_cast<int>(begins) + whole + static_cast<int>(whole < column));
       if (c < grid.columns) row(r)[word_of(c)] ^= bit_of(c);
     }
   };
@@ -230,11 +233,15 @@ bool Mask::meets(const Mask& other, const Box& within) const {
   if (bits_.empty() || within.empty()) return false;
   const int first = std::max(0, grid_.row_of(within.min.y)),
             last = std::min(grid_.rows - 1, grid_.row_of(within.max.y));
-  const std::size_t from = word_of(std::clamp(grid_.column_of(within.min.x), 0, grid_.columns - 1));
-  const std::size_t to = word_of(std::clamp(grid_.column_of(within.max.x), 0, grid_.columns - 1));
+  const int left = std::clamp(grid_.column_of(within.min.x), 0, grid_.columns - 1),
+            right = std::clamp(grid_.column_of(within.max.x), 0, grid_.columns - 1);
+  const std::size_t from = word_of(left), to = word_of(right);
+  const Word from_left = ~Word{0} << (left % 64), to_right = ~Word{0} >> (63 - right % 64);
   for (int r = first; r <= last; ++r)
-    for (std::size_t i = from; i <= to; ++i)
-      if ((row(r)[i] & other.row(r)[i]) != 0) return true;
+    for (std::size_t i = from; i <= to; ++i) {
+      const Word asked = (i == from ? from_left : ~Word{0}) & (i == to ? to_right : ~Word{0});
+      if ((row(r)[i] & other.row(r)[i] & asked) != 0) return true;
+    }
   return false;
 }
 

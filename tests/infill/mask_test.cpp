@@ -129,3 +129,47 @@ TEST_CASE("mask: around a run are the cells that touch it, at corners too") {
     CHECK(wrong == 0);
   }
 }
+
+TEST_CASE("mask: what two masks share within a box is asked of its cells, and of none beside it") {
+  const Grid grid = grid_of(300, 5);
+  std::mt19937 random(8);
+  const auto below = [&](int end) { return static_cast<int>(random() % static_cast<unsigned>(end)); };
+  int met = 0;
+  for (int i = 0; i < 500; ++i) {
+    const int column = below(grid.columns), row = below(grid.rows), left = below(grid.columns), low = below(grid.rows);
+    const int right = std::min(grid.columns - 1, left + below(130)), high = std::min(grid.rows - 1, low + below(3));
+    Mask one(grid);
+    one.set(column, row);
+    const Um half = grid.cell / 2;
+    Box box;
+    box.add(Point{left * grid.cell + half, low * grid.cell + half}),
+        box.add(Point{right * grid.cell + half, high * grid.cell + half});
+    const bool within = left <= column && column <= right && low <= row && row <= high;
+    met += within ? 1 : 0;
+    CHECK(one.meets(one, box) == within);
+  }
+  CHECK(met > 20);
+}
+
+TEST_CASE("mask: a region has the same cells in every window of a grid") {
+  const Grid whole = grid_of(700, 700);
+  std::mt19937 random(4);
+  const auto at = [&](Um from, Um end) {
+    return from + static_cast<Um>(random() % static_cast<unsigned>(end - from)) / 50 * 50;
+  };
+  for (int i = 0; i < 300; ++i) {  // corners on cells' middles and borders, so that edges go through many others
+    const Region region{{{at(20000, 50000), at(20000, 50000)},
+                         {at(20000, 50000), at(20000, 50000)},
+                         {at(20000, 50000), at(20000, 50000)}},
+                        {}};
+    const Mask here(whole, {&region, 1});
+    const Grid window = whole.window(box_of(region.outer), at(200, 15000));
+    const Mask there(window, {&region, 1});
+    const int right = (window.origin.x - whole.origin.x) / whole.cell,
+              up = (window.origin.y - whole.origin.y) / whole.cell;
+    CAPTURE(i, right, up);
+    auto moved = there.runs();
+    for (auto& run : moved) run.row += up, run.from += right, run.to += right;
+    CHECK(moved == here.runs());
+  }
+}
