@@ -48,16 +48,9 @@ class Layers {
       for (const std::vector<Point>* at : {&std::as_const(filled[k].hang_at), &hollow[k]})
         if (!at->empty())
           for (const std::size_t j : below(k)) hang_above[j].insert(hang_above[j].end(), at->begin(), at->end());
-    std::vector<Beads> rungs(layers_.size());
-    for (std::size_t k = 0; k < layers_.size(); ++k) {
-      if (hang_above[k].empty()) continue;
-      stop_if_asked();
-      Beads under;
-      for (const std::size_t j : below(k)) under.insert(under.end(), rungs[j].begin(), rungs[j].end());
-      rungs[k] = rungs_on(k, hang_above[k], filled[k].beads, under);
-    }
+    const std::vector<Beads> rungs = rungs_for(hang_above, filled);
     return tasks::parallel_map(layers_.size(), [&](std::size_t k) {
-      std::move(rungs[k].begin(), rungs[k].end(), std::back_inserter(filled[k].beads));
+      std::copy(rungs[k].begin(), rungs[k].end(), std::back_inserter(filled[k].beads));
       return printed(layers_[k], std::move(filled[k].beads));
     });
   }
@@ -104,15 +97,37 @@ class Layers {
     const Beads walls = columns_->hollow_unlike(k, under.front());
     return walls.empty() ? std::vector<Point>{} : beneath(k).hanging(walls, span_).at;
   }
-  Beads rungs_on(std::size_t k, std::span<const Point> hang, const Beads& beads, const Beads& under) const {
-    const auto& s = settings_.support;
+  /// @param hang  of each layer places where beads above it hang
+  std::vector<Beads> rungs_for(const std::vector<std::vector<Point>>& hang,
+                               const std::vector<SupportBeads>& filled) const {
+    std::vector<std::optional<RungsBelow>> laid(layers_.size());
+    std::vector<std::vector<Point>> ends(layers_.size());  // of brackets that hang
+    for (std::size_t k = layers_.size(); k-- > 0;) {
+      if (hang[k].empty() && ends[k].empty()) continue;
+      stop_if_asked();
+      const auto more = rungs_on(k, filled[k].beads, laid[k]).brackets(hang[k], ends[k]);
+      for (const std::size_t j : below(k)) ends[j].insert(ends[j].end(), more.begin(), more.end());
+    }
+    std::vector<Beads> out(layers_.size());
+    for (std::size_t k = 0; k < layers_.size(); ++k) {
+      if (!laid[k]) continue;
+      stop_if_asked();
+      Beads under;
+      for (const std::size_t j : below(k)) under.insert(under.end(), out[j].begin(), out[j].end());
+      out[k] = std::move(*laid[k]).rungs(hang[k], under);
+      if (const auto tool = settings_.support.support_infill_extruder_nr)
+        for (Bead& rung : out[k]) rung.tool = static_cast<ToolId>(*tool);
+    }
+    return out;
+  }
+  RungsBelow& rungs_on(std::size_t k, const Beads& beads, std::optional<RungsBelow>& out) const {
     Regions area = layers_[k].columns;
     append(area, layers_[k].roof), append(area, layers_[k].bottom);
-    Beads out = rungs_below(hang, beads, geometry::joined(area), beneath(k), under,
-                            {.span = span_, .line = line_, .band = flow::band(line_, layers_[k].height)});
-    if (s.support_infill_extruder_nr)
-      for (Bead& rung : out) rung.tool = static_cast<ToolId>(*s.support_infill_extruder_nr);
-    return out;
+    const Um height = layers_[k].height;
+    return out.emplace(
+        beads, geometry::joined(area), beneath(k),
+        RungStyle{
+            .span = span_, .line = line_, .band = flow::band(line_, height), .step = std::min(height, line_ * 2 / 3)});
   }
   static PrintedLayer printed(const support::SupportLayer& layer, Beads beads) {
     PrintedLayer out;

@@ -257,7 +257,9 @@ TEST_CASE("support: a dab under a tip between two lines of a column lies on a ru
   CHECK(std::abs(rung.path.front().at.x - 20000) <= 1);
 }
 
-TEST_CASE("support: what hangs over hollow columns lies on rungs, which end on beads and are laid after them") {
+TEST_CASE(
+    "support: what hangs over hollow columns lies on rungs and brackets, which begin on beads and are laid after "
+    "them") {
   Body body;
   body.add(30, {rectangle(-2000, -2000, 2000, 2000)});
   for (Um out = 2800; out <= 14000; out += 800) body.add(1, {rectangle(-out, -out, out, out)});
@@ -266,17 +268,23 @@ TEST_CASE("support: what hangs over hollow columns lies on rungs, which end on b
   Settings s;
   s.support = on();
   std::size_t rungs = 0;
-  for (const auto& layer : pipeline::fill_support(s, plan.layers, {})) {
-    Beads others;
-    std::copy_if(layer.beads.begin(), layer.beads.end(), std::back_inserter(others),
-                 [](const Bead& bead) { return bead.sequence == 0; });
-    const auto laid = pipeline::segments_of(others);
+  const auto filled = pipeline::fill_support(s, plan.layers, {});
+  for (const auto& layer : filled) {
+    Beads lower;
+    for (const auto& under : filled)
+      if (under.z < layer.z && under.z >= layer.z - layer.height * 3 / 2)
+        lower.insert(lower.end(), under.beads.begin(), under.beads.end());
+    const pipeline::Beneath below({}, lower, 800);  // brackets reach a step beyond those below
     for (const Bead& bead : layer.beads) {
       if (bead.sequence == 0) continue;
       ++rungs;
       CHECK(length_mm(bead) <= 4);
+      Beads others;
+      std::copy_if(layer.beads.begin(), layer.beads.end(), std::back_inserter(others),
+                   [&](const Bead& other) { return &other != &bead; });
+      const auto laid = pipeline::segments_of(others);
       CHECK(laid.nearest(bead.path.front().at, 2));
-      CHECK(laid.nearest(bead.path.back().at, 2));
+      CHECK((laid.nearest(bead.path.back().at, 2) || below.lies(bead.path.back().at) || length_mm(bead) < 1));
     }
   }
   CHECK(rungs > 10);
@@ -305,4 +313,44 @@ TEST_CASE("support: a strip of roof beside the one below it lies on rungs betwee
   CHECK(rungs >= 5);
   const pipeline::Beneath below({}, filled.front().beads, 400);
   CHECK(below.hanging(filled[1].beads, 5000).um == 0);
+}
+
+TEST_CASE(
+    "support: a roof that reaches beyond a column's last line lies on brackets, each grown out of the one below") {
+  const auto s = fine_lines();
+  const auto of_column = [](Um low, int i) {
+    return level(2000 + 200 * i, 200, &support::SupportLayer::columns, {rectangle(0, low, 40000, 40000)});
+  };
+  const auto alone = pipeline::fill_support(s, {of_column(0, 0)}, {});
+  std::set<Um> rows;
+  for (const Bead& bead : alone.front().beads) rows.insert(bead.path[0].at.y);
+  REQUIRE(rows.size() > 10);
+  const Um last = *std::next(rows.begin(), 5), edge = last - 2300;
+  constexpr int levels = 15;
+  std::vector<support::SupportLayer> stack;
+  for (int i = 0; i < levels; ++i) stack.push_back(of_column(edge, i));
+  stack.push_back(level(2000 + 200 * levels, 200, &support::SupportLayer::roof, {rectangle(5000, edge, 25000, last)}));
+  const auto filled = pipeline::fill_support(s, stack, {});
+  const auto hangs_mm = [](const Beads& beads, const Beads& on) {
+    return pipeline::Beneath({}, on, 400).hanging(beads, 5000).um / 1000;
+  };
+  CHECK(hangs_mm(filled[levels].beads, filled[levels - 1].beads) < 3);  // of 90: two ends beside the outermost brackets
+  std::size_t brackets = 0;
+  Um reach = last;
+  for (std::size_t k = levels; k-- > 0;) {
+    Um low = last;
+    for (const Bead& bead : filled[k].beads) {
+      if (bead.sequence == 0) continue;
+      ++brackets;
+      const bool bar = k + 1 == levels && std::abs(bead.path.front().at.y - bead.path.back().at.y) < 1000;
+      CHECK((bar || std::abs(bead.path.front().at.y - last) <= 1));
+      CHECK(bead.path.back().at.y >= edge);
+      low = std::min(low, bead.path.back().at.y);
+    }
+    if (reach < last) CHECK(low - reach <= (low < last ? 300 : 800));  // what a bead holds itself, beyond one or beside
+    reach = low;
+    if (k > 0) CHECK(hangs_mm(filled[k].beads, filled[k - 1].beads) < 0.4 * 20);
+  }
+  CHECK(brackets >= 20);
+  CHECK(reach == last);  // and they begin above the lowest level
 }
