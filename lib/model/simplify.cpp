@@ -103,6 +103,7 @@ std::vector<std::size_t> standing_out(const VertexPath& path) {
       if (to > from + 1) open.push_back({from, to});
   }
   std::vector<std::size_t> out;
+  out.reserve(static_cast<std::size_t>(std::count(keep.begin(), keep.end(), 1)));
   for (std::size_t i = 0; i < path.size(); ++i)
     if (keep[i]) out.push_back(i);
   return out;
@@ -224,31 +225,35 @@ Bends bends_of_width(const VertexPath& path, bool closed, double reach) {
   constexpr double far = 1e18;
   const std::size_t n = path.size();
   const auto next = [&](std::size_t i) { return i + 1 < n ? i + 1 : 0; };
-  const auto length = [&](std::size_t i) { return std::max(least, length_of(path[i], path[next(i)])); };
+  std::vector<double> lengths(n);
+  for (std::size_t i = 0; i < n; ++i) lengths[i] = std::max(least, length_of(path[i], path[next(i)]));
   const auto slope = [&](std::size_t i) {
     const double wider = path[next(i)].band - path[i].band;
-    return std::abs(wider) < least ? 0 : wider / length(i);
+    return std::abs(wider) < least ? 0 : wider / lengths[i];
   };
   Bends out;
+  std::size_t first = 0;
   double before = closed ? slope(n - 1) : 0;
   for (std::size_t i = 0; i < n; ++i) {
     const double after = i + 1 < n || closed ? slope(i) : 0;
     if (!closed || std::abs(after - before) * reach > even_um) {
-      if (out.back.empty()) out.back.assign(n, far), out.on = out.back;
+      if (out.back.empty()) out.back.assign(n, far), out.on = out.back, first = i;
       out.back[i] = out.on[i] = 0;
     }
     before = after;
   }
-  if (out.back.empty()) return out;
-  std::vector<double> lengths(n);
-  for (std::size_t i = 0; i < n; ++i) lengths[i] = length(i);
-  for (int round = 0; round < (closed ? 2 : 1); ++round) {
-    for (std::size_t i = closed ? 0 : 1; i < n; ++i) {
-      const std::size_t k = i > 0 ? i - 1 : n - 1;
-      out.back[i] = std::min(out.back[i], out.back[k] + lengths[k]);
-    }
-    for (std::size_t i = closed ? n : n - 1; i-- > 0;) out.on[i] = std::min(out.on[i], out.on[next(i)] + lengths[i]);
-  }
+  if (out.back.empty() || !closed) return out;
+  // From one that bends once around, and back.
+  const auto pass = [&](std::size_t i, std::size_t k) {
+    out.back[k] = std::min(out.back[k], out.back[i] + lengths[i]);
+  };
+  const auto pass_back = [&](std::size_t i, std::size_t k) { out.on[k] = std::min(out.on[k], out.on[i] + lengths[k]); };
+  for (std::size_t i = first; i + 1 < n; ++i) pass(i, i + 1);
+  pass(n - 1, 0);
+  for (std::size_t i = 0; i < first; ++i) pass(i, i + 1);
+  for (std::size_t i = first; i-- > 0;) pass_back(i + 1, i);
+  pass_back(0, n - 1);
+  for (std::size_t i = n - 1; i-- > first;) pass_back(i + 1, i);
   return out;
 }
 
@@ -294,6 +299,7 @@ std::size_t corner_of(const VertexPath& path) {
 VertexPath projected(const VertexPath& path, const std::vector<std::size_t>& at, bool closed) {
   const Projection projection(path, at, closed);
   VertexPath out;
+  out.reserve(at.size());
   for (const std::size_t i : at) out.push_back(path[i]);
   const VertexPath chords = out;
   const auto length = [&](std::size_t k) { return length_of(out[k], out[k + 1]); };
@@ -349,7 +355,7 @@ struct Cut {
 /// `ends`: on the path of which only the vertices `telling` are left.
 Cut cut_at(const VertexPath& path, const std::vector<std::size_t>& telling, const std::vector<Stop>& ends) {
   Cut out;
-  out.path.reserve(path.size() + ends.size());
+  out.path.reserve(path.size() + ends.size()), out.at.reserve(ends.size()), out.before.reserve(ends.size());
   std::size_t i = 0;
   for (const Stop& end : ends) {
     std::size_t k = telling[end.from];
@@ -428,12 +434,14 @@ std::vector<std::size_t> simplify(VertexPath& path, bool closed) {
   }
   const auto telling = standing_out(path);
   VertexPath told;
+  told.reserve(telling.size());
   for (const std::size_t i : telling) told.push_back(path[i]);
   const auto ends = ends_of_pieces(told);
   if (ends.size() < path.size() && ends.size() >= (closed ? 4U : 2U)) {
     const Cut cut = cut_at(path, telling, ends);
     path = projected(cut.path, cut.at, closed);
     std::vector<std::size_t> before;
+    before.reserve(cut.before.size());
     for (const std::size_t k : cut.before) before.push_back(own[k % own.size()]);
     own = std::move(before);
   }
