@@ -42,7 +42,7 @@ struct LayerSettings {
   std::optional<bool> adaptive_layer_height_flats;
   std::optional<Um> initial_layer_height;                 ///< auto: layer_height
   std::optional<LengthOrShare> initial_layer_line_width;  ///< auto: as in the other layers
-  Um resolution = 0.0125_mm;
+  Um resolution = 0.015_mm;
   SlicingMode slicing_mode = SlicingMode::regular;
   CounterboreHoleBridging counterbore_hole_bridging = CounterboreHoleBridging::none;
   bool magic_spiralize = false;
