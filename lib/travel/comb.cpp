@@ -237,7 +237,11 @@ std::optional<Point> Comb::nearest_on_boundary(Point p, Um within) const {
     const Point a = points_[e], b = points_[e + 1];
     const double ux = static_cast<double>(b.x) - a.x, uy = static_cast<double>(b.y) - a.y;
     const double px = static_cast<double>(p.x) - a.x, py = static_cast<double>(p.y) - a.y;
-    const double t = std::clamp((px * ux + py * uy) / (ux * ux + uy * uy), 0.0, 1.0);
+    // An edge is no nearer than its line: most are passed over without a division.
+    constexpr double slack = 1 + 1e-9;
+    const double aside = px * uy - py * ux, length2 = ux * ux + uy * uy;
+    if (aside * aside > best2 * length2 * slack) return;
+    const double t = std::clamp((px * ux + py * uy) / length2, 0.0, 1.0);
     const double dx = px - t * ux, dy = py - t * uy;
     if (dx * dx + dy * dy < best2) best2 = dx * dx + dy * dy, best = lerp(a, b, t);
   };
