@@ -79,10 +79,11 @@ void ask_neighbours(std::span<const Ring> rings, const RingChains& chains, std::
   }
 }
 
+/// @param apart no two rings touch, none touches itself
 std::vector<Place> places_of(std::span<const Ring> rings, const RingChains& chains, bool apart) {
   std::vector<Place> places(rings.size());
   for (std::size_t r = 0; r < rings.size(); ++r) places[r].double_area = double_area(rings[r]);
-  if (apart) {
+  if (apart && !chains.scattered()) {
     ask_neighbours(rings, chains, places);
     return places;
   }
@@ -136,7 +137,7 @@ Regions nested_by_orientation(std::span<const Ring> rings, const RingChains& cha
   // Asking for simplicity pays from 32 convex rings of 8 corners on, and from about 400 of 32 corners (measured); at
   // 256 neither way loses 0.1 ms.
   constexpr std::size_t many = 256;
-  auto places = places_of(rings, chains, rings.size() > many && chains.simple());
+  auto places = places_of(rings, chains, rings.size() > many && !chains.scattered() && chains.simple());
   for (auto& place : places)
     if (!place.sliver()) place.kind = place.double_area > 0 ? Place::Kind::outer : Place::Kind::hole;
   return assembled(rings, places);

@@ -10,6 +10,8 @@
 namespace weft::geometry {
 namespace {
 
+constexpr std::size_t many = 256;  // rings: they are not all looked at for each of them
+
 /// Whether two edges that join lie on each other.
 bool fold(const Segment& s, const Segment& t) {
   return orient(s.a, s.b, t.b) == 0 && dot(s.b - s.a, t.b - s.b) < 0;
@@ -76,6 +78,19 @@ std::uint32_t RingChains::ring_of(std::uint32_t edge) const {
 const SegmentIndex& RingChains::grid() const {
   if (!grid_) grid_ = std::make_unique<SegmentIndex>(rings_);
   return *grid_;
+}
+
+const BoxColumns& RingChains::columns() const {
+  if (!columns_) columns_ = std::make_unique<BoxColumns>(around_);
+  return *columns_;
+}
+
+bool RingChains::scattered() const {
+  if (rings_.size() <= many) return false;
+  constexpr std::size_t few = 8;
+  std::size_t pairs = 0;
+  for (const Ring& ring : rings_) columns().each_around(ring.front(), [&](std::uint32_t) { ++pairs; });
+  return pairs <= few * rings_.size();
 }
 
 bool RingChains::neighbours(std::uint32_t i, std::uint32_t j) const {
@@ -228,37 +243,48 @@ void RingChains::for_each_at(const Chain& chain, Um y, F&& f) const {
     f(all.first + static_cast<std::uint32_t>(at - begin), at[0], at[1]);
 }
 
-void RingChains::windings(Point p, std::vector<SegmentIndex::RingWinding>& found) const {
-  constexpr std::size_t many = 256;  // rings: one look at each of their chains for each of them takes longer
-  if (rings_.size() > many) return grid().windings(p, found);
-  found.clear();
-  for (std::uint32_t r = 0; r < around_.size(); ++r) {
-    if (!around_[r].contains(p)) continue;
-    SegmentIndex::RingWinding own{r, 0, false};
-    bool any = false;
-    const auto add = [&](int step) { own.winding += step, own.on |= step == 0, any = true; };
-    for (const Chain& chain : of_ring(r)) {
-      if (chain.box.min.x > p.x) break;
-      if (chain.box.min.y > p.y || chain.box.max.y < p.y) continue;
-      if (chain.box.max.x < p.x) {  // all of it is further left
-        const Piece all = piece(chain);
-        const bool up = all.at[all.edges].y > p.y;
-        if ((all.at[0].y > p.y) != up) add(up ? -1 : 1);
-        continue;
-      }
-      for_each_at(chain, p.y, [&](std::uint32_t, Point a, Point b) {
-        const std::int64_t side = orient(a, b, p);
-        if (side == 0 && std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x)) add(0);
-        const bool up = b.y > p.y;
-        if ((a.y > p.y) != up && side != 0 && (side > 0) != up) add(up ? -1 : 1);
-      });
+/// What `windings` tells of one ring. Pre: its box holds p
+std::optional<SegmentIndex::RingWinding> RingChains::winding(std::uint32_t ring, Point p) const {
+  SegmentIndex::RingWinding own{ring, 0, false};
+  bool any = false;
+  const auto add = [&](int step) { own.winding += step, own.on |= step == 0, any = true; };
+  for (const Chain& chain : of_ring(ring)) {
+    if (chain.box.min.x > p.x) break;
+    if (chain.box.min.y > p.y || chain.box.max.y < p.y) continue;
+    if (chain.box.max.x < p.x) {  // all of it is further left
+      const Piece all = piece(chain);
+      const bool up = all.at[all.edges].y > p.y;
+      if ((all.at[0].y > p.y) != up) add(up ? -1 : 1);
+      continue;
     }
-    if (any) found.push_back(own);
+    for_each_at(chain, p.y, [&](std::uint32_t, Point a, Point b) {
+      const std::int64_t side = orient(a, b, p);
+      if (side == 0 && std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x)) add(0);
+      const bool up = b.y > p.y;
+      if ((a.y > p.y) != up && side != 0 && (side > 0) != up) add(up ? -1 : 1);
+    });
   }
+  return any ? std::optional(own) : std::nullopt;
+}
+
+void RingChains::windings(Point p, std::vector<SegmentIndex::RingWinding>& found) const {
+  found.clear();
+  const auto look = [&](std::uint32_t ring) {
+    if (const auto own = winding(ring, p)) found.push_back(*own);
+  };
+  if (rings_.size() <= many) {
+    for (std::uint32_t r = 0; r < around_.size(); ++r)
+      if (around_[r].contains(p)) look(r);
+    return;
+  }
+  constexpr std::size_t few = 32;  // around a place: one look at their chains takes no longer than one along a grid
+  std::vector<std::uint32_t> around;
+  columns().each_around(p, [&](std::uint32_t r) { around.push_back(r); });
+  if (around.size() > few) return grid().windings(p, found);
+  for (const std::uint32_t r : around) look(r);
 }
 
 std::uint32_t RingChains::first_left_of(Point p) const {
-  constexpr std::size_t many = 256;
   if (rings_.size() > many) return grid().first_left_of(p);
   constexpr double equal_um = 0.001;  // above what a double rounds, below what two edges differ by nearly always
   std::uint32_t best = none;

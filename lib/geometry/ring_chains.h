@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "core/polygon.h"
+#include "geometry/box_columns.h"
 #include "geometry/spatial_index.h"
 
 #include <cstdint>
@@ -44,6 +45,10 @@ class RingChains {
   static constexpr std::uint32_t none = SegmentIndex::none, unsure = SegmentIndex::unsure;
   std::uint32_t first_left_of(Point p) const;
 
+  /// Whether rings are many and boxes of few are around any of them, as those of islands: what `windings` tells of a
+  /// corner then takes a look at few rings only.
+  bool scattered() const;
+
  private:
   struct Chain {
     Box box;
@@ -66,6 +71,8 @@ class RingChains {
     return {chains_.data() + chains_of_ring_[ring], chains_of_ring_[ring + 1] - chains_of_ring_[ring]};
   }
   const SegmentIndex& grid() const;
+  const BoxColumns& columns() const;
+  std::optional<SegmentIndex::RingWinding> winding(std::uint32_t ring, Point p) const;
   bool neighbours(std::uint32_t i, std::uint32_t j) const;
   bool join(std::uint32_t i, std::uint32_t j) const;
   enum class Found { all, stopped, too_slow };
@@ -88,6 +95,7 @@ class RingChains {
   std::vector<Box> around_;                    // each ring
   bool has_points_ = false;                    // an edge that ends where it begins
   mutable std::unique_ptr<SegmentIndex> grid_;
+  mutable std::unique_ptr<BoxColumns> columns_;  // of around_
 };
 
 }  // namespace weft::geometry

@@ -307,10 +307,11 @@ std::uint32_t SegmentIndex::first_left_of(Point p) const {
 }
 
 std::optional<std::size_t> SegmentIndex::region_at(Point p) const {
+  if (segments_.empty() || !box_.contains(p)) return std::nullopt;
   std::optional<std::size_t> on;
-  for_each_left_of(p, [&](std::uint32_t i, int step) {
-    if (step == 0) on = on ? std::min<std::size_t>(*on, origins_[i].region) : origins_[i].region;
-  });
+  for (const std::uint32_t i : cell(static_cast<std::size_t>(row(p.y) * columns_ + column(p.x))))
+    if (segments_touch(segments_[i].a, segments_[i].b, p, p))
+      on = on ? std::min<std::size_t>(*on, origins_[i].region) : origins_[i].region;
   if (on) return on;
   std::vector<RingWinding> found;
   windings(p, found);

@@ -96,7 +96,28 @@ class Overlapping {
 }  // namespace
 
 std::vector<std::vector<std::size_t>> overlapping(const Regions& regions) {
-  return Overlapping(regions).sets();
+  std::vector<Box> boxes;
+  boxes.reserve(regions.size());
+  for (const Region& region : regions) boxes.push_back(box_of(region.outer));
+  const auto near = touching(boxes);
+  if (near.size() == 1) return Overlapping(regions).sets();
+  // Each cluster of boxes by itself: what lies far away makes no question longer.
+  std::vector<std::vector<std::size_t>> out;
+  for (const auto& cluster : near) {
+    if (cluster.size() == 1) {
+      out.push_back(cluster);
+      continue;
+    }
+    Regions some;
+    some.reserve(cluster.size());
+    for (const std::size_t i : cluster) some.push_back(regions[i]);
+    for (auto& set : Overlapping(some).sets()) {
+      for (std::size_t& i : set) i = cluster[i];
+      out.push_back(std::move(set));
+    }
+  }
+  std::sort(out.begin(), out.end());  // by their least
+  return out;
 }
 
 namespace {

@@ -88,13 +88,29 @@ class Nearest {
   }
   StraightBead bead() const {
     if (length_ <= 0) return {};
-    const double d = xx_ - yy_, root_of = root();
-    const double x = d < 0 ? 2 * xy_ : d + root_of, y = d < 0 ? root_of - d : 2 * xy_;
+    const auto [x, y] = direction();
     const double l = std::sqrt(x * x + y * y), per = 1 / length_;
     return {x_ * per, y_ * per, w_ * per, l > 0 ? x / l : 1, l > 0 ? y / l : 0, 12 * turns_ * per * per, way_};
   }
+  /// Whether a stretch from a to b surely nowhere turns back on the bead by more than that: what its way is longer than
+  /// its advance along the bead is twice what it goes back in all.
+  bool goes_on(const PathVertex& a, const PathVertex& b, double most_back) const {
+    const double least = length_ - 2 * most_back * (1 - 1e-6);
+    if (least <= 0) return true;
+    const auto [x, y] = direction();
+    const double advance = (b.x - a.x) * x + (b.y - a.y) * y;
+    return advance * advance > least * least * (x * x + y * y);
+  }
 
  private:
+  struct Direction {
+    double x, y;
+  };
+  /// Of the bead, of any length.
+  Direction direction() const {
+    const double d = xx_ - yy_, root_of = root();
+    return d < 0 ? Direction{2 * xy_, root_of - d} : Direction{d + root_of, 2 * xy_};
+  }
   double root() const {
     const double d = xx_ - yy_;
     return std::sqrt(d * d + 4 * xy_ * xy_);
@@ -130,7 +146,9 @@ class Course {
   double distance2(std::size_t i, std::size_t j) const { return distance2_of(path_[i], path_[j]); }
   Nearest nearest(std::size_t i, std::size_t j) const { return {moments_[i], moments_[j], even_}; }
   /// Whether a stretch turns back on its nearest bead: a vertex lies behind one before by more than tolerances::path.
-  bool turns_back(const StraightBead& bead, std::size_t i, std::size_t j) const {
+  bool turns_back(const Nearest& nearest, std::size_t i, std::size_t j) const {
+    if (nearest.goes_on(path_[i], path_[j], tolerances::path)) return false;
+    const StraightBead bead = nearest.bead();
     const double on = bead.along(path_[j]) < bead.along(path_[i]) ? -1 : 1;
     double ahead = on * bead.along(path_[i]);
     for (std::size_t k = i + 1; k <= j; ++k) {
@@ -202,7 +220,7 @@ std::vector<std::size_t> worth_most(const Course& course, double most) {
       least = nearest.misfit();
       double sum = cost[i] + nearest.moves() + least / worth_of_a_move;
       if (sum >= cost[j]) continue;
-      if (course.turns_back(nearest.bead(), i, j)) sum += last_resort;
+      if (course.turns_back(nearest, i, j)) sum += last_resort;
       take(j, sum);
     }
   }

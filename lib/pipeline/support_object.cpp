@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/support_object.h"
 
+#include "core/alike.h"
 #include "core/tolerances.h"
 #include "geometry/boolean.h"
 #include "geometry/offset.h"
@@ -188,14 +189,20 @@ void leave_out_specks(const Settings& settings, Outlines& outlines, std::vector<
     if (specks[i].empty()) continue;
     const SlicedLayer& layer = *outlines.layers[i];
     const geometry::SegmentIndex below(i > 0 ? outlines.layers[i - 1]->regions : Regions{});
-    const auto stays = tasks::parallel_map(specks[i].size(), [&](std::size_t s) {
-      const Region& speck = layer.regions[specks[i][s]];
-      return char{lies_on(below, speck) || is_printed(settings, layer, i, speck)};
-    });
+    Regions small;
+    for (const std::size_t r : specks[i]) small.push_back(layer.regions[r]);
+    const auto held = tasks::parallel_map(small.size(), [&](std::size_t s) { return char{lies_on(below, small[s])}; });
+    const auto like = first_alike(small);  // one of each kind is built
+    std::vector<char> asked(small.size(), 0);
+    for (std::size_t s = 0; s < small.size(); ++s) asked[like[s]] |= char{held[s] == 0};
+    const auto printed = tasks::parallel_map(
+        small.size(), [&](std::size_t s) { return char{asked[s] != 0 && is_printed(settings, layer, i, small[s])}; });
+    std::vector<char> stays(layer.regions.size(), 1);
+    for (std::size_t s = 0; s < small.size(); ++s) stays[specks[i][s]] = char{held[s] != 0 || printed[like[s]] != 0};
     if (std::find(stays.begin(), stays.end(), 0) == stays.end()) continue;
-    kept[i] = layer;
-    for (std::size_t s = stays.size(); s-- > 0;)
-      if (stays[s] == 0) kept[i].regions.erase(kept[i].regions.begin() + static_cast<std::ptrdiff_t>(specks[i][s]));
+    kept[i] = {layer.z, layer.height, {}};
+    for (std::size_t r = 0; r < stays.size(); ++r)
+      if (stays[r] != 0) kept[i].regions.push_back(layer.regions[r]);
     outlines.layers[i] = &kept[i];
   }
   outlines.object.layers = outlines.layers;
@@ -223,6 +230,32 @@ std::vector<std::uint32_t> idle_enforcers(const Object& object, const std::vecto
               !geometry::intersect(demand[i].wanted, mark.by_layer[i]).empty();
     if (!holds) out.push_back(mark.mark);
   }
+  return out;
+}
+
+struct TwoLayers {
+  Regions own, below;
+};
+/// Two layers without what is the same in both: straight legs and pins, on which everything lies. Regions of a layer
+/// lie apart.
+TwoLayers but_for_equal(const Regions& own, const Regions& below) {
+  std::vector<const Region*> sorted;
+  for (const Region& region : below) sorted.push_back(&region);
+  const auto begins = [](const Region& region) { return region.outer.front(); };
+  const auto before = [&](const Region* a, const Region* b) { return begins(*a) < begins(*b); };
+  std::sort(sorted.begin(), sorted.end(), before);
+  TwoLayers out;
+  std::vector<char> equal(below.size(), 0);
+  for (const Region& region : own) {
+    const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), &region, before);
+    const auto same = std::find_if(first, last, [&](const Region* r) { return *r == region; });
+    if (same == last)
+      out.own.push_back(region);
+    else
+      equal[static_cast<std::size_t>(*same - below.data())] = 1;
+  }
+  for (std::size_t i = 0; i < below.size(); ++i)
+    if (equal[i] == 0) out.below.push_back(below[i]);
   return out;
 }
 
@@ -293,7 +326,11 @@ Supports make_supports(const Settings& of_object, const Settings& settings, cons
 }  // namespace
 
 Regions over_air_of(const std::vector<slice::Cut>& cuts, std::size_t i) {
-  return i > 0 ? geometry::subtract(cuts[i].layer.regions, cuts[i - 1].layer.regions) : Regions{};
+  if (i == 0) return {};
+  const Regions &own = cuts[i].layer.regions, &below = cuts[i - 1].layer.regions;
+  if (own.size() < 2 && below.size() < 2) return geometry::subtract(own, below);
+  const TwoLayers differ = but_for_equal(own, below);
+  return geometry::subtract(differ.own, differ.below);
 }
 
 std::vector<SupportOf> rooms_of(const Scopes& scopes, const Plate& plate) {

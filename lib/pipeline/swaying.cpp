@@ -2,11 +2,12 @@
 #include "pipeline/swaying.h"
 
 #include "core/convex_hull.h"
-#include "core/stop.h"
 #include "geometry/touching.h"
+#include "tasks/parallel.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 namespace weft::pipeline {
@@ -20,18 +21,29 @@ double aside_mm(double height_mm, double area_mm2) {
   return drag_n * height_mm * height_mm * height_mm * 4 * std::numbers::pi / (3 * stiffness_mpa * area_mm2 * area_mm2);
 }
 
-/// Up to where each region of a layer carries what stands on it alone, while that is printed.
-std::vector<Um> tops_of(const SlicedLayer& layer, const SlicedLayer* above, const std::vector<Um>& tops_above) {
-  const std::size_t own = layer.regions.size();
-  std::vector<Um> out(own, layer.z);
-  if (!above || above->regions.empty() || own == 0) return out;
-  Regions both = layer.regions;
-  both.insert(both.end(), above->regions.begin(), above->regions.end());
+/// A region of a layer, and one above that stands on it alone.
+struct Carried {
+  std::uint32_t own = 0, above = 0;
+};
+std::vector<Carried> carried_alone(const Regions& layer, const Regions& above) {
+  std::vector<Carried> out;
+  if (layer.empty() || above.empty()) return out;
+  const std::size_t own = layer.size();
+  Regions both = layer;
+  both.insert(both.end(), above.begin(), above.end());
   for (const auto& together : geometry::overlapping(both)) {  // ascending: own ones first
     if (together.front() >= own || (together.size() > 1 && together[1] < own)) continue;
     for (std::size_t k = 1; k < together.size(); ++k)
-      out[together.front()] = std::max(out[together.front()], tops_above[together[k] - own]);
+      out.push_back({static_cast<std::uint32_t>(together.front()), static_cast<std::uint32_t>(together[k] - own)});
   }
+  return out;
+}
+
+/// Up to where each region of a layer carries what stands on it alone, while that is printed.
+std::vector<Um> tops_of(const SlicedLayer& layer, const std::vector<Carried>& carried,
+                        const std::vector<Um>& tops_above) {
+  std::vector<Um> out(layer.regions.size(), layer.z);
+  for (const auto& [own, above] : carried) out[own] = std::max(out[own], tops_above[above]);
   return out;
 }
 
@@ -58,10 +70,14 @@ std::optional<Swaying> most_swaying(const std::vector<slice::Cut>& cuts, std::si
     if (may_sway(i)) lowest = i;
   std::optional<Swaying> out;
   std::vector<Um> tops;
-  for (std::size_t i = cuts.size(); i-- > lowest;) {
-    stop_if_asked();
-    const auto& layer = cuts[i].layer;
-    tops = tops_of(layer, i + 1 < cuts.size() ? &cuts[i + 1].layer : nullptr, tops);
+  const auto from_top = [&](std::size_t k) { return cuts.size() - 1 - k; };
+  const auto carried = [&](std::size_t k) {
+    return k == 0 ? std::vector<Carried>{}
+                  : carried_alone(cuts[from_top(k)].layer.regions, cuts[from_top(k - 1)].layer.regions);
+  };
+  tasks::parallel_in_order(cuts.size() - lowest, carried, [&](std::size_t k, const std::vector<Carried>& on) {
+    const auto& layer = cuts[from_top(k)].layer;
+    tops = tops_of(layer, on, tops);
     for (std::size_t r = 0; r < layer.regions.size(); ++r) {
       const double stands_mm = to_mm(tops[r] - layer.z + layer.height);
       const auto gives = [&](double area) {
@@ -73,7 +89,7 @@ std::optional<Swaying> most_swaying(const std::vector<slice::Cut>& cuts, std::si
       if (gives(area))
         out = {box_of(hull.outer).centre(), layer.z - layer.height, area, stands_mm, aside_mm(stands_mm, area)};
     }
-  }
+  });
   return out;
 }
 

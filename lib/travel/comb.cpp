@@ -2,7 +2,7 @@
 #include "travel/comb.h"
 
 #include "core/stop.h"
-#include "travel/box_columns.h"
+#include "geometry/box_columns.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,7 +45,7 @@ Comb::Comb(std::vector<Ring> rings) {
   std::erase_if(rings, [](const Ring& r) { return r.size() < 3; });
   std::vector<Box> boxes;
   for (const auto& r : rings) boxes.push_back(box_of(r));
-  const BoxColumns columns(std::move(boxes));
+  const geometry::BoxColumns columns(std::move(boxes));
   std::vector<std::uint32_t> depth(rings.size(), 0), parent(rings.size(), outside);
   StopNowAndThen stop(64);
   for (std::size_t i = 0; i < rings.size(); ++i) {
@@ -151,33 +151,37 @@ void Comb::build_index() {
   each_edge([&](std::uint32_t e) { each_cell(e, [&](std::size_t c) { edges_[count[c]++] = e; }); });
 }
 
-/// Calls visit(edge) for edges near the segment, some twice, until it returns true; returns whether it did.
+/// Calls visit(edge) for edges near the segment, about from a to b and some twice, until it returns true; returns
+/// whether it did.
 template <class Visit>
 bool Comb::visit_edges(Point a, Point b, const Visit& visit) const {
   if (points_.empty()) return false;
+  // A micron or two to each side covers the rounding.
   const Point low = a.y <= b.y ? a : b, high = a.y <= b.y ? b : a;
-  const auto floor_div = [&](double v) {
-    const double cells = std::clamp(v / static_cast<double>(cell_), -2.0, 1e6);
-    const int whole = static_cast<int>(cells);
-    return whole - static_cast<int>(whole > cells);
-  };
-  const int r0 = std::max(0, floor_div(static_cast<double>(low.y) - box_.min.y - 1));
-  const int r1 = std::min(rows_ - 1, floor_div(static_cast<double>(high.y) - box_.min.y + 1));
+  const Um bottom = low.y - box_.min.y - 1, top = high.y - box_.min.y + 1;
+  if (top < 0 || bottom > box_.size().y) return false;
+  const auto cell = static_cast<double>(cell_), cells_a_micron = 1 / cell;
+  const auto cells_until = [&](double from_min) { return static_cast<int>(from_min * cells_a_micron); };
+  const int r0 = cells_until(std::max(bottom, 0)), r1 = cells_until(std::min(top, box_.size().y));
   const double rise = static_cast<double>(high.y) - low.y;
   const double slope = rise > 0 ? (static_cast<double>(high.x) - low.x) / rise : 0.0;
-  for (int r = r0; r <= r1; ++r) {
-    double x0 = low.x, x1 = high.x;
-    if (rise > 0) {
-      const double y0 = static_cast<double>(box_.min.y) + static_cast<double>(r) * static_cast<double>(cell_);
-      if (y0 > low.y) x0 = low.x + slope * (y0 - low.y);
-      if (y0 + static_cast<double>(cell_) < high.y) x1 = low.x + slope * (y0 + static_cast<double>(cell_) - low.y);
-    }
-    const int c0 = std::max(0, floor_div(std::min(x0, x1) - box_.min.x - 2));
-    const int c1 = std::min(columns_ - 1, floor_div(std::max(x0, x1) - box_.min.x + 2));
-    for (int c = c0; c <= c1; ++c) {
-      const std::size_t cell =
+  const double low_x = static_cast<double>(low.x) - box_.min.x, high_x = static_cast<double>(high.x) - box_.min.x,
+               low_y = static_cast<double>(low.y) - box_.min.y, high_y = static_cast<double>(high.y) - box_.min.y,
+               width = box_.size().x;
+  const bool up = a.y <= b.y, right = a.x <= b.x;
+  for (int row = r0; row <= r1; ++row) {
+    const int r = up ? row : r0 + r1 - row;
+    const double y0 = r * cell, y1 = y0 + cell;
+    const double x0 = y0 > low_y ? low_x + slope * (y0 - low_y) : low_x,
+                 x1 = y1 < high_y ? low_x + slope * (y1 - low_y) : high_x;
+    const double from = std::min(x0, x1) - 2, to = std::max(x0, x1) + 2;
+    if (to < 0 || from > width) continue;
+    const int c0 = cells_until(std::max(from, 0.0)), c1 = cells_until(std::min(to, width));
+    for (int column = c0; column <= c1; ++column) {
+      const int c = right ? column : c0 + c1 - column;
+      const std::size_t here =
           static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(c);
-      for (std::uint32_t k = first_[cell]; k < first_[cell + 1]; ++k)
+      for (std::uint32_t k = first_[here]; k < first_[here + 1]; ++k)
         if (visit(edges_[k])) return true;
     }
   }

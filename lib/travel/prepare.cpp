@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/stop.h"
 #include "geometry/boolean.h"
+#include "geometry/box_columns.h"
 #include "travel/blocks.h"
-#include "travel/box_columns.h"
 #include "travel/comb_base.h"
 #include "travel/obstacles.h"
 #include "travel/off_surfaces.h"
@@ -29,7 +29,7 @@ Comb comb_boundary(const TravelSettings& settings, const LayerInput& input) {
 std::vector<char> holes_among(const std::vector<Ring>& rings) {
   std::vector<Box> boxes;
   for (const auto& r : rings) boxes.push_back(box_of(r));
-  const BoxColumns columns(std::move(boxes));
+  const geometry::BoxColumns columns(std::move(boxes));
   std::vector<char> hole(rings.size(), 0);
   StopNowAndThen stop(64);
   for (std::size_t i = 0; i < rings.size(); ++i) {

@@ -4,6 +4,7 @@
 #include "travel/box_tree.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -213,6 +214,14 @@ Start nearest_start(const Bead& bead, Point p, Um snap) {
 void add_exposure(const Bead& bead, bool material_left, const Comb& outline, std::span<Corner> corners) {
   constexpr int rays = 8;
   constexpr double ray_um = 5000;
+  static const auto round = [] {
+    std::array<Vec, rays> out;
+    for (std::size_t k = 0; k < rays; ++k) {
+      const double angle = 2 * std::numbers::pi * (static_cast<double>(k) + 0.5) / rays;
+      out[k] = {std::cos(angle), std::sin(angle)};
+    }
+    return out;
+  }();
   const auto length = [&](std::size_t i) {
     return distance(bead.path[i].at, bead.path[i + 1 < bead.path.size() ? i + 1 : 0].at);
   };
@@ -225,13 +234,13 @@ void add_exposure(const Bead& bead, bool material_left, const Comb& outline, std
     const double outwards = heading + (material_left ? -0.5 : 0.5) * std::numbers::pi;
     const Point p = bead.path[corner.junction].at;
     const double step = 1.5 * bead.path[corner.junction].width / std::max(0.3, std::cos(turn / 2));
-    const auto along = [&](Point from, double angle, double far) {
-      return Point{rounded(from.x + far * std::cos(angle)), rounded(from.y + far * std::sin(angle))};
-    };
-    const Point eye = along(p, outwards, step);
+    const Vec way{std::cos(outwards), std::sin(outwards)};
+    const Point eye{rounded(p.x + step * way.x), rounded(p.y + step * way.y)};
     int open = 0;
-    for (int k = 0; k < rays; ++k)
-      if (outline.sees(eye, along(eye, outwards + 2 * std::numbers::pi * (k + 0.5) / rays, ray_um))) ++open;
+    for (const Vec& turned : round) {
+      const Vec ray{way.x * turned.x - way.y * turned.y, way.x * turned.y + way.y * turned.x};
+      if (outline.sees(eye, {rounded(eye.x + ray_um * ray.x), rounded(eye.y + ray_um * ray.y)})) ++open;
+    }
     corner.exposure = static_cast<float>(2.0 * open / rays - 1.0);
   }
 }

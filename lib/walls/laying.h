@@ -33,12 +33,12 @@ struct Laying {
 };
 
 struct LayingOptions {
-  double steep = 0.26;            ///< |d clearance / d length| above which no middles but a single one are laid
-  double corner = 0.5;            ///< … above which an edge may run into a corner
-  double ramp = 400;              ///< length of a transition, µm
-  double filter = 1000;           ///< a change of count undone within this length is left out, µm
-  double corner_width = 0.75;     ///< share of its width that a wall keeps where it bends around a sharp corner
-  double narrowest = 200;         ///< … if that is not less than this, µm
+  double steep = 0.22;         ///< |d clearance / d length| above which an edge runs into a corner, unless it leads on
+  double steep_tip = 0.38;     ///< … where there is room for a single bead only: it is led into the tip
+  double ramp = 400;           ///< length of a transition, µm
+  double filter = 1000;        ///< a change of count undone within this length is left out, µm
+  double corner_width = 0.75;  ///< share of its width that a wall keeps where it bends around a sharp corner
+  double narrowest = 200;      ///< … if that is not less than this, µm
   double filter_deviation = 100;  ///< … where the thickness is no further than this from the change, µm
 };
 

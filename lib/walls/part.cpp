@@ -22,7 +22,7 @@
 namespace weft::walls {
 namespace {
 
-constexpr double corner_deg = 45;      // walls are led into the tip of a sharper corner
+constexpr double tip_deg = 45;  // a single bead is led into the tip of a sharper corner: else the part would lack it
 constexpr double dab_share = 2.0 / 3;  // of the square of a bead's width: a smaller part is a dab
 constexpr double chord_um = 4;         // how far a chord may stand off a bead that bends around a corner
 constexpr Um rest_chord = 2;  // … and off what walls leave: most of its points are ribs that tell nothing, rounded
@@ -95,7 +95,7 @@ Part part_of(const WallSettings& settings, const Widths& widths, const Region& r
   Skeleton skeleton = skeleton_of(axis, chord_um);
   LayingOptions options;
   options.steep = std::sin(settings.wall_transition_angle / 2 * std::numbers::pi / 180);
-  options.corner = std::max(options.steep, std::sin(corner_deg / 2 * std::numbers::pi / 180));
+  options.steep_tip = std::max(options.steep, std::sin(tip_deg / 2 * std::numbers::pi / 180));
   options.ramp = settings.wall_transition_length.of(nozzle);
   options.filter = settings.wall_transition_filter_distance;
   FinishOptions finishing;

@@ -101,6 +101,8 @@ class Planner {
   }
 
   // what runs into corners and what does not
+  /// Which edges fall or climb so steeply that they run into a corner; cuts them where room for a single bead ends.
+  void find_steep();
   void find_core();
   /// Where the axis climbs steeply from a thin part into a thick one, the walls of the thick part turn back as they do
   /// in a corner, and the beads of the thin part end.

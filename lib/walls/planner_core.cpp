@@ -8,13 +8,26 @@
 
 namespace weft::walls {
 
+void Planner::find_steep() {
+  const double single = threshold(w_, 1) / 2 - 2 * same_um;  // rounding must not decide what there is room for
+  for (std::uint32_t e = 0, edges = static_cast<std::uint32_t>(s_.edge_count()); e < edges; ++e) {
+    const double a = s_.start(2 * e).clearance, b = s_.end(2 * e).clearance, m = slope(e);
+    if (m > o_.steep && m <= o_.steep_tip && std::min(a, b) < single - same_um && std::max(a, b) > single + same_um)
+      s_.split(e, (single - a) / (b - a));
+  }
+  edges_.assign(s_.edge_count(), {});
+  for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+    const bool tip = std::max(s_.start(2 * e).clearance, s_.end(2 * e).clearance) <= single + same_um;
+    edges_[e].steep = slope(e) > (tip ? o_.steep_tip : o_.steep);
+  }
+}
+
 void Planner::find_core() {
+  find_steep();
   const auto edges = static_cast<std::uint32_t>(s_.edge_count());
-  edges_.assign(edges, {});
   std::vector<int> degree(s_.nodes.size(), 0);
   std::vector<double> shallow(s_.nodes.size(), 0);  // length of flat stretches cut off so far
   for (std::uint32_t e = 0; e < edges; ++e) {
-    edges_[e].steep = slope(e) > o_.steep;
     ++degree[s_.halves[2 * e].from];
     ++degree[s_.halves[2 * e + 1].from];
   }
@@ -47,7 +60,7 @@ void Planner::find_core() {
     const double rise = s_.nodes[m].clearance - s_.nodes[n].clearance;
     if (rise < -dip_share * s_.nodes[n].clearance) continue;  // the thickest place of its surroundings stays
     double flat = shallow[n];
-    if (slope(h / 2) <= o_.corner || rise < 0) flat += s_.length(h / 2);
+    if (!edges_[h / 2].steep || rise < 0) flat += s_.length(h / 2);
     if (flat > stub_share * s_.nodes[m].clearance) continue;
     edges_[h / 2].core = false;
     --degree[n];
@@ -61,7 +74,7 @@ void Planner::find_core() {
 
 void Planner::cut_mouths(std::vector<int>& degree) {
   const auto climbs = [&](std::uint32_t h) {
-    return edges_[h / 2].core && !edges_[h / 2].mouth && slope(h / 2) > o_.corner &&
+    return edges_[h / 2].core && !edges_[h / 2].mouth && edges_[h / 2].steep &&
            s_.end(h).clearance > s_.start(h).clearance;
   };
   // All that are found in one look are cut together, so that it does not matter which is found first; where one is cut,

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "walls/walls.h"
 
+#include "core/alike.h"
 #include "core/stop.h"
 #include "model/flow.h"
 #include "walls/finish.h"
 #include "walls/fuzzy.h"
-#include "walls/kinds_of_parts.h"
 #include "walls/one_wall.h"
 #include "walls/outline.h"
 #include "walls/part.h"
@@ -25,25 +25,35 @@ bool inside(const Region& region, Point p) {
                       [&](const Ring& hole) { return side_of(hole, p) == Side::inside; });
 }
 
-/// Does a point lie in one of the regions?
+/// Does a point lie in one of the regions? They are asked from left to right, as far as their boxes reach.
 class InAnyOf {
  public:
-  explicit InAnyOf(const Regions& regions) : regions_(regions), box_(box_of(regions)) {
-    boxes_.reserve(regions.size());
-    for (const Region& region : regions) boxes_.push_back(box_of(region.outer));
+  explicit InAnyOf(const Regions& regions) : box_(box_of(regions)) {
+    boxed_.reserve(regions.size());
+    for (const Region& region : regions) {
+      boxed_.push_back({box_of(region.outer), &region});
+      widest_ = std::max(widest_, boxed_.back().box.size().x);
+    }
+    std::sort(boxed_.begin(), boxed_.end(), [](const Boxed& a, const Boxed& b) { return a.box.min.x < b.box.min.x; });
   }
   bool never() const { return box_.empty(); }
   bool operator()(Point p) const {
     if (!box_.contains(p)) return false;
-    for (std::size_t i = 0; i < boxes_.size(); ++i)
-      if (boxes_[i].contains(p) && inside(regions_[i], p)) return true;
+    auto at = std::lower_bound(boxed_.begin(), boxed_.end(), p.x - widest_,
+                               [](const Boxed& boxed, Um x) { return boxed.box.min.x < x; });
+    for (; at != boxed_.end() && at->box.min.x <= p.x; ++at)
+      if (at->box.contains(p) && inside(*at->region, p)) return true;
     return false;
   }
 
  private:
-  const Regions& regions_;
+  struct Boxed {
+    Box box;
+    const Region* region = nullptr;
+  };
+  std::vector<Boxed> boxed_;
   Box box_;
-  std::vector<Box> boxes_;
+  Um widest_ = 0;
 };
 
 /// Over air there is nothing to press a bead against: it keeps the width the nozzle gives it.
@@ -148,6 +158,31 @@ PlacedNotice notice_of(const char* code, const WallInput& input, Point at, const
   return {code, fmt::format("layer {} (z {:.3f}): {}", input.index, to_mm(input.layer.z), what), at};
 }
 
+/// A part whose walls are those of the layer from there on.
+struct Laid {
+  std::size_t first_bead = 0, first_inside = 0;  ///< of it
+  LeftOut left_out;
+  bool valid = true;
+};
+
+/// What a part of the layer has got, moved to another place, where a part of that number is like it: a plate of pins
+/// has one kind of them, and walls move with their region by whole microns.
+Part moved(const WallLayer& walls, const std::vector<Laid>& laid, std::size_t like, Point by, std::uint32_t index) {
+  const Laid &own = laid[like], &next = laid[like + 1];
+  const auto from = [](const auto& all, std::size_t at) { return all.begin() + static_cast<std::ptrdiff_t>(at); };
+  Part out;
+  out.beads.assign(from(walls.beads, own.first_bead), from(walls.beads, next.first_bead));
+  for (Bead& bead : out.beads) {
+    bead.part = index;
+    for (Junction& j : bead.path) j.at = j.at + by;
+  }
+  out.inside = weft::moved({from(walls.inside, own.first_inside), from(walls.inside, next.first_inside)}, by);
+  out.left_out = own.left_out;
+  out.left_out.at = out.left_out.at + by;
+  out.valid = own.valid;
+  return out;
+}
+
 /// What of a part is too thin or too small for any bead, where that is worth telling.
 void tell_left_out(const WallInput& input, const Region& region, const Part& part, std::vector<PlacedNotice>& out) {
   constexpr double tips_mm = 0.5;  // the last bit of every tip is thinner than any bead
@@ -190,16 +225,19 @@ WallLayer build(const WallSettings& settings, const WallInput& input) {
                 widths, regions,
                 offset_outlines(input.settings_above != nullptr ? *input.settings_above : settings, *input.above))
           : std::vector<int>(regions.size(), 0);
-  KindsOfParts kinds;
   const bool looks_up = settings.top_one_wall == OneWall::top && input.above != nullptr;  // parts alike differ in that
+  const auto like = looks_up ? std::vector<std::size_t>{} : first_alike(regions);
+  std::vector<Laid> laid;
   for (std::uint32_t i = 0; i < regions.size(); ++i) {
     stop_if_asked();
-    auto again = extra[i] == 0 && !looks_up ? kinds.again(regions[i], i) : std::nullopt;
     Widths own = widths;
     own.walls += extra[i];
-    Part part = again ? *std::move(again) : part_seen(settings, own, regions[i], input, i);
-    if (!again && extra[i] == 0 && !looks_up) kinds.add(regions[i], part);
-    put_in_order(part.beads, settings.wall_order);
+    const bool again = !looks_up && like[i] < i && extra[i] == extra[like[i]];
+    laid.push_back({out.beads.size(), out.inside.size(), {}, true});
+    Part part = again ? moved(out, laid, like[i], regions[i].outer.front() - regions[like[i]].outer.front(), i)
+                      : part_seen(settings, own, regions[i], input, i);
+    if (!again) put_in_order(part.beads, settings.wall_order);
+    laid.back().left_out = part.left_out, laid.back().valid = part.valid;
     if (!part.valid)
       out.notices.push_back(notice_of("walls_without_medial_axis", input, box_of(regions[i].outer).centre(),
                                       "no medial axis of the outline; its walls are concentric and thin places stay "

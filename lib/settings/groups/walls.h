@@ -73,7 +73,7 @@ struct WallSettings {
   LengthOrShare max_wall_line_width = share(225);
   int wall_distribution_count = 1;
   LengthOrShare wall_transition_length = share(100);
-  double wall_transition_angle = 30;
+  double wall_transition_angle = 25;
   Um wall_transition_filter_distance = 1_mm;
   Um min_feature_size = 0.05_mm;
   Um min_wall_length = 0.1_mm;

@@ -7,9 +7,10 @@
 #include <utility>
 #include <vector>
 
-namespace weft::travel {
+namespace weft::geometry {
 
-/// Which boxes hold a box: they are kept by columns, so that thousands of islands are not looked at for each of them.
+/// Which boxes hold a box or a point: they are kept by columns, so that thousands of islands are not looked at for each
+/// of them.
 class BoxColumns {
  public:
   explicit BoxColumns(std::vector<Box> boxes) : boxes_(std::move(boxes)) {
@@ -24,6 +25,14 @@ class BoxColumns {
   }
 
   const Box& operator[](std::size_t i) const { return boxes_[i]; }
+
+  /// Calls visit(k), k rising, for the boxes that hold p.
+  template <class Visit>
+  void each_around(Point p, const Visit& visit) const {
+    if (!all_.contains(p)) return;
+    for (const std::uint32_t k : columns_[column_of(p.x)])
+      if (boxes_[k].contains(p)) visit(k);
+  }
 
   /// Calls visit(k), k rising, for the other boxes that hold box i.
   template <class Visit>
@@ -43,4 +52,4 @@ class BoxColumns {
   std::vector<std::vector<std::uint32_t>> columns_;
 };
 
-}  // namespace weft::travel
+}  // namespace weft::geometry
