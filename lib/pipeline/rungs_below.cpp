@@ -38,8 +38,8 @@ std::vector<Point> RungsBelow::brackets(std::span<const Point> hang, std::span<c
     else
       bracket(p, false);
   }
-  for (const Point p : hang)
-    if (!is_near(p, held()) && inside_.region_at(p) && !best_through(p)) bracket(p, true);
+  for (const Point p : furthest_first(hang))
+    if (!is_near(p, held()) && !best_through(p)) bracket(p, true);
   return out;
 }
 
@@ -61,19 +61,24 @@ Beads RungsBelow::rungs(std::span<const Point> hang, const Beads& under) && {
   return std::move(out_);
 }
 
-/// From the end of each of the topmost brackets to that of the next one: strands that run out along brackets lie on
+/// Between ends of topmost brackets that have no third one between them: strands that run out along brackets lie on
 /// these.
 void RungsBelow::bars() {
-  const Bracket* last = nullptr;
-  for (const Bracket& bracket : brackets_) {
-    if (!bracket.top) continue;
-    const auto* from = std::exchange(last, &bracket);
-    if (!from) continue;
-    const geometry::Segment bar{from->way.b, bracket.way.b};
-    const double length = distance(bar.a, bar.b);
-    if (length < 2 * style_.line || length > style_.span || inside_.crosses(bar.a, bar.b)) continue;
-    if (!laid_.nearest(lerp(bar.a, bar.b, 0.5), style_.line)) lay(bar);
-  }
+  std::vector<Point> ends;
+  for (const Bracket& bracket : brackets_)
+    if (bracket.top) ends.push_back(bracket.way.b);
+  const auto has_between = [&](Point a, Point b, double length) {
+    return std::any_of(ends.begin(), ends.end(),
+                       [&](Point c) { return c != a && c != b && std::max(distance(a, c), distance(b, c)) < length; });
+  };
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    for (std::size_t j = i + 1; j < ends.size(); ++j) {
+      const geometry::Segment bar{ends[i], ends[j]};
+      const double length = distance(bar.a, bar.b);
+      if (length < 2 * style_.line || length > style_.span || has_between(bar.a, bar.b, length)) continue;
+      if (inside_.crosses(bar.a, bar.b) || laid_.nearest(lerp(bar.a, bar.b, 0.5), style_.line)) continue;
+      lay(bar);
+    }
 }
 
 /// Whether a bracket does with nothing below but its root.
@@ -135,6 +140,26 @@ std::optional<Point> RungsBelow::next(Point from, Point way) {
   if (found_.empty()) return std::nullopt;
   const Point at = lerp(from, from + way, found_.front().along);
   return inside_.crosses(from, at) ? std::nullopt : std::optional(at);
+}
+
+/// Places from the one that is furthest from any bead on: what is nearer mostly lies on the brackets for those.
+std::vector<Point> RungsBelow::furthest_first(std::span<const Point> places) const {
+  std::vector<std::pair<double, Point>> by_distance;
+  for (const Point p : places)
+    if (const auto end = into(p))
+      if (const auto root = laid_.nearest(*end, style_.span)) by_distance.push_back({distance(*end, root->at), *end});
+  std::stable_sort(by_distance.begin(), by_distance.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<Point> out;
+  for (const auto& [um, p] : by_distance) out.push_back(p);
+  return out;
+}
+
+/// A place in the area, no further away than below the bead there: where columns lean a roof is wider than they are.
+std::optional<Point> RungsBelow::into(Point p) const {
+  if (inside_.region_at(p)) return p;
+  const auto edge = inside_.nearest(p, style_.line / 2.0);
+  return edge ? std::optional(edge->at) : std::nullopt;
 }
 
 /// From the nearest bead to p, no further than a column's line is from its edge.

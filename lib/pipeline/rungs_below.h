@@ -45,12 +45,14 @@ class RungsBelow {
     bool top;  ///< nothing but what it is for is above it
   };
   /// What is no further from a rung is held by it.
-  double held() const { return style_.span * 0.6; }
+  double held() const { return style_.span * 0.4; }
   bool is_near(Point p, double by) const;
   std::optional<geometry::Segment> on_one_below(Point p, const Beads& under);
   std::optional<geometry::Segment> best_through(Point p);
   std::optional<geometry::Segment> across(Point p, double direction_rad);
   std::optional<Point> next(Point from, Point way);
+  std::vector<Point> furthest_first(std::span<const Point> places) const;
+  std::optional<Point> into(Point p) const;
   std::optional<geometry::Segment> out_to(Point p) const;
   bool holds_itself(const geometry::Segment& way) const;
   void bars();
