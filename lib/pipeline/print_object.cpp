@@ -20,8 +20,11 @@
 #include "pipeline/stopwatch.h"
 #include "pipeline/support_object.h"
 #include "pipeline/swaying.h"
+#include "pipeline/told_apart.h"
+#include "pipeline/wall_object.h"
 #include "slice/slice.h"
 #include "tasks/parallel.h"
+#include "tasks/spare.h"
 #include "walls/walls.h"
 
 #include <algorithm>
@@ -93,7 +96,6 @@ void tell_swaying(const Settings& settings, const Object& object, const Cuts& cu
 }
 
 using Fills = ResultOf<Stage::infill>;
-using WallHands = HandedTo<Stage::walls>;
 
 /// What rests on support is printed otherwise than what hangs.
 StageKey with_held(StageKey key, const std::vector<Regions>& held) {
@@ -101,86 +103,6 @@ StageKey with_held(StageKey key, const std::vector<Regions>& held) {
   for (const auto& regions : held) bytes += bytes_of(regions);
   if (!held.empty()) key.with(sha256(bytes));
   return key;
-}
-
-/// The scopes of a layer that a stage can tell apart, each with the regions that it holds for.
-struct Told {
-  ScopeId scope = 0;
-  std::vector<std::uint32_t> regions;
-};
-template <class T>
-std::vector<Told> told_apart(const Handed<T>& handed, const Areas& areas) {
-  std::vector<Told> out;
-  std::uint32_t region = 0;
-  for (const auto& area : areas) {
-    auto same = std::find_if(out.begin(), out.end(),
-                             [&](const Told& told) { return handed.alike(told.scope) == handed.alike(area.scope); });
-    if (same == out.end()) same = out.insert(out.end(), Told{area.scope, {}});
-    for (std::uint32_t i = 0; i < area.regions; ++i) same->regions.push_back(region++);
-  }
-  return out;
-}
-
-/// The walls of a layer of several areas: those of each are built as if the others were not there.
-template <class Build>
-WallLayer walls_of_areas(const std::vector<Told>& told, const SlicedLayer& layer, const Build& build) {
-  WallLayer out;
-  for (const auto& [scope, regions] : told) {
-    SlicedLayer own{layer.z, layer.height, {}};
-    for (const std::uint32_t r : regions) own.regions.push_back(layer.regions[r]);
-    auto walls = build(scope, own);
-    for (auto& bead : walls.beads) bead.part = regions[std::min<std::size_t>(bead.part, regions.size() - 1)];
-    std::move(walls.beads.begin(), walls.beads.end(), std::back_inserter(out.beads));
-    std::move(walls.inside.begin(), walls.inside.end(), std::back_inserter(out.inside));
-    std::move(walls.notices.begin(), walls.notices.end(), std::back_inserter(out.notices));
-  }
-  return out;
-}
-
-/// About what walls leave of a layer: enough for the layers around it to know their skin.
-Regions inside_of(const WallHands& handed, const Areas& areas, const SlicedLayer& layer, std::size_t index) {
-  const auto& [walls, nozzle] = handed[areas.front().scope];
-  const int lines = walls.wall_line_count + (walls.alternate_extra_wall && index % 2 == 1 ? 1 : 0);
-  if (lines == 0) return layer.regions;
-  const auto band = [&layer, overlap = walls.overlap_factor](Um width) {
-    return flow::spacing(width, layer.height, overlap);
-  };
-  const Um outer = band(length_or(walls.wall_line_width_0, nozzle, flow::automatic_outer_width(nozzle)));
-  const Um inner = band(length_or(walls.wall_line_width_x, nozzle, flow::automatic_width(nozzle, layer.height)));
-  return geometry::offset(layer.regions, {.by = -outer - (lines - 1) * inner});
-}
-
-/// @param known_over_air what of each layer has nothing below; empty: nobody has asked yet
-/// @param held of each layer, what rests on support; empty: nothing does
-Walls build_walls(const WallHands& handed, const Scopes& scopes, const Cuts& cuts, const std::vector<Areas>& areas,
-                  std::vector<Regions> known_over_air, const std::vector<Regions>& held, const Sample& sample) {
-  Box box;  // rough walls hang on its corner, so they move with the object
-  for (const auto& cut : cuts) box.add(box_of(cut.layer.regions));
-  return tasks::parallel_map(cuts.size(), [&](std::size_t i) {
-    if (!sample.has(i)) {
-      WallLayer bare;
-      bare.inside = inside_of(handed, areas[i], cuts[i].layer, i);
-      return bare;
-    }
-    Regions over_air = i < known_over_air.size() ? std::move(known_over_air[i]) : over_air_of(cuts, i);
-    if (i < held.size() && !held[i].empty()) over_air = geometry::subtract(over_air, held[i]);
-    const Regions* above = i + 1 < cuts.size() ? &cuts[i + 1].layer.regions : nullptr;
-    const auto build = [&](ScopeId scope, const SlicedLayer& layer) {
-      const auto& [walls, nozzle] = handed[scope];
-      const auto& [walls_above, nozzle_above] = handed[scopes.above_first_layer(scope)];
-      return walls::build(walls, {.layer = layer,
-                                  .index = i,
-                                  .nozzle_diameter = nozzle,
-                                  .over_air = &over_air,
-                                  .above = above,
-                                  .settings_above = &walls_above,
-                                  .origin = box.min});
-    };
-    auto layer = areas[i].size() == 1 ? build(areas[i].front().scope, cuts[i].layer)
-                                      : walls_of_areas(told_apart(handed, areas[i]), cuts[i].layer, build);
-    layer.over_air = overhangs::worth_keeping(std::move(over_air));
-    return layer;
-  });
 }
 
 /// The parts of a layer that lie in these regions.
@@ -413,20 +335,22 @@ PrintedLayers print_object(const Running& job, const Scopes& all_scopes, const T
   auto sliced = slice_object(job, object, scopes, all_scopes, slice_hands, areas);
   append(notices, slice::notices_of(*sliced, object.name), at);
 
-  const auto sliced_by = [&] { return slice_hashes(object, scopes, all_scopes, slice_hands); };
-  support_object(job, all_scopes, scopes, object, *sliced, sliced_by, support);
-
+  Running kept = job;
+  if (!job.sample.all()) kept.cache = nullptr;  // a sample is no stage's result
   const auto wall_hands = hand<Stage::walls>(all_scopes);
+  WallsOfObject walls_of(wall_hands, all_scopes, *sliced, areas, job.sample);
+  // Where columns fall level by level on one thread, others lay walls meanwhile. A cache may have those already.
+  tasks::Spare spare(kept.cache == nullptr ? (*sliced).size() : 0, [&](std::size_t i) { walls_of.lay_ahead(i); });
+  const auto sliced_by = [&] { return slice_hashes(object, scopes, all_scopes, slice_hands); };
+  support_object(job, all_scopes, scopes, object, {*sliced, sliced_by, spare}, support);
+
   const auto walled_by = [&] {
     auto key = key_of<Stage::walls>(scopes, wall_hands);
     for (const auto& hash : sliced_by()) key.with(hash);
     return with_held(std::move(key), support.held);
   };
-  Running kept = job;
-  if (!job.sample.all()) kept.cache = nullptr;  // a sample is no stage's result
-  auto walled = run_stage<Stage::walls>(kept, walled_by, [&] {
-    return build_walls(wall_hands, all_scopes, *sliced, areas, std::move(support.over_air), support.held, job.sample);
-  });
+  auto walled = run_stage<Stage::walls>(kept, walled_by,
+                                        [&] { return walls_of.build(std::move(support.over_air), support.held); });
 
   tell_missing_support(job, all_scopes, scopes, object, *sliced, *walled);
   tell_swaying(all_scopes[all_scopes.above_first_layer(scopes.front().of_mix.front())], object, *sliced, support.held,

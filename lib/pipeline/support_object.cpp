@@ -289,7 +289,8 @@ StageKey support_key(const std::string& settings, const std::vector<std::string>
 /// @param of_object  how the object is printed
 /// @param settings   how its support is
 Supports make_supports(const Settings& of_object, const Settings& settings, const Object& object,
-                       const std::vector<slice::Cut>& cuts, SupportOf& of) {
+                       const SupportFrom& from, SupportOf& of) {
+  const auto& cuts = from.cuts;
   const auto marks = read_marks(of_object, object, cuts, of);
   auto outlines = outlines_of(of_object, cuts);
   std::vector<SlicedLayer> without_specks;
@@ -304,11 +305,12 @@ Supports make_supports(const Settings& of_object, const Settings& settings, cons
   over_air = known_over_air(over_air, without_specks);
   o.over_air = over_air;
   const auto demand = support::demand(settings.support, o);
-  auto plan = support::plan(settings.support, o, demand);
+  auto plan = support::plan(settings.support, o, demand, from.spare);
   if (settings.support.support_type == SupportType::buildplate && plan.figures.left_mm2 >= worth_telling_mm2) {
     SupportSettings anywhere = settings.support;  // what the user could have instead
     anywhere.support_type = SupportType::everywhere;
-    plan.figures.left_to_part_mm2 = plan.figures.left_mm2 - support::plan(anywhere, o, demand).figures.left_mm2;
+    plan.figures.left_to_part_mm2 =
+        plan.figures.left_mm2 - support::plan(anywhere, o, demand, from.spare).figures.left_mm2;
   }
   const Point origin = outlines.box.empty() ? Point{} : outlines.box.centre();
   Supports out;
@@ -361,8 +363,7 @@ std::vector<SupportOf> rooms_of(const Scopes& scopes, const Plate& plate) {
 }
 
 void support_object(const Running& job, const Scopes& all, const ObjectScopes& scopes, const Object& object,
-                    const std::vector<slice::Cut>& cuts, const std::function<std::vector<std::string>()>& sliced_by,
-                    SupportOf& out) {
+                    const SupportFrom& from, SupportOf& out) {
   const ScopeId on_first_layer = scopes.front().of_mix.front();
   const ScopeId above = all.above_first_layer(on_first_layer);
   const Settings& settings = all[above];
@@ -380,9 +381,9 @@ void support_object(const Running& job, const Scopes& all, const ObjectScopes& s
     return reads.bytes_of(settings) + reads.bytes_of(own_settings);
   };
   auto made = run_stage<Stage::support>(
-      job, [&] { return support_key(read(), sliced_by(), object, out); },
-      [&] { return make_supports(settings, own_settings, object, cuts, out); });
-  tell_marks(settings, object, cuts, out, job.report.warnings);
+      job, [&] { return support_key(read(), from.sliced_by(), object, out); },
+      [&] { return make_supports(settings, own_settings, object, from, out); });
+  tell_marks(settings, object, from.cuts, out, job.report.warnings);
   tell(settings, object, (*made).figures, job.report);
   job.report.support.layers += (*made).layers.size();
   for (const auto mark : (*made).idle_enforcers)

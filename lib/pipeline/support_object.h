@@ -2,6 +2,7 @@
 #pragma once
 #include "pipeline/stages.h"
 #include "slice/slice.h"
+#include "tasks/spare.h"
 
 #include <functional>
 #include <string>
@@ -27,11 +28,16 @@ Regions over_air_of(const std::vector<slice::Cut>& cuts, std::size_t i);
 /// Where the support of each object may lie: on the bed with all of its copies, off no-go areas and off its neighbours.
 std::vector<SupportOf> rooms_of(const Scopes& scopes, const Plate& plate);
 
+/// What support is made from, and beside.
+struct SupportFrom {
+  const std::vector<slice::Cut>& cuts;
+  const std::function<std::vector<std::string>()>& sliced_by;  ///< the keys of the object's slices, by volume
+  tasks::Spare& spare;  ///< what threads may do that have nothing to do of support
+};
+
 /// Fills `out`, and tells in the report what was found.
-/// @param sliced_by the keys of the object's slices, by volume
 void support_object(const Running& job, const Scopes& all, const ObjectScopes& scopes, const Object& object,
-                    const std::vector<slice::Cut>& cuts, const std::function<std::vector<std::string>()>& sliced_by,
-                    SupportOf& out);
+                    const SupportFrom& from, SupportOf& out);
 
 /// Warns of what begins in the air where no support is asked for. Cost: next to nothing, since walls know what hangs.
 void tell_missing_support(const Running& job, const Scopes& all, const ObjectScopes& scopes, const Object& object,

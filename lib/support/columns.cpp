@@ -412,7 +412,7 @@ Um apart(const SupportSettings& s, Um nozzle) {
 }
 
 std::vector<Regions> columns(const Room& room, const Stack& stack, const std::vector<Regions>& contacts,
-                             const std::vector<Regions>& given) {
+                             const std::vector<Regions>& given, tasks::Spare& spare) {
   const auto& s = room.settings();
   std::vector<Regions> shadow;
   if (s.support_type == SupportType::buildplate) shadow = shadows(room, stack);
@@ -443,11 +443,13 @@ std::vector<Regions> columns(const Room& room, const Stack& stack, const std::ve
     Patch all;
     for (std::size_t k = 0; k < contacts.size(); ++k)
       if (!contacts[k].empty()) all.contacts.push_back({k, contacts[k]});
-    return under(all, drawn ? &given : nullptr);
+    std::vector<Regions> out;
+    spare.for_each_index(1, [&](std::size_t) { out = under(all, drawn ? &given : nullptr); });
+    return out;
   }
   const Patches patches(contacts, apart(s, room.object().nozzle));
-  auto of_patch =
-      tasks::parallel_map(patches.all().size(), [&](std::size_t i) { return under(patches.all()[i], nullptr); });
+  std::vector<std::vector<Regions>> of_patch(patches.all().size());
+  spare.for_each_index(of_patch.size(), [&](std::size_t i) { of_patch[i] = under(patches.all()[i], nullptr); });
   std::vector<Regions> out(stack.levels.size());
   for (auto& levels : of_patch)
     for (std::size_t k = 0; k < levels.size(); ++k)

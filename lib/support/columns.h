@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "support/room.h"
+#include "tasks/spare.h"
 
 #include <vector>
 
@@ -9,9 +10,10 @@ namespace weft::support {
 /// Where columns stand on each level for the contacts of each level.
 /// @param contacts  by level: what is to be held from there
 /// @param given     by level: what stands there in any case
+/// @param spare     what other threads do while one follows the highest patch down
 /// Post: every area lies outside of what is kept out and in the object's room, and rests.
 std::vector<Regions> columns(const Room& room, const Stack& stack, const std::vector<Regions>& contacts,
-                             const std::vector<Regions>& given);
+                             const std::vector<Regions>& given, tasks::Spare& spare);
 
 /// Lets columns get narrower downwards, but none narrower than an eighth of its height: it would tip over.
 class Lean {

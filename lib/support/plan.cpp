@@ -244,14 +244,14 @@ Split split_of(const Room& room, const Stack& stack, const std::vector<Regions>&
 }
 
 Standing stand(const Room& room, const Stack& stack, const std::vector<Regions>& contacts,
-               const std::vector<Regions>& given) {
+               const std::vector<Regions>& given, tasks::Spare& spare) {
   const std::size_t count = contacts.size();
   Standing out;
   auto [towers, others] = for_towers(room.settings(), contacts);
   Split split = split_of(room, stack, others);
   if (all_empty(split.for_branches)) {
     out.under_columns = contacts;
-    out.columns = columns(room, stack, contacts, given);
+    out.columns = columns(room, stack, contacts, given, spare);
     return out;
   }
   out.branches = tree(room, stack, *split.field, split.for_branches);
@@ -263,7 +263,7 @@ Standing stand(const Room& room, const Stack& stack, const std::vector<Regions>&
     append(out.under_columns[k], left[k]), append(out.under_columns[k], towers[k]);
     out.under_columns[k] = geometry::unite(out.under_columns[k]);
   }
-  out.columns = columns(room, stack, out.under_columns, given);
+  out.columns = columns(room, stack, out.under_columns, given, spare);
   return out;
 }
 
@@ -329,6 +329,11 @@ void let_branches_rest(const Room& room, const Stack& stack, const Standing& sta
 }  // namespace
 
 Plan plan(const SupportSettings& settings, const Object& object, const Demand& demand) {
+  tasks::Spare none;
+  return plan(settings, object, demand, none);
+}
+
+Plan plan(const SupportSettings& settings, const Object& object, const Demand& demand, tasks::Spare& spare) {
   Plan out;
   out.held.resize(object.layers.size());
   for (const auto& layer : demand) out.figures.bridged_mm2 += layer.wanted.empty() ? layer.bridged_mm2 : 0;
@@ -346,7 +351,7 @@ Plan plan(const SupportSettings& settings, const Object& object, const Demand& d
   for (auto& contact : stack.contacts)
     if (contact.level >= used) contact = {};
   const Room room(settings, object);
-  const Standing standing = stand(room, stack, contacts, given);
+  const Standing standing = stand(room, stack, contacts, given, spare);
   out.figures.tips = standing.branches.tips_at.size(), out.figures.trunks = standing.branches.trunks;
   out.figures.slenderest = standing.branches.slenderest;
   const Interfaces interfaces(room, stack, standing.under_columns);
@@ -356,8 +361,10 @@ Plan plan(const SupportSettings& settings, const Object& object, const Demand& d
     if (k < standing.branches.areas.size()) add_branches(room, k, standing, layer);
     return layer;
   });
-  let_columns_rest(room, stack, out.layers);
-  let_branches_rest(room, stack, standing, out.layers);
+  spare.for_each_index(1, [&](std::size_t) {
+    let_columns_rest(room, stack, out.layers);
+    let_branches_rest(room, stack, standing, out.layers);
+  });
   if (used > 0) spread_first(room, stack, out.layers[0]);
   Caps caps = caps_on(room, stack, demand, out.layers);
   note_reached(object, stack, demand, caps, out);

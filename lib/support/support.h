@@ -4,6 +4,7 @@
 #include "core/polygon.h"
 #include "model/layer.h"
 #include "settings/groups/support.h"
+#include "tasks/spare.h"
 
 #include <array>
 #include <cstddef>
@@ -92,5 +93,7 @@ struct Plan {
 ///       the first layers); beside the part there is support_xy_distance; every area rests on the bed, on the part or
 ///       on what is below.
 Plan plan(const SupportSettings& settings, const Object& object, const Demand& demand);
+/// @param spare  what threads may do that wait: columns fall level by level
+Plan plan(const SupportSettings& settings, const Object& object, const Demand& demand, tasks::Spare& spare);
 
 }  // namespace weft::support

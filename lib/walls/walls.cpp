@@ -211,6 +211,12 @@ Regions outlines_of(const WallSettings& settings, const WallInput& input) {
 }
 
 WallLayer build(const WallSettings& settings, const WallInput& input) {
+  WallLayer out = lay(settings, input);
+  finish(settings, input, out);
+  return out;
+}
+
+WallLayer lay(const WallSettings& settings, const WallInput& input) {
   WallLayer out;
   Widths widths = widths_of(settings, input.nozzle_diameter, input.layer.height, input.index);
   if (widths.walls > 1 && single_wall(settings, input)) widths.walls = 1;
@@ -246,10 +252,15 @@ WallLayer build(const WallSettings& settings, const WallInput& input) {
     std::move(part.beads.begin(), part.beads.end(), std::back_inserter(out.beads));
     std::move(part.inside.begin(), part.inside.end(), std::back_inserter(out.inside));
   }
-  if (input.over_air != nullptr) steady_over_air(*input.over_air, widths, out.beads);
-  spread_out(settings, input.layer.height, out.beads);
-  make_fuzzy(settings, input, out.beads);
   return out;
+}
+
+void finish(const WallSettings& settings, const WallInput& input, WallLayer& laid) {
+  if (input.over_air != nullptr)
+    steady_over_air(*input.over_air, widths_of(settings, input.nozzle_diameter, input.layer.height, input.index),
+                    laid.beads);
+  spread_out(settings, input.layer.height, laid.beads);
+  make_fuzzy(settings, input, laid.beads);
 }
 
 }  // namespace weft::walls

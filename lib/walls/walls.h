@@ -28,6 +28,11 @@ struct WallInput {
 ///         deposition modeling"; widths are bands (model/flow.h).
 WallLayer build(const WallSettings& settings, const WallInput& input);
 
+/// `build` in two steps, where it is not known at once what lies below: all that does not hang on input.over_air, which
+/// takes next to all of the time, and then the rest.
+WallLayer lay(const WallSettings& settings, const WallInput& input);
+void finish(const WallSettings& settings, const WallInput& input, WallLayer& laid);
+
 /// The outlines of a layer, moved by the xy offsets: what `build` lays beads within. Regions may be joined, divided or
 /// lost thereby.
 Regions outlines_of(const WallSettings& settings, const WallInput& input);
