@@ -214,74 +214,6 @@ class Projection {
       whole_;  // of the path's pieces, and of those between the vertices
 };
 
-/// How far from each vertex the path's width bends, that is changes otherwise than before, µm: back and on. A path that
-/// is not closed is short and bends everywhere. Empty where nothing bends.
-struct Bends {
-  std::vector<double> back, on;
-};
-Bends bends_of_width(const VertexPath& path, bool closed, double reach) {
-  constexpr double even_um = 1;  // over the reach: half of that is what smoothing would change
-  constexpr double least = 1e-3;
-  constexpr double far = 1e18;
-  const std::size_t n = path.size();
-  const auto next = [&](std::size_t i) { return i + 1 < n ? i + 1 : 0; };
-  std::vector<double> lengths(n);
-  for (std::size_t i = 0; i < n; ++i) lengths[i] = std::max(least, length_of(path[i], path[next(i)]));
-  const auto slope = [&](std::size_t i) {
-    const double wider = path[next(i)].band - path[i].band;
-    return std::abs(wider) < least ? 0 : wider / lengths[i];
-  };
-  Bends out;
-  std::size_t first = 0;
-  double before = closed ? slope(n - 1) : 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double after = i + 1 < n || closed ? slope(i) : 0;
-    if (!closed || std::abs(after - before) * reach > even_um) {
-      if (out.back.empty()) out.back.assign(n, far), out.on = out.back, first = i;
-      out.back[i] = out.on[i] = 0;
-    }
-    before = after;
-  }
-  if (out.back.empty() || !closed) return out;
-  // From one that bends once around, and back.
-  const auto pass = [&](std::size_t i, std::size_t k) {
-    out.back[k] = std::min(out.back[k], out.back[i] + lengths[i]);
-  };
-  const auto pass_back = [&](std::size_t i, std::size_t k) { out.on[k] = std::min(out.on[k], out.on[i] + lengths[k]); };
-  for (std::size_t i = first; i + 1 < n; ++i) pass(i, i + 1);
-  pass(n - 1, 0);
-  for (std::size_t i = 0; i < first; ++i) pass(i, i + 1);
-  for (std::size_t i = first; i-- > 0;) pass_back(i + 1, i);
-  pass_back(0, n - 1);
-  for (std::size_t i = n - 1; i-- > first;) pass_back(i + 1, i);
-  return out;
-}
-
-/// More vertices near those where the width bends: what changes there changes there only.
-VertexPath finer(const VertexPath& path, const Bends& bends, bool closed, double reach) {
-  constexpr std::array graded{0.5, 1.5, 3.5};  // of the reach
-  VertexPath out;
-  out.reserve(2 * path.size());
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    out.push_back(path[i]);
-    if (i + 1 == path.size() && !closed) break;
-    const std::size_t j = (i + 1) % path.size();
-    const double back = bends.back[i], on = bends.on[j];
-    if (std::min(back, on) > graded.back() * reach) continue;
-    const PathVertex &a = path[i], &b = path[j];
-    const double length = length_of(a, b), halfway = (length + on - back) / 2;
-    const auto add = [&](double s) {
-      const double t = s / length;
-      out.push_back(lerp(a, b, t));
-    };
-    for (const double r : graded)
-      if (const double s = r * reach - back; s > 0 && s < std::min(length, halfway)) add(s);
-    for (auto r = graded.rbegin(); r != graded.rend(); ++r)
-      if (const double s = length + on - *r * reach; s > std::max(0.0, halfway) && s < length) add(s);
-  }
-  return out;
-}
-
 /// The vertex that stands out most from its neighbours: a closed path begins there, and the first one stays.
 std::size_t corner_of(const VertexPath& path) {
   const std::size_t n = path.size();
@@ -377,26 +309,6 @@ Cut cut_at(const VertexPath& path, const std::vector<std::size_t>& telling, cons
 }
 
 }  // namespace
-
-void smooth_widths(VertexPath& path, bool closed, double reach) {
-  if (path.size() < 3 || reach <= 0 || is_even(path)) return;
-  const Bends bends = bends_of_width(path, closed, reach);
-  if (bends.back.empty()) return;
-  path = finer(path, bends, closed, reach);
-  const std::size_t n = path.size();
-  constexpr double least = 1e-3;  // a step is stiff, but not endlessly so
-  std::vector<double> diagonal(n, 0.0), above(n, 0.0), right(n, 0.0);
-  double corner = 0;
-  for (std::size_t i = 0; i + (closed ? 0 : 1) < n; ++i) {
-    const std::size_t j = (i + 1) % n;
-    const double length = std::max(least, length_of(path[i], path[j])), stiff = reach * reach / length;
-    diagonal[i] += length / 2 + stiff, diagonal[j] += length / 2 + stiff;
-    (j == 0 ? corner : above[i]) = -stiff;
-    right[i] += length / 2 * path[i].band, right[j] += length / 2 * path[j].band;
-  }
-  Tridiagonal(std::move(diagonal), std::move(above), corner).solve(right);
-  for (std::size_t i = 0; i < n; ++i) path[i].band = right[i];
-}
 
 int ramp_pieces(double change_um, double length_um) {
   if (change_um <= tolerances::band_step) return 1;

@@ -20,13 +20,6 @@ inline PathVertex lerp(const PathVertex& a, const PathVertex& b, double t) {
   return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.band + t * (b.band - a.band)};
 }
 
-/// Makes the width of a path change no faster than plastic follows: it becomes its mean with weights that fall by e for
-/// every `reach` µm along the path (at its ends it is mirrored), so that the volume stays. Steps, which are two
-/// vertices in one place, become ramps; vertices are added there. A closed path does not repeat its first vertex. Cost:
-/// linear. Source: the minimum of ∫ (w − w₀)² + reach² (dw/ds)² ds, discretised with lumped masses: one tridiagonal
-/// system.
-void smooth_widths(VertexPath& path, bool closed, double reach);
-
 /// Tells a path by the pieces that are worth their moves (pieces.h), none shorter than tolerances::least_move unless
 /// the whole is. Ends stay. Pieces lie in the middle of what they stand for and lay what was laid there, as nearly as
 /// places and widths that are linear between vertices can; an even band stays even. Post: at least two vertices, three

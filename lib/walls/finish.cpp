@@ -3,6 +3,7 @@
 
 #include "core/stop.h"
 #include "model/simplify.h"
+#include "model/widths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,11 +14,11 @@ namespace {
 using Vertex = Line::Vertex;
 
 /// Widths that plastic can follow, along a path with as few vertices as it needs.
-void simplify(std::vector<Vertex>& path, bool closed, double reach) {
+void simplify(std::vector<Vertex>& path, bool closed, double steady) {
   VertexPath simple;
   simple.reserve(path.size());
   for (const Vertex& v : path) simple.push_back({v.at.x, v.at.y, v.width});
-  smooth_widths(simple, closed, reach);
+  steady_widths(simple, closed, steady);
   stop_if_asked();
   simplify(simple, closed);
   stop_if_asked();
@@ -108,12 +109,13 @@ void append_bead(const Line& line, const FinishOptions& o, Beads& out) {
 
 void finish(Line line, const FinishOptions& o, std::vector<Line>& out, LeftOut& left_out) {
   if (line.path.size() < 2) return;
+  const double steady = line.inset == 0 ? o.steady_outer : o.steady_inner;
   if (line.closed) line.path.push_back(line.path.front());
   const bool all_thick =
       std::all_of(line.path.begin(), line.path.end(), [&](const Vertex& v) { return v.width >= o.least_feature; });
   if (line.closed && all_thick) {
     line.path.pop_back();
-    simplify(line.path, true, o.reach);
+    simplify(line.path, true, steady);
     out.push_back(std::move(line));
     return;
   }
@@ -137,7 +139,7 @@ void finish(Line line, const FinishOptions& o, std::vector<Line>& out, LeftOut& 
       std::reverse(stretch.begin(), stretch.end());
     }
     keep_within(stretch, o.most_width);
-    simplify(stretch, false, o.reach);
+    simplify(stretch, false, steady);
     out.push_back({std::move(stretch), false, line.inset, first_meets, last_meets});
   }
   leave_out(length_of(line.path));

@@ -19,7 +19,7 @@ struct FinishOptions {
   double stable_outer = 200, stable_inner = 200;  ///< narrowest planned width, µm
   double most_width = 1e9;                        ///< no bead is wider, µm
   double least_flow = 0.05, most_flow = 1;
-  double reach = 50;  ///< along a bead its width is the mean of what lies so near (model/simplify), µm
+  double steady_outer = 0, steady_inner = 0;  ///< a width that is held for less is left out (model/widths), µm
 };
 
 /// Whether an open bead of that length and area is worth its two travels: what is too short is not, nor what lays less

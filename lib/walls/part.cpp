@@ -25,6 +25,9 @@ namespace {
 constexpr double tip_deg = 45;  // a single bead is led into the tip of a sharper corner: else the part would lack it
 constexpr double dab_share = 2.0 / 3;  // of the square of a bead's width: a smaller part is a dab
 constexpr double chord_um = 4;         // how far a chord may stand off a bead that bends around a corner
+// A width is held for so many nozzles or not laid: an orifice lays nothing that is finer than itself, and within that way
+// an extruder has hardly begun to answer. The edge of an outer wall is seen: it gives up only what no two moves fit into.
+constexpr double steady_inner = 1.0, steady_outer = 0.25;
 constexpr Um rest_chord = 2;  // … and off what walls leave: most of its points are ribs that tell nothing, rounded
 
 void add_rings(const Regions& at, Um width, std::uint16_t inset, std::uint32_t part, Beads& out) {
@@ -109,7 +112,10 @@ Part part_of(const WallSettings& settings, const Widths& widths, const Region& r
   finishing.stable_inner = std::max<double>(settings.min_output_width, widths.inner / 4);
   finishing.most_width = widths.most;
   options.corner_width = settings.wall_corner_width / 100;
-  if (options.corner_width < 1) finishing.reach = 10;  // they get narrower within a piece
+  if (options.corner_width >= 1) {  // else walls get narrower for a short way on purpose
+    finishing.steady_outer = steady_outer * nozzle;
+    finishing.steady_inner = steady_inner * nozzle;
+  }
   options.narrowest = std::max(finishing.stable_outer, finishing.stable_inner);
   const Laying laying = lay(skeleton, widths, options);
   // So small a part gets an even bead: what pieces of it would gain they would swell over each other.

@@ -53,48 +53,6 @@ VertexPath walk(std::mt19937& random) {
 
 }  // namespace
 
-TEST_CASE("simplify: widths become smooth, and the volume stays") {
-  const VertexPath step{{0, 0, 300}, {5'000, 0, 300}, {5'000, 0, 500}, {10'000, 0, 500}};
-  VertexPath ramp = step;
-  for (VertexPath fine = step; ramp.size() < 400;) {  // widths are told at vertices
-    fine.clear();
-    for (std::size_t i = 0; i + 1 < ramp.size(); ++i) {
-      fine.push_back(ramp[i]);
-      if (length(ramp[i], ramp[i + 1]) > 1)
-        fine.push_back({(ramp[i].x + ramp[i + 1].x) / 2, 0, (ramp[i].band + ramp[i + 1].band) / 2});
-    }
-    fine.push_back(ramp.back());
-    ramp = fine;
-  }
-  smooth_widths(ramp, false, 50);
-  CHECK(laid(ramp, false) == Approx(laid(step, false)).epsilon(1e-6));
-  for (const PathVertex& v : ramp) {  // 100 e^(-s / 50 µm) off
-    const double s = v.x - 5'000, wanted = s < 0 ? 300 + 100 * std::exp(s / 50) : 500 - 100 * std::exp(-s / 50);
-    CHECK(v.band == Approx(wanted).margin(8));
-  }
-}
-
-TEST_CASE("simplify: a taper told by its two ends stays one") {
-  const VertexPath taper{{0, 0, 300}, {6'000, 0, 500}, {6'010, 0, 500}, {6'010, 100, 500}};
-  VertexPath smooth = taper;
-  smooth_widths(smooth, false, 50);
-  CHECK(smooth.front().band == Approx(300).margin(2));
-  CHECK(smooth.back().band == Approx(500).margin(2));
-}
-
-TEST_CASE("simplify: what is narrow for a short way stays narrow there, between long pieces that stay as they are") {
-  VertexPath neck{{0, 0, 400}, {5'000, 0, 400}, {5'000, 0, 300}, {5'200, 0, 300}, {5'200, 0, 400}, {10'000, 0, 400}};
-  const double before = laid(neck, false);
-  smooth_widths(neck, false, 50);
-  CHECK(laid(neck, false) == Approx(before).epsilon(1e-6));
-  double least = 1e9;
-  for (const PathVertex& v : neck) {
-    least = std::min(least, v.band);
-    if (std::abs(v.x - 5'100) > 400) CHECK(v.band == Approx(400).margin(2));
-  }
-  CHECK(least < 330);
-}
-
 TEST_CASE("simplify: a circle becomes a polygon that lies on both sides of it and lays as much") {
   for (const double radius : {200.0, 500.0, 1'000.0, 20'000.0}) {
     VertexPath fine;
