@@ -25,8 +25,9 @@ namespace {
 constexpr double tip_deg = 45;  // a single bead is led into the tip of a sharper corner: else the part would lack it
 constexpr double dab_share = 2.0 / 3;  // of the square of a bead's width: a smaller part is a dab
 constexpr double chord_um = 4;         // how far a chord may stand off a bead that bends around a corner
-// A width is held for so many nozzles or not laid: an orifice lays nothing that is finer than itself, and within that way
-// an extruder has hardly begun to answer. The edge of an outer wall is seen: it gives up only what no two moves fit into.
+// A width is held for so many nozzles or not laid: an orifice lays nothing that is finer than itself, and within that
+// way an extruder has hardly begun to answer. The edge of an outer wall is seen: it gives up only what no two moves fit
+// into.
 constexpr double steady_inner = 1.0, steady_outer = 0.25;
 constexpr Um rest_chord = 2;  // … and off what walls leave: most of its points are ribs that tell nothing, rounded
 
