@@ -79,11 +79,11 @@ void ask_neighbours(std::span<const Ring> rings, const RingChains& chains, std::
   }
 }
 
-/// @param apart no two rings touch, none touches itself
-std::vector<Place> places_of(std::span<const Ring> rings, const RingChains& chains, bool apart) {
+/// @param by_neighbours  each place is told from its neighbour's: rings must not touch each other nor themselves
+std::vector<Place> places_of(std::span<const Ring> rings, const RingChains& chains, bool by_neighbours) {
   std::vector<Place> places(rings.size());
   for (std::size_t r = 0; r < rings.size(); ++r) places[r].double_area = double_area(rings[r]);
-  if (apart && !chains.scattered()) {
+  if (by_neighbours) {
     ask_neighbours(rings, chains, places);
     return places;
   }
@@ -123,7 +123,7 @@ Regions assembled(std::span<const Ring> rings, const std::vector<Place>& places)
 }  // namespace
 
 Regions nested(std::span<const Ring> rings, const RingChains& chains, WindingRule rule) {
-  auto places = places_of(rings, chains, true);
+  auto places = places_of(rings, chains, !chains.scattered());
   for (auto& place : places) {
     if (place.sliver()) continue;
     const int inside = place.outside + (place.double_area > 0 ? 1 : -1);

@@ -277,7 +277,7 @@ void RingChains::windings(Point p, std::vector<SegmentIndex::RingWinding>& found
       if (around_[r].contains(p)) look(r);
     return;
   }
-  constexpr std::size_t few = 32;  // around a place: one look at their chains takes no longer than one along a grid
+  constexpr std::size_t few = 32;  // around a place: their chains are looked at, not a ray through the grid
   std::vector<std::uint32_t> around;
   columns().each_around(p, [&](std::uint32_t r) { around.push_back(r); });
   if (around.size() > few) return grid().windings(p, found);

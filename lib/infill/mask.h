@@ -79,7 +79,7 @@ class Mask {
   Mask shrunk(int cells) const;
   Mask opened(int cells) const { return shrunk(cells).grown(cells); }
 
-  /// Whether any cell of the box is set in both.
+  /// Whether any cell of the box is set in both. Pre: they have the same grid, and the box reaches into it.
   bool meets(const Mask& other, const Box& within) const;
 
   /// Whether any cell is set in both; the grids may be different windows of one.

@@ -13,15 +13,6 @@
 namespace weft {
 namespace {
 
-double length_of(const PathVertex& a, const PathVertex& b) {
-  const double x = b.x - a.x, y = b.y - a.y;
-  return std::sqrt(x * x + y * y);
-}
-
-bool is_even(const VertexPath& path) {
-  return std::all_of(path.begin(), path.end(), [&](const PathVertex& v) { return v.band == path[0].band; });
-}
-
 // A vertex so near to the straight between others tells nothing: the lattice tells no more.
 constexpr double same_place_um = 0.5, same_band_um = 1;
 constexpr double per_place = 1 / (same_place_um * same_place_um), per_band = 1 / (same_band_um * same_band_um);
@@ -309,6 +300,10 @@ Cut cut_at(const VertexPath& path, const std::vector<std::size_t>& telling, cons
 }
 
 }  // namespace
+
+bool is_even(const VertexPath& path) {
+  return std::all_of(path.begin(), path.end(), [&](const PathVertex& v) { return v.band == path[0].band; });
+}
 
 int ramp_pieces(double change_um, double length_um) {
   if (change_um <= tolerances::band_step) return 1;

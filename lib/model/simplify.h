@@ -2,6 +2,7 @@
 #pragma once
 #include "core/tolerances.h"
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -19,6 +20,12 @@ using VertexPath = std::vector<PathVertex>;
 inline PathVertex lerp(const PathVertex& a, const PathVertex& b, double t) {
   return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.band + t * (b.band - a.band)};
 }
+inline double length_of(const PathVertex& a, const PathVertex& b) {
+  const double x = b.x - a.x, y = b.y - a.y;
+  return std::sqrt(x * x + y * y);
+}
+/// Whether the width is the same all along the path.
+bool is_even(const VertexPath& path);
 
 /// Tells a path by the pieces that are worth their moves (pieces.h), none shorter than tolerances::least_move unless
 /// the whole is. Ends stay. Pieces lie in the middle of what they stand for and lay what was laid there, as nearly as

@@ -10,10 +10,6 @@
 namespace weft {
 namespace {
 
-double length_of(const PathVertex& a, const PathVertex& b) {
-  return std::hypot(b.x - a.x, b.y - a.y);
-}
-
 /// A path with so many vertices that from each to the next its width changes little.
 VertexPath finer(const VertexPath& path, bool closed) {
   constexpr double little = 10, shortest = 20;  // µm of width, and of way
@@ -82,8 +78,7 @@ void cut(Widths& row, bool circle, double least, double sign) {
 }  // namespace
 
 void steady_widths(VertexPath& path, bool closed, double least) {
-  const auto differs = [&](const PathVertex& v) { return v.band != path[0].band; };
-  if (path.size() < 2 || least <= 0 || std::none_of(path.begin(), path.end(), differs)) return;
+  if (path.size() < 2 || least <= 0 || is_even(path)) return;
   path = finer(path, closed);
   const std::size_t n = path.size();
   Widths row{std::vector<double>(n, 0.0), std::vector<double>(n)};

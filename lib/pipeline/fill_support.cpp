@@ -97,7 +97,8 @@ class Layers {
     const Beads walls = columns_->hollow_unlike(k, under.front());
     return walls.empty() ? std::vector<Point>{} : beneath(k).hanging(walls, span_).at;
   }
-  /// @param hang  of each layer places where beads above it hang
+  /// @param hang    of each layer places where beads above it hang
+  /// @param filled  what each has laid: rungs end on that
   std::vector<Beads> rungs_for(const std::vector<std::vector<Point>>& hang,
                                const std::vector<SupportBeads>& filled) const {
     std::vector<std::optional<RungsBelow>> laid(layers_.size());
@@ -120,6 +121,7 @@ class Layers {
     }
     return out;
   }
+  /// A bead holds itself one height out at 45°, and no further than it lies on the one below by a third of its width.
   RungsBelow& rungs_on(std::size_t k, const Beads& beads, std::optional<RungsBelow>& out) const {
     Regions area = layers_[k].columns;
     append(area, layers_[k].roof), append(area, layers_[k].bottom);

@@ -147,7 +147,7 @@ void measure(const Running& job, const WallHands& handed, const Cuts& cuts, cons
              const std::vector<infill::LayerAreas>& parts, std::size_t copies) {
   const auto measures = tasks::parallel_map(cuts.size(), [&](std::size_t i) {
     const auto& layer = cuts[i].layer;
-    return measure_of(layer, inside_of(handed, areas[i], layer, i), parts[i]);
+    return measure_of(layer, nominal_inside(handed, areas[i], layer, i), parts[i]);
   });
   for (std::size_t i = Sample::own_kind; i < measures.size(); ++i)
     (job.sample.has(i) ? job.measure->planned : job.measure->left_out).add(measures[i], static_cast<double>(copies));

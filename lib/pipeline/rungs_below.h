@@ -31,12 +31,11 @@ class RungsBelow {
   /// @param ends  where brackets of the layer above do
   /// @return where brackets that this laid hang in turn
   std::vector<Point> brackets(std::span<const Point> hang, std::span<const Point> ends);
-  /// Each on a rung of the layer below or where its ends lie on something if there is such a place, as near to each
-  /// other as beads may cross freely.
-  /// What brackets could not grow out of is none.
-  /// @param hang   the same places
-  /// @param under  what this was for what the layer lies on
-  /// @return all of both. Post: their sequence is not 0: they are printed when what they end on is there.
+  /// Lays brackets that grew out of something, bars between them, and rungs: those on a rung of the layer below, or
+  /// where their ends lie on something, if there is such a place, as near to each other as beads may cross freely.
+  /// @param hang   the places that `brackets` was given
+  /// @param under  what this function returned for the layers that this one lies on
+  /// @return all of them. Post: their sequence is not 0: they are printed when what they end on is there.
   Beads rungs(std::span<const Point> hang, const Beads& under) &&;
 
  private:

@@ -79,7 +79,7 @@ std::vector<WallLayer> WallsOfObject::build(std::vector<Regions> known_over_air,
   return tasks::parallel_map(cuts_.size(), [&](std::size_t i) {
     WallLayer out;
     if (!sample_.has(i)) {
-      out.inside = inside_of(handed_, areas_[i], cuts_[i].layer, i);
+      out.inside = nominal_inside(handed_, areas_[i], cuts_[i].layer, i);
       return out;
     }
     Regions over_air = i < known_over_air.size() ? std::move(known_over_air[i]) : over_air_of(cuts_, i);
@@ -101,7 +101,7 @@ std::vector<WallLayer> WallsOfObject::build(std::vector<Regions> known_over_air,
   });
 }
 
-Regions inside_of(const WallHands& handed, const Areas& areas, const SlicedLayer& layer, std::size_t index) {
+Regions nominal_inside(const WallHands& handed, const Areas& areas, const SlicedLayer& layer, std::size_t index) {
   const auto& [walls, nozzle] = handed[areas.front().scope];
   const int lines = walls.wall_line_count + (walls.alternate_extra_wall && index % 2 == 1 ? 1 : 0);
   if (lines == 0) return layer.regions;

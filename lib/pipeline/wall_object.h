@@ -22,7 +22,7 @@ class WallsOfObject {
   WallsOfObject(const WallHands& handed, const Scopes& scopes, const std::vector<slice::Cut>& cuts,
                 const std::vector<Areas>& areas, const Sample& sample);
 
-  /// Does most of the work of a layer ahead: of different ones side by side.
+  /// Does most of the work of a layer ahead, of different ones side by side. Pre: not while or after `build`.
   void lay_ahead(std::size_t layer);
 
   /// All of them. Once.
@@ -38,7 +38,7 @@ class WallsOfObject {
     SlicedLayer own;                     ///< where these are not all
     WallLayer walls;
   };
-  /// Calls do(settings, input, walls) of each piece.
+  /// Calls what(settings, input, walls) of each piece.
   template <class Do>
   void of_each(std::size_t layer, const Regions* over_air, std::vector<Piece>& pieces, Do what) const;
   std::vector<Piece> laid(std::size_t layer) const;
@@ -52,7 +52,8 @@ class WallsOfObject {
   std::vector<std::vector<Piece>> ahead_;  ///< of each layer; none: not yet
 };
 
-/// About what walls leave of a layer: enough for the layers around it to know their skin.
-Regions inside_of(const WallHands& handed, const Areas& areas, const SlicedLayer& layer, std::size_t index);
+/// About what walls leave of a layer, by their nominal widths alone: enough for the layers around it to know their
+/// skin.
+Regions nominal_inside(const WallHands& handed, const Areas& areas, const SlicedLayer& layer, std::size_t index);
 
 }  // namespace weft::pipeline

@@ -444,7 +444,7 @@ std::vector<Regions> columns(const Room& room, const Stack& stack, const std::ve
     for (std::size_t k = 0; k < contacts.size(); ++k)
       if (!contacts[k].empty()) all.contacts.push_back({k, contacts[k]});
     std::vector<Regions> out;
-    spare.for_each_index(1, [&](std::size_t) { out = under(all, drawn ? &given : nullptr); });
+    spare.beside([&] { out = under(all, drawn ? &given : nullptr); });
     return out;
   }
   const Patches patches(contacts, apart(s, room.object().nozzle));

@@ -361,7 +361,7 @@ Plan plan(const SupportSettings& settings, const Object& object, const Demand& d
     if (k < standing.branches.areas.size()) add_branches(room, k, standing, layer);
     return layer;
   });
-  spare.for_each_index(1, [&](std::size_t) {
+  spare.beside([&] {
     let_columns_rest(room, stack, out.layers);
     let_branches_rest(room, stack, standing, out.layers);
   });

@@ -93,7 +93,7 @@ struct Plan {
 ///       the first layers); beside the part there is support_xy_distance; every area rests on the bed, on the part or
 ///       on what is below.
 Plan plan(const SupportSettings& settings, const Object& object, const Demand& demand);
-/// @param spare  what threads may do that wait: columns fall level by level
+/// The same, while threads that wait do other work: columns fall level by level. `spare` changes nothing of the plan.
 Plan plan(const SupportSettings& settings, const Object& object, const Demand& demand, tasks::Spare& spare);
 
 }  // namespace weft::support

@@ -22,6 +22,10 @@ class Spare {
   /// task(i) for i in [0, count), begun in that order; threads that find none left take pieces of the spare work until
   /// the last task has ended. Errors as of tasks::for_each_index.
   void for_each_index(std::size_t count, const std::function<void(std::size_t)>& task);
+  /// The same of one task.
+  void beside(const std::function<void()>& task) {
+    for_each_index(1, [&](std::size_t) { task(); });
+  }
 
  private:
   /// @return whether there was a piece left

@@ -214,7 +214,7 @@ Start nearest_start(const Bead& bead, Point p, Um snap) {
 void add_exposure(const Bead& bead, bool material_left, const Comb& outline, std::span<Corner> corners) {
   constexpr int rays = 8;
   constexpr double ray_um = 5000;
-  static const auto round = [] {
+  static const auto turns = [] {  // of rays against the first
     std::array<Vec, rays> out;
     for (std::size_t k = 0; k < rays; ++k) {
       const double angle = 2 * std::numbers::pi * (static_cast<double>(k) + 0.5) / rays;
@@ -237,7 +237,7 @@ void add_exposure(const Bead& bead, bool material_left, const Comb& outline, std
     const Vec way{std::cos(outwards), std::sin(outwards)};
     const Point eye{rounded(p.x + step * way.x), rounded(p.y + step * way.y)};
     int open = 0;
-    for (const Vec& turned : round) {
+    for (const Vec& turned : turns) {
       const Vec ray{way.x * turned.x - way.y * turned.y, way.x * turned.y + way.y * turned.x};
       if (outline.sees(eye, {rounded(eye.x + ray_um * ray.x), rounded(eye.y + ray_um * ray.y)})) ++open;
     }

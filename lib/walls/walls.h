@@ -28,8 +28,8 @@ struct WallInput {
 ///         deposition modeling"; widths are bands (model/flow.h).
 WallLayer build(const WallSettings& settings, const WallInput& input);
 
-/// `build` in two steps, where it is not known at once what lies below: all that does not hang on input.over_air, which
-/// takes next to all of the time, and then the rest.
+/// `build` in two steps, where it is not known at once what lies below: all that does not hang on input.over_air, and
+/// then the rest. Pre: `finish` gets the settings and the input of `lay`, but for over_air, and what that made; once.
 WallLayer lay(const WallSettings& settings, const WallInput& input);
 void finish(const WallSettings& settings, const WallInput& input, WallLayer& laid);
 

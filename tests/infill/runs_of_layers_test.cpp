@@ -41,15 +41,20 @@ TEST_CASE("shells: what a layer is does not depend on the layers that are looked
                         {at.x - coarse(1500), at.y + 2500 + coarse(4000)}},
                        {}};
       const std::size_t from = block < 6 ? 0 : random() % count;
-      for (std::size_t z = from; z < std::min(count, from + 3 + random() % 25); ++z)
-        outlines[z] = geometry::unite(outlines[z], {box});
+      const std::size_t to = std::min(count, from + 3 + random() % 25);
+      for (std::size_t z = from; z < to; ++z) outlines[z] = geometry::unite(outlines[z], {box});
     }
+    // Far to the left, and in a few layers only: the windows of runs begin in different words of the grid.
+    for (std::size_t z = 30; z < count; ++z)
+      outlines[z].push_back(rectangle(-9000 - 1300 * i, 3000, -6500 - 1300 * i, 5500));
     std::vector<Regions> insides;
     for (const Regions& r : outlines) insides.push_back(geometry::offset(r, {.by = -450}));
     std::vector<infill::ShellLayer> layers;
     for (std::size_t z = 0; z < count; ++z)
       layers.push_back({static_cast<Um>(200 * (z + 1)), 200, &outlines[z], &insides[z]});
-    const infill::ShellObject object{layers, infill::box_of(layers), 400};
+    Box box = infill::box_of(layers);
+    if (i % 2 == 1) box.add(Point{box.min.x + 156'000, box.min.y + 155'000});  // cells of a length that does not round
+    const infill::ShellObject object{layers, box, 400};
     const auto at_once = infill::find_areas({}, {}, object, 0, count);
     for (const std::size_t run : {1u, 3u, 8u})
       for (std::size_t first = 0; first < count; first += run) {

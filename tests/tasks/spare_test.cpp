@@ -41,7 +41,7 @@ TEST_CASE("tasks: while one task runs, who has none takes spare pieces", "[tasks
     std::atomic<std::size_t> done = 0;
     tasks::Spare spare(4, [&](std::size_t) { ++done; });
     std::size_t seen = 0;
-    spare.for_each_index(1, [&](std::size_t) {
+    spare.beside([&] {
       const auto late = std::chrono::steady_clock::now() + std::chrono::minutes(2);  // or it would hang for ever
       while (done < 4 && std::chrono::steady_clock::now() < late) std::this_thread::yield();
       seen = done;

@@ -127,7 +127,8 @@ inline constexpr Rows wall_schema{
     setting("wall_transition_length", Scope::region, &WallSettings::wall_transition_length, Unit::mm, 0.001_mm, 100_mm,
             "Length over which a wall is added or removed; a share is of nozzle_diameter."),
     setting("wall_transition_angle", Scope::region, &WallSettings::wall_transition_angle, Unit::degrees, 1, 120,
-            "Parts that taper at a larger angle are corners: their walls turn back instead of being merged."),
+            "Parts that taper at a larger angle are corners: their walls turn back instead of being merged; only "
+            "where there is room for one bead it is led into the tip, up to 45°."),
     setting("wall_transition_filter_distance", Scope::region, &WallSettings::wall_transition_filter_distance, Unit::mm,
             0_mm, 1000_mm, "A change of the number of walls that is undone within this length is left out."),
     setting("min_feature_size", Scope::region, &WallSettings::min_feature_size, Unit::mm, 0.001_mm, 5_mm,
