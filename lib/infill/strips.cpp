@@ -4,8 +4,11 @@
 #include "geometry/offset.h"
 #include "infill/scan.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace weft::infill {
 
@@ -69,6 +72,49 @@ std::optional<double> angle_of_axis(const Region& region, std::optional<double> 
       across(region, Frame(angle + std::numbers::pi / 2, region.outer.front()));
   const double width = area / (across.greatest_y() - across.least_y());
   return along.greatest_y() - along.least_y() <= width + *bend ? std::optional(angle) : std::nullopt;
+}
+
+std::optional<double> angle_along_walls(const Region& region) {
+  constexpr double shortest_um = 1000;  // of what counts as a straight wall
+  constexpr std::size_t bins = 90;
+  constexpr double quarter = std::numbers::pi / 2;
+  constexpr double same = 0.1 * std::numbers::pi / 180;  // two microns over a millimetre
+  struct Straight {
+    double angle = 0, length = 0;
+    std::size_t bin = 0;
+  };
+  std::vector<Straight> all;
+  std::array<double, bins> length{};
+  double whole = 0;
+  const auto look = [&](const Ring& ring) {
+    for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+      const double l = distance(ring[j], ring[i]);
+      whole += l;
+      if (l < shortest_um) continue;
+      double a = std::fmod(std::atan2(ring[i].y - ring[j].y, ring[i].x - ring[j].x) + 2 * std::numbers::pi, quarter);
+      if (a > quarter - 1e-9) a = 0;
+      const auto bin = static_cast<std::size_t>(std::lround(a / quarter * bins)) % bins;
+      length[bin] += l;
+      all.push_back({bin == 0 && a > quarter / 2 ? a - quarter : a, l, bin});
+    }
+  };
+  look(region.outer);
+  for (const Ring& hole : region.holes) look(hole);
+  const auto peak = static_cast<std::size_t>(std::max_element(length.begin(), length.end()) - length.begin());
+  if (length[peak] < whole / 2) return std::nullopt;
+  std::erase_if(all, [&](const Straight& each) { return each.bin != peak; });
+  std::stable_sort(all.begin(), all.end(), [](const Straight& a, const Straight& b) { return a.angle < b.angle; });
+  double best = 0, longest = 0, sum = 0;
+  std::optional<double> angle;
+  for (std::size_t from = 0, to = 0; to < all.size(); ++to) {  // a window of directions that are one
+    sum += all[to].length;
+    for (; all[to].angle - all[from].angle > same; ++from) sum -= all[from].length;
+    if (sum <= best) continue;
+    best = sum, longest = 0;
+    for (std::size_t i = from; i <= to; ++i)
+      if (all[i].length > longest) longest = all[i].length, angle = all[i].angle;
+  }
+  return angle;
 }
 
 std::optional<double> angle_along_strip(const Region& region, Um band) {

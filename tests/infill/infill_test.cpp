@@ -166,6 +166,25 @@ TEST_CASE("infill: every bead knows its part, ordered fills have a sequence of t
   CHECK(of_role[static_cast<std::size_t>(Role::bridge)] != of_role[static_cast<std::size_t>(Role::top_skin)]);
 }
 
+TEST_CASE("infill: lines run along walls, also where a longer edge that is no wall runs nearly so", "[infill]") {
+  const double angle = GENERATE(0.0, 30.0);
+  for (const Um slant : {-120, 120}) {  // 0.35° over 20 mm, which is longer than either piece of wall
+    CAPTURE(angle, slant);
+    const Region area{
+        {{0, 0}, {9000, 0}, {9000, 3000}, {11000, 3000}, {11000, 0}, {20000, 0}, {20000, 9000}, {0, 9000 + slant}}, {}};
+    for (const std::size_t layer : {0U, 1U}) {
+      const LayerAreas areas = solid_area(turned(area, degrees(angle)));
+      for (const Bead& bead : fill({}, {}, input(areas, layer)).beads)
+        for (std::size_t i = 1; i < bead.path.size(); ++i) {
+          const Point a = bead.path[i - 1].at, b = bead.path[i].at;
+          if (distance(a, b) < 4000) continue;
+          const double lean = std::atan2(b.y - a.y, b.x - a.x) - degrees(angle + (layer == 0 ? 0 : 90));
+          CHECK(std::abs(std::sin(lean)) < 0.004);  // between the edge and the next line one leans half as much
+        }
+    }
+  }
+}
+
 TEST_CASE("infill: bridges are strands of the nozzle's diameter", "[infill]") {
   LayerAreas areas(1);
   areas[0].bridges.push_back({{rectangle(0, 0, 20000, 10000)}, degrees(90)});
