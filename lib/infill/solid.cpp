@@ -20,7 +20,7 @@ using namespace weft::literals;
 
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 constexpr double short_lines = 1.5;       // bands; shorter lines cannot turn
-constexpr double widest_strip = 2.4;      // bands across; wider strips are filled line by line
+constexpr double widest_pair = 2.4;       // bands across; wider strips are filled line by line
 constexpr double widest_strand = 1.35;    // bands, of a bead along a strip: one and a half nozzles, of lines of 1.125
 constexpr double narrowest_strand = 0.6;  // bands, of one of two
 constexpr double narrowest_side = 0.25;   // bands, of a line that an edge runs along
@@ -234,7 +234,7 @@ class Filler {
   /// How many lines from i on cross a strip of that many strands; none when the place is not a strip.
   std::pair<std::size_t, int> strip_at(std::span<const std::uint32_t> chain, std::size_t i) const {
     const double lines = about_across(chain, i) / lines_.spacing;
-    if (lines > widest_strip) return {0, 0};
+    if (lines > widest_pair) return {0, 0};
     const int strands = lines < widest_strand ? 1 : 2;
     bool turns = false;  // one of the lines is long enough to turn at
     std::size_t end = i;

@@ -118,15 +118,14 @@ std::optional<double> angle_along_walls(const Region& region) {
 }
 
 std::optional<double> angle_along_strip(const Region& region, Um band) {
-  constexpr double widest = 3.5;    // bands
   constexpr double straight = 0.8;  // of the edge
-  if (2e6 * area_mm2(region) > widest * band * edge_um(region)) return std::nullopt;
+  if (2e6 * area_mm2(region) > widest_strip * band * edge_um(region)) return std::nullopt;
   const EdgeDirection edge = direction_of_edge(region);
   return edge.share < straight ? std::nullopt : std::optional(edge.angle_rad);
 }
 
 bool is_strip(const Region& region, Um band) {
-  constexpr double widest = 3.5;       // bands, as belts and straight strips
+  constexpr double widest = 3.5;       // bands: of more rings the innermost are dabs where the strip bends
   constexpr double least_long = 6.25;  // edge² / 4 areas: of a strip four times as long as wide
   const double edge = edge_um(region), area = 1e6 * area_mm2(region);
   if (2 * area > widest * band * edge || edge * edge < 4 * least_long * area) return false;

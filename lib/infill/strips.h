@@ -7,6 +7,11 @@
 /// Areas that are narrow and long.
 namespace weft::infill {
 
+/// In lines: wider areas are filled across, or at an angle to their edge. A line at 45° across one of five lines is 3
+/// mm long with a nozzle of 0.4: at 60 mm/s and 3 m/s² the nozzle is at speed for half of it, and an extruder that
+/// lags by 40 ms is not there before its end. A line along the edge has neither.
+inline constexpr double widest_strip = 5.5;
+
 /// The direction (against X) of the longer axis of an area that is longer than wide, also where its edge follows the
 /// cells of a grid by steps.
 /// @param bend the most, µm, that it may stand out across that beyond its mean width; nothing: it may bend

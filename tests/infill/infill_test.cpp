@@ -113,9 +113,10 @@ TEST_CASE(
   CHECK(covered_mm2(infill::fill({}, {}, input(areas)).beads) == Approx(17.4 * 17.4).epsilon(0.005));
 }
 
-TEST_CASE("infill: lines run along a strip of up to three of them, on every layer", "[infill]") {
+TEST_CASE("infill: lines run along a strip of up to five of them, on every layer", "[infill]") {
   const double angle = GENERATE(0, 0.3, 1.2);
-  const LayerAreas strip = solid_area(turned(rectangle(0, 0, 30000, 1700), angle)),
+  const Um width = GENERATE(1700, 2400);
+  const LayerAreas strip = solid_area(turned(rectangle(0, 0, 30000, width), angle)),
                    area = solid_area(rectangle(0, 0, 30000, 6000));
   const auto longest = [](const LayerAreas& areas, std::size_t index) {  // a bead's mean line
     const Beads beads = infill::fill({}, {}, input(areas, index)).beads;
