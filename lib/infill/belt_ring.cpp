@@ -8,12 +8,12 @@
 namespace weft::infill {
 namespace {
 
-constexpr double looked_at = 10;       // bands: how deep
-constexpr double step_um = 200;        // along the wall: half a bead
-constexpr double mean_over_um = 4000;  // along the wall, of a belt's width: no line begins and ends for less
-constexpr double shortest_um = 2000;   // of a line, of a pause in it, and of what is no spike between belts
-constexpr double about_um = 500;       // that is about as long
-constexpr double doubt = 0.3;          // cells: nearer to a limit a mean by cells says nothing
+constexpr double looked_at = widest_strip + 2;  // bands: how deep
+constexpr double step_um = 200;                 // along the wall: half a bead
+constexpr double mean_over_um = 4000;           // along the wall, of a belt's width: no line begins and ends for less
+constexpr double shortest_um = 2000;            // of a line, of a pause in it, and of what is no spike between belts
+constexpr double about_um = 500;                // that is about as long
+constexpr double doubt = 0.3;                   // cells: nearer to a limit a mean by cells says nothing
 
 /// Whether a layer has a place and what is around it.
 bool surely_has(const Mask& cells, Point p) {
