@@ -140,8 +140,9 @@ double outlines_um(const Regions& regions) {
   return out;
 }
 
-/// Bodies that touch are one: where two faces lie on each other, each is cut and simplified by itself, and often made of
-/// other triangles, and between what comes of them is a crack through the part, which walls would follow on both sides.
+/// Bodies that touch are one: where two faces lie on each other, each is cut and simplified by itself, and often made
+/// of other triangles, and between what comes of them is a crack through the part, which walls would follow on both
+/// sides.
 Regions without_cracks(const Regions& solid, Um radius) {
   constexpr double least_um = 400;  // both sides of what is half as long as a bead is wide
   constexpr Um lap = 10;            // what is filled meets what it lies between
