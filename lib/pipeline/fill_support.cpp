@@ -95,16 +95,19 @@ class Layers {
     }
     return {areas, beads, line_};
   }
-  /// Where walls of narrow columns hang that are not the same as below, and what roofs lie on.
+  /// Where columns hang that are not the same as below, and what roofs lie on.
   std::vector<Point> hang_of_columns(std::size_t k) const {
     const auto under = below(k);
     if (under.empty()) return {};
-    Beads beads = under_roof_[k];
-    if (columns_) {
-      Beads walls = columns_->hollow_unlike(k, under.front());
-      std::move(walls.begin(), walls.end(), std::back_inserter(beads));
-    }
-    return beads.empty() ? std::vector<Point>{} : beneath(k).hanging(beads, span_).at;
+    auto [beads, lines] = columns_ ? columns_->unlike(k, under.front()) : SupportColumns::Unlike{};
+    beads.insert(beads.end(), under_roof_[k].begin(), under_roof_[k].end());
+    if (beads.empty() && lines.empty()) return {};
+    const Beneath on = beneath(k);
+    auto out = on.hanging(beads, span_).at;
+    // Lines get longer and shorter from level to level: their ends hold on to the rest, a whole new one does not.
+    const auto of_lines = on.hanging(lines, span_, 2 * span_).at;
+    out.insert(out.end(), of_lines.begin(), of_lines.end());
+    return out;
   }
   /// @param hang    of each layer places where beads above it hang
   /// @param filled  what each has laid: rungs end on that

@@ -350,6 +350,30 @@ TEST_CASE("support: a strip of roof beside the one below it lies on rungs betwee
   CHECK(below.hanging(filled[1].beads, 5000).um == 0);
 }
 
+TEST_CASE("support: where a column gets one more line, that lies on brackets") {
+  const auto s = fine_lines();
+  const auto column = [](Um low, int i) {
+    return level(2000 + 200 * i, 200, &support::SupportLayer::columns, {rectangle(0, low, 40000, 40000)});
+  };
+  const auto alone = pipeline::fill_support(s, {column(0, 0)}, {});
+  std::set<Um> rows;
+  for (const Bead& bead : alone.front().beads) rows.insert(bead.path[0].at.y);
+  REQUIRE(rows.size() > 10);
+  const Um next = *std::next(rows.begin(), 4);  // of the column above; the one below ends just before it
+  std::vector<support::SupportLayer> stack;
+  for (int i = 0; i < 15; ++i) stack.push_back(column(next + 20, i));
+  stack.push_back(column(next - 300, 15));
+  const auto filled = pipeline::fill_support(s, stack, {});
+  const auto hangs_mm = [&](bool on_brackets) {
+    Beads below = filled[14].beads;
+    if (!on_brackets) std::erase_if(below, [](const Bead& bead) { return bead.sequence != 0; });
+    return pipeline::Beneath({}, below, 400).hanging(filled[15].beads, 4000).um / 1000;
+  };
+  CHECK(hangs_mm(false) > 35);
+  CHECK(hangs_mm(true) < 5);
+  CHECK(std::none_of(filled[15].beads.begin(), filled[15].beads.end(), [](const Bead& b) { return b.sequence != 0; }));
+}
+
 TEST_CASE(
     "support: a roof that reaches beyond a column's last line lies on brackets, each grown out of the one below") {
   const auto s = fine_lines();
