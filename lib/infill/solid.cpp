@@ -159,19 +159,23 @@ class Filler {
   double length(std::uint32_t i) const { return all_[i].to - all_[i].from; }
   double y(std::uint32_t i) const { return lines_.y(all_[i].line); }
 
-  /// How far a line goes along itself to be that far from its edge.
-  double along_itself(std::uint32_t edge, double um) const {
+  /// Whether a line lies beside the edge that it ends at, and its neighbour fits itself to that.
+  bool is_along(std::uint32_t edge) const {
+    return sides_ && SideFit::along(outline_.points()[edge], outline_.points()[outline_.next(edge)]);
+  }
+  /// Of the angle between a line and its edge: not far along edges that are nearly parallel to it.
+  double sine_to(std::uint32_t edge) const {
     const Turned a = outline_.points()[edge], b = outline_.points()[outline_.next(edge)];
-    if (sides_ && SideFit::along(a, b)) return 0;  // it lies beside the edge there, and its neighbour fits itself to it
-    const double sine = std::abs(b.y - a.y) / std::hypot(b.x - a.x, b.y - a.y);
-    return um / std::max(sine, 0.4);  // not far along edges that are nearly parallel to it
+    return std::max(std::abs(b.y - a.y) / std::hypot(b.x - a.x, b.y - a.y), 0.4);
   }
   /// How far a line is prolonged to reach `overlap` beyond its edge.
-  double over(std::uint32_t edge) const { return along_itself(edge, style_.overlap_um); }
+  double over(std::uint32_t edge) const { return is_along(edge) ? 0 : style_.overlap_um / sine_to(edge); }
   /// How much less far it reaches where it does not turn.
   double kept_within(std::uint32_t i, bool right) const {
     if (!style_.ends_within) return 0;
-    const double back = along_itself(right ? all_[i].to_edge : all_[i].from_edge, lines_.spacing / 2);
+    const std::uint32_t edge = right ? all_[i].to_edge : all_[i].from_edge;
+    // Beside an edge that runs along it it is half as wide where it ends.
+    const double back = lines_.spacing / (is_along(edge) ? 4 : 2) / sine_to(edge);
     return std::min(back, (length(i) - least_left * lines_.spacing) / 2);
   }
 

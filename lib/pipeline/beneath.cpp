@@ -57,7 +57,7 @@ std::vector<Polyline> Beneath::hanging(const Bead& bead, Um span) const {
   return out;
 }
 
-Hanging Beneath::hanging(std::span<const Bead> beads, Um span) const {
+Hanging Beneath::hanging(std::span<const Bead> beads, Um span, Um least) const {
   Hanging out;
   for (const Bead& bead : beads)
     for (const Polyline& piece : hanging(bead, span)) {
@@ -67,7 +67,7 @@ Hanging Beneath::hanging(std::span<const Bead> beads, Um span) const {
         out.at.push_back(box.centre());
         continue;
       }
-      if (length < span / 4.0) continue;  // so short an end holds itself
+      if (length < least) continue;
       double next = apart / 2, along = 0;
       for (std::size_t i = 1; i < piece.size(); ++i) {
         along += distance(piece[i - 1], piece[i]);

@@ -25,7 +25,9 @@ class Beneath {
 
   /// What of beads has nothing below: no quarter of their width lies on anything. What crosses from one rest to another
   /// within a span does not count: a bead that is held at both ends sags little.
-  Hanging hanging(std::span<const Bead> beads, Um span) const;
+  Hanging hanging(std::span<const Bead> beads, Um span) const { return hanging(beads, span, span / 4); }
+  /// @param least  what of a bead that hangs is no longer holds itself; places are of longer ones
+  Hanging hanging(std::span<const Bead> beads, Um span, Um least) const;
   /// Whether a bead's middle there has a quarter of its width on something.
   bool lies(Point p) const;
 

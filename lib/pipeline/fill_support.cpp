@@ -37,6 +37,7 @@ class Layers {
       columns_.emplace(settings, layers, origin);
     else
       walled_ = tasks::parallel_map(layers.size(), [&](std::size_t k) { return fill_walled_columns(to_fill(k)); });
+    under_roof_ = tasks::parallel_map(layers.size(), [&](std::size_t k) { return fill_under_roof(to_fill(k)); });
   }
 
   std::vector<PrintedLayer> filled() && {
@@ -57,7 +58,11 @@ class Layers {
 
  private:
   SupportToFill to_fill(std::size_t k) const { return {settings_, layers_[k], origin_}; }
-  Beads columns_of(std::size_t k) const { return columns_ ? columns_->of(k) : walled_[k]; }
+  Beads columns_of(std::size_t k) const {
+    Beads out = columns_ ? columns_->of(k) : walled_[k];
+    out.insert(out.end(), under_roof_[k].begin(), under_roof_[k].end());
+    return out;
+  }
   /// The layers that one lies on, also where it must sag by half its height for that.
   std::vector<std::size_t> below(std::size_t k) const {
     const Um bottom = layers_[k].z - layers_[k].height, low = bottom - layers_[k].height / 2;
@@ -90,12 +95,19 @@ class Layers {
     }
     return {areas, beads, line_};
   }
-  /// Where walls of narrow columns hang that are not the same as below.
+  /// Where columns hang that are not the same as below, and what roofs lie on.
   std::vector<Point> hang_of_columns(std::size_t k) const {
     const auto under = below(k);
-    if (!columns_ || under.empty()) return {};
-    const Beads walls = columns_->hollow_unlike(k, under.front());
-    return walls.empty() ? std::vector<Point>{} : beneath(k).hanging(walls, span_).at;
+    if (under.empty()) return {};
+    auto [beads, lines] = columns_ ? columns_->unlike(k, under.front()) : SupportColumns::Unlike{};
+    beads.insert(beads.end(), under_roof_[k].begin(), under_roof_[k].end());
+    if (beads.empty() && lines.empty()) return {};
+    const Beneath on = beneath(k);
+    auto out = on.hanging(beads, span_).at;
+    // Lines get longer and shorter from level to level: their ends hold on to the rest, a whole new one does not.
+    const auto of_lines = on.hanging(lines, span_, 2 * span_).at;
+    out.insert(out.end(), of_lines.begin(), of_lines.end());
+    return out;
   }
   /// @param hang    of each layer places where beads above it hang
   /// @param filled  what each has laid: rungs end on that
@@ -124,7 +136,7 @@ class Layers {
   /// A bead holds itself one height out at 45°, and no further than it lies on the one below by a third of its width.
   RungsBelow& rungs_on(std::size_t k, const Beads& beads, std::optional<RungsBelow>& out) const {
     Regions area = layers_[k].columns;
-    append(area, layers_[k].roof), append(area, layers_[k].bottom);
+    append(area, layers_[k].roof), append(area, layers_[k].under_roof), append(area, layers_[k].bottom);
     const Um height = layers_[k].height;
     return out.emplace(
         beads, geometry::joined(area), beneath(k),
@@ -135,7 +147,7 @@ class Layers {
     PrintedLayer out;
     out.z = layer.z, out.height = layer.height, out.beads = std::move(beads);
     Regions all = layer.columns;
-    append(all, layer.branches), append(all, layer.roof), append(all, layer.bottom);
+    append(all, layer.branches), append(all, layer.roof), append(all, layer.under_roof), append(all, layer.bottom);
     append(all, layer.joists.area);
     out.outline = geometry::joined(all);
     if (out.outline.size() > 1) {
@@ -152,6 +164,7 @@ class Layers {
   Um line_, span_;
   std::optional<SupportColumns> columns_;  ///< without walls
   std::vector<Beads> walled_;              ///< columns with walls, by layer
+  std::vector<Beads> under_roof_;          ///< by layer
 };
 
 }  // namespace

@@ -47,16 +47,18 @@ class Filler {
         origin_(what.origin),
         line_(support::line_width(s_, what.settings.machine.nozzle_diameter)),
         span_(support::roof_span(what.settings.machine.nozzle_diameter)),
+        short_span_(span_ * 6 / 10),
         between_feet_(support::between_feet(what.settings.machine.nozzle_diameter)),
         band_(flow::band(line_, layer_.height)),
         usual_band_(std::max<Um>(flow::band(line_, what.settings.layers.layer_height), 1)) {}
 
-  /// @param columns  what `column` made of the layer's
+  /// @param columns  what `column` and `under_roof` made of the layer's
   /// @param below    what the layer lies on
   SupportBeads filled(Beads columns, const Beneath& below) && {
     beads_ = std::move(columns), below_ = &below;
     branches();
-    for (const Regions* areas : {&layer_.bottom, &layer_.roof}) interface(*areas);
+    interface(layer_.bottom, across());
+    interface(layer_.roof, s_.support_infill_angle);
     joists();
     beads_ = on_feet(std::move(beads_), layer_.feet, {.foot = support::foot_length(line_), .apart = between_feet_});
     for (Bead& bead : beads_) {
@@ -70,6 +72,13 @@ class Filler {
   Beads walled() && {
     sparse(loops(layer_.columns, s_.support_wall_count.value_or(0), Role::support), share(), s_.support_pattern,
            s_.support_infill_angle, Role::support);
+    return std::move(beads_);
+  }
+  /// What a roof's strands lie on.
+  Beads under_roof() && {
+    const bool joined = s_.support_interface_pattern != SupportPattern::lines;
+    sparse(layer_.under_roof, support::under_roof_share(s_), joined ? SupportPattern::zigzag : SupportPattern::lines,
+           across(), Role::support);
     return std::move(beads_);
   }
   /// A column without walls: hollow where it is narrow.
@@ -183,14 +192,22 @@ class Filler {
     }
   }
 
-  void interface(const Regions& areas) {
+  /// The direction across columns' lines.
+  double across() const { return s_.support_infill_angle + 90; }
+  /// Of beads from that one on.
+  void note_hanging(std::size_t from) {
+    if (below_->empty()) return;
+    const auto hanging = below_->hanging(laid(from), span_);
+    hang_at_.insert(hang_at_.end(), hanging.at.begin(), hanging.at.end());
+  }
+  void interface(const Regions& areas, double angle) {
     const double share = s_.support_interface_density / 100;
     const Regions inner = loops(areas, s_.support_roof_wall_count, Role::support_interface);
     if (share < dense) {
-      sparse(inner, share, s_.support_interface_pattern, s_.support_infill_angle + 90, Role::support_interface);
+      sparse(inner, share, s_.support_interface_pattern, angle, Role::support_interface);
       return;
     }
-    constexpr Um half = 1500;  // of what is narrow
+    constexpr Um half = support::narrow_roof / 2;
     for (const Region& area : inner) {
       const Box box = box_of(area.outer);
       const Regions wide = std::min(box.size().x, box.size().y) > 2 * half ? wider({area}, half) : Regions{};
@@ -200,24 +217,21 @@ class Filler {
       }
       const Regions reached = coarsely(wide, half / 2);
       const std::size_t from = beads_.size();
-      solid(geometry::intersect({area}, reached), s_.support_infill_angle + 90, Role::support_interface,
+      solid(geometry::intersect({area}, reached), angle, Role::support_interface,
             row_of(pattern_rows, s_.support_interface_pattern).connect);
-      if (!below_->empty()) {
-        const auto hanging = below_->hanging(laid(from), span_);
-        hang_at_.insert(hang_at_.end(), hanging.at.begin(), hanging.at.end());
-      }
+      note_hanging(from);
       narrow(geometry::opening(geometry::subtract({area}, reached), band_ / 4));
     }
   }
   /// Strands from rim to rim of what is that narrow lie on little, beads along it cross what is below; but where many
-  /// of these hang, as between two lines of a column, strands across lie on it every so often.
+  /// of these hang, as between two lines, strands across these lie on them every so often.
   void narrow(const Regions& areas) {
     for (const Region& area : areas) {
       stop_if_asked();
       const std::size_t from = beads_.size();
       loops({area}, most_loops, Role::support_interface);
       if (below_->empty()) continue;
-      const auto hanging = better_across(area, from, below_->hanging(laid(from), span_));
+      const auto hanging = better_across(area, from, below_->hanging(laid(from), short_span_));
       hang_at_.insert(hang_at_.end(), hanging.at.begin(), hanging.at.end());
     }
   }
@@ -227,13 +241,15 @@ class Filler {
   Hanging better_across(const Region& area, std::size_t from, Hanging of_along) {
     constexpr double many = 0.3;
     const auto begin = static_cast<std::ptrdiff_t>(from);
-    if (of_along.um < span_ || of_along.um < many * length_um(laid(from))) return of_along;
+    if (of_along.um < short_span_ || of_along.um < many * length_um(laid(from))) return of_along;
     Beads along(std::make_move_iterator(beads_.begin() + begin), std::make_move_iterator(beads_.end()));
     beads_.erase(beads_.begin() + begin, beads_.end());
-    solid({area}, s_.support_infill_angle + 90, Role::support_interface);
-    Hanging across = below_->hanging(laid(from), span_);
-    if (2 * across.um < of_along.um) return across;
-    beads_.erase(beads_.begin() + begin, beads_.end());
+    for (const double angle : {s_.support_infill_angle, across()}) {
+      solid({area}, angle, Role::support_interface);
+      Hanging of_across = below_->hanging(laid(from), short_span_);
+      if (2 * of_across.um < of_along.um) return of_across;
+      beads_.erase(beads_.begin() + begin, beads_.end());
+    }
     std::move(along.begin(), along.end(), std::back_inserter(beads_));
     return of_along;
   }
@@ -343,7 +359,8 @@ class Filler {
   const support::SupportLayer& layer_;
   Point origin_;
   Um line_;
-  Um span_;  ///< what a bead crosses without sagging
+  Um span_;        ///< what a bead crosses without sagging
+  Um short_span_;  ///< … one that nothing but the part lies on
   Um between_feet_, band_;
   Um usual_band_;  ///< at layer_height: what shares are of, so that lines of layers of any height lie on each other
   const Beneath* below_ = nullptr;
@@ -359,6 +376,10 @@ Beads fill_column(const SupportToFill& what, const Region& column) {
 
 Beads fill_walled_columns(const SupportToFill& what) {
   return Filler(what).walled();
+}
+
+Beads fill_under_roof(const SupportToFill& what) {
+  return Filler(what).under_roof();
 }
 
 SupportBeads fill_support_layer(const SupportToFill& what, Beads columns, const Beneath& below) {

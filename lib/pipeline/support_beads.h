@@ -26,7 +26,9 @@ struct SupportToFill {
 Beads fill_column(const SupportToFill& what, const Region& column);
 /// A layer's columns, which have walls.
 Beads fill_walled_columns(const SupportToFill& what);
-/// @param columns  what became of the layer's
+/// The strands across a layer's columns that a roof lies on.
+Beads fill_under_roof(const SupportToFill& what);
+/// @param columns  what became of the layer's, with what a roof lies on
 /// @param below    what the layer lies on
 SupportBeads fill_support_layer(const SupportToFill& what, Beads columns, const Beneath& below);
 

@@ -41,12 +41,11 @@ Beads SupportColumns::of(std::size_t layer) const {
   return out;
 }
 
-Beads SupportColumns::hollow_unlike(std::size_t layer, std::size_t other) const {
-  Beads out;
+SupportColumns::Unlike SupportColumns::unlike(std::size_t layer, std::size_t other) const {
+  Unlike out;
   for (const std::size_t i : like_[layer])
     if (std::find(like_[other].begin(), like_[other].end(), i) == like_[other].end())
-      std::copy_if(filled_[i].begin(), filled_[i].end(), std::back_inserter(out),
-                   [](const Bead& b) { return b.closed; });
+      for (const Bead& bead : filled_[i]) (bead.closed ? out.walls : out.lines).push_back(bead);
   return out;
 }
 

@@ -16,8 +16,11 @@ class SupportColumns {
   SupportColumns(const Settings& settings, const std::vector<support::SupportLayer>& layers, Point origin);
 
   Beads of(std::size_t layer) const;
-  /// Of the same those that go round, as narrow ones do, and are like none of that layer.
-  Beads hollow_unlike(std::size_t layer, std::size_t other) const;
+  struct Unlike {
+    Beads walls, lines;
+  };
+  /// Of the same those of columns that are like none of that layer: what goes round, as narrow ones do, and the rest.
+  Unlike unlike(std::size_t layer, std::size_t other) const;
 
  private:
   struct Place {

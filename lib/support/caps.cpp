@@ -67,6 +67,7 @@ class Capper {
     const Box near = box_of(shape).grown(line_);
     const SupportLayer& base = levels_[k];
     Regions roof = geometry::trimmed(base.roof, near);
+    append(roof, geometry::trimmed(base.under_roof, near));
     if (room_.settings().support_roof_enable) append(roof, geometry::trimmed(base.joists.area, near));
     const Regions barred = geometry::trimmed(others, near);
     Regions free = room_.free_part(shape, lies, contact);

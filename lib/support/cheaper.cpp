@@ -77,22 +77,23 @@ class Guess {
     return area_mm2(grown(standing, s_.support_brim_width)) * to_mm(stack_.levels.front().height) *
            s_.support_initial_layer_density / 100;
   }
-  /// Either has a roof. On a column it takes the place of what fills it; on branches most of its lowest level is free
-  /// where it is wider than the loop along its rim, and strips of a slope lie on loops of their own.
+  /// Either has a roof. On a column it takes the place of what fills it, and its lowest level is strands far apart or
+  /// rungs; on branches most of that is free where it is wider than the loop along its rim, and strips of a slope lie
+  /// on loops of their own.
   double roof_mm3(const Patch& patch) const {
     if (!s_.support_roof_enable || s_.support_roof_height <= 0) return 0;
     constexpr double joists = 0.2;
-    constexpr Um narrow = 3_mm;
     double mm2 = 0, wide_mm2 = 0, loops_mm = 0;
     for (const auto& [k, regions] : patch.contacts) {
       mm2 += area_mm2(regions);
       for (const Region& region : regions)
-        if (const Point size = box_of(region.outer).size(); std::min(size.x, size.y) > narrow)
-          wide_mm2 += area_mm2(opened({region}, narrow / 2));
+        if (const Point size = box_of(region.outer).size(); std::min(size.x, size.y) > narrow_roof)
+          wide_mm2 += area_mm2(opened({region}, narrow_roof / 2));
       for (const Region& region : regions) loops_mm += perimeter_of(region.outer) / 1000;
     }
+    const double free_mm2 = wide_mm2 * (1 - joists) - loops_mm * to_mm(line_) - mm2 * (1 - under_roof_share(s_));
     return mm2 * to_mm(s_.support_roof_height) * s_.support_infill_rate / 100 -
-           (wide_mm2 * (1 - joists) - loops_mm * to_mm(line_)) * to_mm(most_height(s_, room_.object().nozzle));
+           free_mm2 * to_mm(most_height(s_, room_.object().nozzle));
   }
 
   const Room& room_;
@@ -143,8 +144,8 @@ Split cheaper(const Room& room, const Stack& stack, const std::vector<Regions>& 
       });
   });
   // Under a mushroom a mm³ of branches takes a third longer than one of columns: at three quarters of the plastic they
-  // take the same time, and more of their roofs spans from tip to tip.
-  constexpr double worth_branches = 0.7;
+  // take the same time.
+  constexpr double worth_branches = 0.75;
   std::vector<double> least_mm3(all.size(), 0);  // for which branches are not taken
   for (const std::size_t i : asked) least_mm3[i] = worth_branches * *columns_mm3[i];
   const auto by_branches_mm3 = branches_mm3(room, stack, *out.field, wide, patches, least_mm3);

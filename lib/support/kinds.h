@@ -9,7 +9,7 @@ namespace weft::support {
 
 /// The kinds of areas of a layer of support that are filled as a whole.
 inline constexpr std::array kinds{&SupportLayer::columns, &SupportLayer::branches, &SupportLayer::roof,
-                                  &SupportLayer::bottom};
+                                  &SupportLayer::under_roof, &SupportLayer::bottom};
 
 /// All that a layer of support covers; neighbours may touch.
 inline Regions all_areas(const SupportLayer& layer) {

@@ -78,6 +78,15 @@ inline Um hollow_column(Um line, double share) {
   return rounded(0.6 * (share > 0 ? line / share : line * 10.0));
 }
 
+/// Roofs narrower than that are beads along them.
+inline constexpr Um narrow_roof = 3_mm;
+
+/// The share of plastic of the strands that a roof on columns lies on: two beads' width between one and the next, which
+/// the thinnest cap crosses.
+inline double under_roof_share(const SupportSettings& s) {
+  return std::min(s.support_interface_density, std::max(100.0 / 3, s.support_infill_rate)) / 100;
+}
+
 /// How far from the next branch a place under such a roof may lie. No two neighbours are then further from each other
 /// than twice that, and those of a lattice of triangles 1.6 times.
 inline Um roof_covers(const BranchStyle& style, Um nozzle) {

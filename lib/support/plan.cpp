@@ -65,14 +65,15 @@ class Interfaces {
     const auto& level = stack_.levels[k];
     SupportLayer out{level.z, level.height, standing, {}, {}, {}, k == 0 && !room_.object().on_raft, {}};
     if (standing.empty()) return out;
-    if (s_.support_roof_enable && s_.support_roof_height > 0) out.roof = roof(k, standing);
+    if (s_.support_roof_enable && s_.support_roof_height > 0) add_roof(k, standing, out);
     if (s_.support_bottom_enable && level.bottom() > room_.object().floor) {
       out.bottom = bottom(level, standing);
-      if (!out.roof.empty()) out.bottom = geometry::subtract(out.bottom, out.roof);
+      for (const Regions* roof : {&out.roof, &out.under_roof})
+        if (!roof->empty()) out.bottom = geometry::subtract(out.bottom, *roof);
     }
-    if (out.roof.empty() && out.bottom.empty()) return out;
     Regions dense = out.roof, sparse;
-    append(dense, out.bottom);
+    append(dense, out.under_roof), append(dense, out.bottom);
+    if (dense.empty()) return out;
     for (Region& column : out.columns) {
       const Regions near = geometry::trimmed(dense, box_of(column.outer).grown(1));
       if (near.empty())
@@ -85,18 +86,25 @@ class Interfaces {
   }
 
  private:
-  Regions roof(std::size_t k, const Regions& standing) const {
-    Regions held;
+  /// Of each roof the lowest level is strands that its own lie across. A narrow one lies on the walls of its column,
+  /// and on rungs between them.
+  void add_roof(std::size_t k, const Regions& standing, SupportLayer& out) const {
+    Regions held, lowest;
     for (std::size_t j = k; j < stack_.levels.size(); ++j) {
       if (stack_.levels[j].bottom() >= stack_.levels[k].z + s_.support_roof_height + 2 * room_.object().nozzle) break;
-      if (!contacts_[j].empty() &&
-          j - k < interface_levels(stack_, j, std::max<Um>(s_.support_roof_height - caps_[j], 1)))
-        append(held, contacts_[j]);
+      if (contacts_[j].empty()) continue;
+      const std::size_t levels = roof_levels(stack_, j, caps_[j], s_.support_roof_height);
+      if (j - k < levels) append(j - k + 1 < levels ? held : lowest, contacts_[j]);
     }
-    if (held.empty()) return {};
     if (held.size() > 1) held = geometry::unite(held);
-    thicken(held, held, line_);
-    return geometry::intersect(standing, held);
+    if (!held.empty()) {
+      thicken(held, held, line_);
+      out.roof = geometry::intersect(standing, held);
+    }
+    if (lowest.empty()) return;
+    if (!out.roof.empty()) lowest = geometry::subtract(lowest, out.roof);
+    lowest = without_thin(lowest, narrow_roof / 2);
+    if (!lowest.empty()) out.under_roof = geometry::intersect(standing, lowest);
   }
   Regions bottom(const Stack::Level& level, const Regions& standing) const {
     const Um height = s_.support_bottom_height.value_or(s_.support_roof_height), low = level.bottom() - bottom_gap(s_);
@@ -118,7 +126,7 @@ void spread_first(const Room& room, const Stack& stack, SupportLayer& first) {
   const auto& object = room.object();
   if (object.on_raft) return;
   Regions all = first.columns;
-  append(all, first.roof), append(all, first.bottom);
+  append(all, first.roof), append(all, first.under_roof), append(all, first.bottom);
   Regions wide = all.empty() ? all : grown(geometry::unite(all), room.settings().support_brim_width);
   append(all, first.branches);  // which have a foot of their own
   if (all.empty()) return;
@@ -128,7 +136,7 @@ void spread_first(const Room& room, const Stack& stack, SupportLayer& first) {
   Regions dense = first.roof;
   append(dense, first.bottom);
   first.columns = dense.empty() ? wide : geometry::subtract(wide, dense);
-  first.branches.clear();
+  first.branches.clear(), first.under_roof.clear();
 }
 
 /// What is wanted, by how much of it support is near to.
@@ -308,9 +316,10 @@ void add_branches(const Room& room, std::size_t k, const Standing& standing, Sup
 /// What of a column has no room for a bead beside a roof is left out: what stands on that alone has nothing below.
 void let_columns_rest(const Room& room, const Stack& stack, std::vector<SupportLayer>& layers) {
   for (std::size_t k = 1; k < layers.size(); ++k) {
-    if (layers[k].columns.empty() || (layers[k - 1].roof.empty() && layers[k - 1].bottom.empty())) continue;
+    const SupportLayer& below = layers[k - 1];
+    if (layers[k].columns.empty() || (below.roof.empty() && below.under_roof.empty() && below.bottom.empty())) continue;
     stop_if_asked();
-    rest_on(room, stack.levels[k], all_areas(layers[k - 1]), layers[k].columns);
+    rest_on(room, stack.levels[k], all_areas(below), layers[k].columns);
   }
 }
 

@@ -41,7 +41,8 @@ double plastic_mm3(const SupportSettings& settings, Um nozzle, const Plan& plan)
     for (const Region& column : layer.columns)
       mm3 += layer.first ? area_mm2(column) * to_mm(layer.height) * settings.support_initial_layer_density / 100
                          : column_mm3(settings, nozzle, column, layer.height);
-    double mm2 = area_mm2(layer.roof) + area_mm2(layer.bottom);
+    double mm2 =
+        area_mm2(layer.roof) + area_mm2(layer.under_roof) * under_roof_share(settings) + area_mm2(layer.bottom);
     mm2 += loops_mm2(layer.branches, band) + loops_mm2(layer.joists.rimmed, band);
     for (const Polyline& joist : layer.joists.lines) mm2 += length_of(joist) / 1000 * to_mm(band);
     mm3 += mm2 * to_mm(layer.height);

@@ -191,12 +191,11 @@ Roofs::OfLevel Roofs::of_level(std::size_t level, const std::vector<Regions>& br
   if (lowest_[level].empty()) return out;
   Regions open = shaped(lowest_[level], level);
   if (!out.area.empty()) open = opened(geometry::subtract(open, grown(out.area, 20)), line * 4 / 10);
-  constexpr Um narrow = 3_mm;  // strands of a roof that narrow go along it
-  const bool along = out.area.empty() && opened(open, narrow / 2).empty();
+  const bool along = out.area.empty() && opened(open, narrow_roof / 2).empty();
   const bool one_way =
       !along && (s_.support_interface_pattern == SupportPattern::zigzag ||
                  s_.support_interface_pattern == SupportPattern::lines || s_.support_interface_density >= 99.5);
-  const JoistStyle style{.strands_rad = (s_.support_infill_angle + 90) * std::numbers::pi / 180,
+  const JoistStyle style{.strands_rad = s_.support_infill_angle * std::numbers::pi / 180,
                          .one_way = one_way,
                          .longest = 2 * roof_covers(branch_style(s_), o_.nozzle) + o_.nozzle,
                          .line = line};

@@ -119,4 +119,9 @@ std::size_t interface_levels(const Stack& stack, std::size_t level, Um height) {
   return std::max<std::size_t>(1, count);
 }
 
+std::size_t roof_levels(const Stack& stack, std::size_t level, Um cap, Um height) {
+  const bool is_capped = cap > 0 && 2 * cap >= stack.levels[level].height;
+  return std::max<std::size_t>(is_capped ? 1 : 2, interface_levels(stack, level, std::max<Um>(height - cap, 1)));
+}
+
 }  // namespace weft::support

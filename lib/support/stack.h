@@ -40,4 +40,8 @@ std::vector<Um> lowest_caps(const Stack& stack);
 /// How many levels, from that one down, an interface of that height takes.
 std::size_t interface_levels(const Stack& stack, std::size_t level, Um height);
 
+/// How many levels, from that one down, a roof of that height takes with the strands that it lies on, which are its
+/// lowest level: two, or one where a cap lies on it that is no less than half as high.
+std::size_t roof_levels(const Stack& stack, std::size_t level, Um cap, Um height);
+
 }  // namespace weft::support

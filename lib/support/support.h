@@ -59,13 +59,14 @@ struct Joists {
 /// One layer of support. Areas do not overlap.
 struct SupportLayer {
   Um z = 0, height = 0;
-  Regions columns;     ///< filled sparsely
-  Regions branches;    ///< hollow, with a wall
-  Regions roof;        ///< the interface under the part
-  Regions bottom;      ///< the interface over the part
-  bool first = false;  ///< it lies on the bed
-  Joists joists{};     ///< between branches and the roof above them
-  Regions feet{};      ///< where what stands on the part touches it by feet only
+  Regions columns;       ///< filled sparsely
+  Regions branches;      ///< hollow, with a wall
+  Regions roof;          ///< the interface under the part
+  Regions bottom;        ///< the interface over the part
+  bool first = false;    ///< it lies on the bed
+  Joists joists{};       ///< between branches and the roof above them
+  Regions under_roof{};  ///< strands across what fills columns, on which a roof's strands lie
+  Regions feet{};        ///< where what stands on the part touches it by feet only
 };
 
 struct Figures {

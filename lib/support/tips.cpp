@@ -122,25 +122,26 @@ class Placer {
  private:
   bool is_free(Point p) const { return field_.to_anything(slab_, p) >= radius_; }
   void put(Point p) { out_.push_back(p), hold(p); }
+  /// Its rows lie across the strands of a roof.
   void lattice(const geometry::SegmentIndex& inside, Um across, Um up) {
     const auto floor_div = [](Um v, Um by) { return v >= 0 ? v / by : -((-v + by - 1) / by); };
     const Point from = field_.origin();  // the lattice goes with the object
     const Box box = box_of(contact_);
-    for (Um row = floor_div(box.min.y - from.y, up); row * up <= box.max.y - from.y; ++row) {
+    for (Um row = floor_div(box.min.x - from.x, up); row * up <= box.max.x - from.x; ++row) {
       stop_if_asked();
-      const Um y = row * up + from.y, shift = from.x + (row % 2 != 0 ? across / 2 : 0);
-      for (const auto& [begin, end] : boxes_at(y))
-        for (Um column = floor_div(begin - shift - 1, across) + 1; column * across + shift <= end; ++column) {
-          const Point p{column * across + shift, y};
+      const Um x = row * up + from.x, shift = from.y + (row % 2 != 0 ? across / 2 : 0);
+      for (const auto& [begin, end] : boxes_at(x))
+        for (Um place = floor_div(begin - shift - 1, across) + 1; place * across + shift <= end; ++place) {
+          const Point p{x, place * across + shift};
           if (!held_.any(p) && is_free(p) && inside.region_at(p)) put(p);
         }
     }
   }
-  /// From where to where regions' boxes reach at that height, ascending.
-  std::vector<std::pair<Um, Um>> boxes_at(Um y) const {
+  /// From where to where regions' boxes reach there, ascending.
+  std::vector<std::pair<Um, Um>> boxes_at(Um x) const {
     std::vector<std::pair<Um, Um>> out;
     for (const Box& box : boxes_)
-      if (box.min.y <= y && y <= box.max.y) out.emplace_back(box.min.x, box.max.x);
+      if (box.min.x <= x && x <= box.max.x) out.emplace_back(box.min.y, box.max.y);
     std::sort(out.begin(), out.end());
     std::size_t kept = 0;
     for (const auto& [begin, end] : out) {

@@ -78,6 +78,21 @@ TEST_CASE("solid: with ends_within a strand along a strip keeps its round ends i
   CHECK(ends(false) < ends(true) - 100);
 }
 
+TEST_CASE("solid: with ends_within a line that ends at an edge nearly along it keeps its end off that", "[infill]") {
+  constexpr Um band = 430, side = 12000;
+  const double lean = GENERATE(0.15, 0.25, 0.35, 0.45);  // of the edge against the lines
+  CAPTURE(lean);
+  const Region wedge{{{0, 0}, {side, 0}, {side, rounded(side * std::tan(lean))}}, {}};
+  const auto off = [&](bool within) {  // the least that a line's end is away from it
+    double least = side;
+    for (const Bead& bead : filled(wedge, {.band = band, .angle_rad = 0, .connect = false, .ends_within = within}))
+      for (const Junction& j : {bead.path.front(), bead.path.back()})
+        if (length_mm(bead) > 2) least = std::min(least, j.at.x * std::sin(lean) - j.at.y * std::cos(lean));
+    return least;
+  };
+  CHECK(off(true) > off(false) + 20);
+}
+
 TEST_CASE("solid: lines lie side by side without gap and without overlap", "[infill][law]") {
   const double angle = GENERATE(0.0, 45.0, 77.0);
   const Beads beads = filled(rectangle(0, 0, 8000, 5000), {.band = 430, .angle_rad = degrees(angle)});

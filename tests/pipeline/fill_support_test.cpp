@@ -290,6 +290,41 @@ TEST_CASE(
   CHECK(rungs > 10);
 }
 
+TEST_CASE("support: a roof lies on strands across its column's lines, and its own across these") {
+  for (const double angle : {0.0, 30.0})
+    for (const double density : {100.0, 60.0, 20.0}) {
+      CAPTURE(angle, density);
+      auto s = fine_lines();
+      s.support.support_infill_angle = angle, s.support.support_interface_density = density;
+      const Regions area{rectangle(0, 0, 40000, 30000)};
+      std::vector<support::SupportLayer> stack;
+      for (int i = 0; i < 15; ++i)  // so that brackets grow out of it
+        stack.push_back(level(2000 + 200 * i, 200, &support::SupportLayer::columns, area));
+      stack.push_back(level(5000, 200, &support::SupportLayer::under_roof, area));
+      stack.push_back(level(5200, 200, &support::SupportLayer::roof, area));
+      const auto filled = pipeline::fill_support(s, stack, {});
+      const auto hangs_mm = [&](std::size_t k, Um span) {
+        return pipeline::Beneath({}, filled[k - 1].beads, 400).hanging(filled[k].beads, span).um / 1000;
+      };
+      for (std::size_t k = 14; k <= 16; ++k) {
+        const double along = (angle + (k == 15 ? 90 : 0)) * std::numbers::pi / 180;
+        std::size_t strands = 0;
+        for (const Bead& bead : filled[k].beads) {
+          if (bead.sequence != 0) continue;  // a rung
+          ++strands;
+          CHECK(bead.role == (k == 16 ? Role::support_interface : Role::support));
+          const Point a = bead.path.front().at, b = bead.path.back().at;
+          CHECK(std::abs((b.x - a.x) * std::sin(along) - (b.y - a.y) * std::cos(along)) < 5);
+        }
+        constexpr double end_mm = 1.2;  // a quarter of a span holds itself
+        if (k > 14) CHECK(hangs_mm(k, 4000) < 2 * end_mm * static_cast<double>(strands));
+      }
+      CHECK(mm3_of(filled[15]) == Approx(40 * 30 * 0.2 * std::min(density / 100, 1.0 / 3)).epsilon(0.05));
+      // From one to the next a strand of a dense roof crosses two beads' width; its ends are no longer.
+      if (density > 99) CHECK(hangs_mm(16, 700) < 0.7 * 2 * static_cast<double>(filled[16].beads.size()));
+    }
+}
+
 TEST_CASE("support: a strip of roof beside the one below it lies on rungs between that and the next line") {
   const auto s = fine_lines();
   auto of_column = level(2000, 200, &support::SupportLayer::columns, {rectangle(0, 0, 40000, 40000)});
@@ -313,6 +348,30 @@ TEST_CASE("support: a strip of roof beside the one below it lies on rungs betwee
   CHECK(rungs >= 5);
   const pipeline::Beneath below({}, filled.front().beads, 400);
   CHECK(below.hanging(filled[1].beads, 5000).um == 0);
+}
+
+TEST_CASE("support: where a column gets one more line, that lies on brackets") {
+  const auto s = fine_lines();
+  const auto column = [](Um low, int i) {
+    return level(2000 + 200 * i, 200, &support::SupportLayer::columns, {rectangle(0, low, 40000, 40000)});
+  };
+  const auto alone = pipeline::fill_support(s, {column(0, 0)}, {});
+  std::set<Um> rows;
+  for (const Bead& bead : alone.front().beads) rows.insert(bead.path[0].at.y);
+  REQUIRE(rows.size() > 10);
+  const Um next = *std::next(rows.begin(), 4);  // of the column above; the one below ends just before it
+  std::vector<support::SupportLayer> stack;
+  for (int i = 0; i < 15; ++i) stack.push_back(column(next + 20, i));
+  stack.push_back(column(next - 300, 15));
+  const auto filled = pipeline::fill_support(s, stack, {});
+  const auto hangs_mm = [&](bool on_brackets) {
+    Beads below = filled[14].beads;
+    if (!on_brackets) std::erase_if(below, [](const Bead& bead) { return bead.sequence != 0; });
+    return pipeline::Beneath({}, below, 400).hanging(filled[15].beads, 4000).um / 1000;
+  };
+  CHECK(hangs_mm(false) > 35);
+  CHECK(hangs_mm(true) < 5);
+  CHECK(std::none_of(filled[15].beads.begin(), filled[15].beads.end(), [](const Bead& b) { return b.sequence != 0; }));
 }
 
 TEST_CASE(

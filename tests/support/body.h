@@ -48,7 +48,7 @@ inline SupportSettings on(SupportStructure structure = SupportStructure::normal)
 
 inline Regions all_of(const support::SupportLayer& layer) {
   Regions out;
-  for (const auto* regions : {&layer.columns, &layer.branches, &layer.roof, &layer.bottom})
+  for (const auto* regions : {&layer.columns, &layer.branches, &layer.roof, &layer.under_roof, &layer.bottom})
     out.insert(out.end(), regions->begin(), regions->end());
   out.insert(out.end(), layer.joists.area.begin(), layer.joists.area.end());
   return geometry::unite(out);

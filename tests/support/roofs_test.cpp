@@ -3,6 +3,7 @@
 #include "geometry/clip_lines.h"
 #include "geometry/spatial_index.h"
 
+#include <tuple>
 #include <utility>
 
 #include <catch2/catch.hpp>
@@ -33,11 +34,11 @@ TEST_CASE("support: every strand of a roof over branches lies on joists, and eve
   // Of joists 6.05 from branch to branch, of strands two triangles of tips one behind the other.
   constexpr double longest_mm = 7.5;
   constexpr double hangs_on_others_mm = 1;  // a strand no longer than that, by its neighbours in the zigzag
-  const Region post = rectangle(-2000, -2000, 2000, 2000), wall = rectangle(10300, -10000, 16000, 10000);
+  const Region post = rectangle(-2000, -2000, 2000, 2000), wall = rectangle(-10000, 10300, 10000, 16000);
   // Beside a wall no branch stands, and strands run along it.
-  for (const auto& [stem, outline] : {std::pair{post, rectangle(-20000, -10000, 20000, 10000)},
+  for (const auto& [stem, outline] : {std::pair{post, rectangle(-10000, -20000, 10000, 20000)},
                                       std::pair{post, rectangle(-14000, -14000, 14000, 14000)},
-                                      std::pair{wall, rectangle(-20000, -10000, 16000, 10000)}}) {
+                                      std::pair{wall, rectangle(-10000, -20000, 10000, 16000)}}) {
     Body body;
     body.add(50, {stem});
     body.add(10, {outline});
@@ -49,7 +50,7 @@ TEST_CASE("support: every strand of a roof over branches lies on joists, and eve
       ++roofs;
       const Regions rim = geometry::subtract(joists.rimmed, geometry::offset(joists.rimmed, {.by = -400}));
       std::vector<Polyline> strands;
-      for (Um x = -19900; x < 20000; x += 400) strands.push_back({{x, -30000}, {x, 30000}});
+      for (Um y = -19900; y < 20000; y += 400) strands.push_back({{-30000, y}, {30000, y}});
       const auto carried = [&](const std::vector<Polyline>& lines, const Regions& on) {
         for (const auto& line : lines) {
           if (length_of(line) / 1000 > hangs_on_others_mm)
@@ -91,4 +92,47 @@ TEST_CASE("support: a branch stands on a floor, also where nothing spreads on th
     CHECK(area_mm2(plan.layers[0].columns) > 40);
     CHECK_FALSE(plan.layers[1].branches.empty());
   }
+}
+
+TEST_CASE("support: a roof on a column is dense but for its lowest level, and one that is narrow lies on the column") {
+  struct Levels {
+    std::size_t dense = 0, under = 0;
+    double dense_mm2 = 0, under_mm2 = 0;
+  };
+  const auto of = [](const SupportSettings& s, const Region& plate, Um nozzle) {
+    Body body;
+    body.add(50, {rectangle(0, 0, 4000, 4000)});
+    body.add(10, {rectangle(0, 0, 4000, 4000), plate});
+    auto object = body.object();
+    object.nozzle = nozzle;
+    Levels out;
+    bool ended = false;  // going up, nothing that carries a roof lies on it
+    for (const auto& layer : support::plan(s, object, support::demand(s, object)).layers) {
+      if (!layer.roof.empty()) ++out.dense, out.dense_mm2 = area_mm2(layer.roof), ended = true;
+      if (layer.under_roof.empty()) continue;
+      CHECK_FALSE(ended);
+      CHECK(layer.columns.empty());
+      ++out.under, out.under_mm2 = area_mm2(layer.under_roof);
+    }
+    return out;
+  };
+  const Region wide = rectangle(10000, 0, 30000, 20000), narrow = rectangle(10000, 0, 12500, 20000);
+  auto s = on();
+  for (const auto& [height, nozzle, dense] : {std::tuple{600, 400, 1}, std::tuple{300, 400, 1}, std::tuple{900, 400, 2},
+                                              std::tuple{600, 600, 1}, std::tuple{100, 400, 1}}) {
+    CAPTURE(height, nozzle);
+    s.support_roof_height = height;
+    const Levels levels = of(s, wide, nozzle);
+    CHECK(levels.dense == static_cast<std::size_t>(dense));
+    CHECK(levels.under == 1);
+    CHECK(levels.dense_mm2 == Approx(400).epsilon(0.02));
+    CHECK(levels.under_mm2 == Approx(400).epsilon(0.02));
+    const Levels lone = of(s, narrow, nozzle);
+    CHECK(lone.dense == static_cast<std::size_t>(dense));
+    CHECK(lone.under == 0);
+  }
+  s = on(), s.support_synchronize_layers = true;  // levels of 0.2 mm
+  CHECK(of(s, wide, 400).dense == 2);
+  s.support_roof_enable = false;
+  CHECK(of(s, wide, 400).under + of(s, wide, 400).dense == 0);
 }

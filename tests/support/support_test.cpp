@@ -15,13 +15,15 @@ using namespace weft::test;
 
 namespace {
 
-/// Plastic, about: columns are filled to 15 %, interfaces wholly, branches are one loop of 0.4 mm.
+/// Plastic, about: columns are filled to 15 %, interfaces wholly, what they lie on to a third, branches are one loop of
+/// 0.4 mm.
 double plastic(const support::Plan& plan) {
   double mm3 = 0;
   for (const auto& layer : plan.layers) {
     double loops = 0;
     for (const auto& branch : layer.branches) loops += perimeter_of(branch.outer) / 1000;
-    mm3 += (0.15 * area_mm2(layer.columns) + area_mm2(layer.roof) + area_mm2(layer.bottom) + 0.4 * loops) *
+    mm3 += (0.15 * area_mm2(layer.columns) + area_mm2(layer.roof) + area_mm2(layer.under_roof) / 3 +
+            area_mm2(layer.bottom) + 0.4 * loops) *
            to_mm(layer.height);
   }
   return mm3;
