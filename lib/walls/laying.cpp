@@ -2,6 +2,7 @@
 #include "walls/laying.h"
 
 #include "core/stop.h"
+#include "walls/mitre.h"
 #include "walls/planner.h"
 
 #include <utility>
@@ -23,6 +24,7 @@ Laying Planner::run() {
   run_into_corners();
   out_.spans.reserve(edges_.size());
   for (const Edge& edge : edges_) out_.spans.push_back(edge.span);
+  mitre_inner_walls(s_, out_);
   return std::move(out_);
 }
 

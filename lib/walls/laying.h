@@ -4,6 +4,7 @@
 #include "walls/skeleton.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 /// Private to walls: which beads lie on each piece of the skeleton, and where.
@@ -20,10 +21,21 @@ struct Span {
   std::uint32_t at_start = 0, at_end = 0;  ///< where the bounds begin in Laying::bounds, for the ends of the even half
 };
 
+/// How inner walls bend around the foot of a rib that stands in a corner which points into the part.
+struct Mitre {
+  double out = 1;   ///< so many times as far from it as they were if they bent round
+  double axis = 0;  ///< how far from it the middle between the walls of both sides is; 0: where the axis is
+  /// They bend before the next rib: where a wall at a distance of 1 µm from the sides of the corner does, from its
+  /// foot.
+  std::optional<Place> bend{};
+};
+
 struct Laying {
   std::vector<Span> spans;  ///< by edge
   std::vector<double> bounds;
   std::vector<std::uint32_t> dots;  ///< a half that leaves a node which is all there is of a bead
+  /// By half, of the rib at its start.
+  std::vector<Mitre> mitres;
   /// Bounds at the start (end) of a half.
   const double* start(std::uint32_t half) const {
     const Span& s = spans[Skeleton::edge_of(half)];

@@ -2,9 +2,11 @@
 #include "walls/trace.h"
 
 #include "core/stop.h"
+#include "walls/mitre.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace weft::walls {
 namespace {
@@ -24,15 +26,22 @@ double fit(double area, double mean_width, double length) {
   return std::clamp(area / (mean_width * length), 0.5, 1.6);
 }
 
-/// One bead over one half: its two ends.
+/// One bead over one half: its two ends, and where between them it bends at once.
 struct Piece {
   Vertex start, end;
+  std::optional<Vertex> bend{};
 };
 
 Piece pair_piece(const Skeleton& s, const Laying& laying, std::uint32_t h, std::size_t i) {
   const double *a = laying.start(h), *b = laying.end(h);
   const auto start = s.start_rib(h), end = s.end_rib(h);
-  Piece p{{start.at((a[i] + a[i + 1]) / 2), a[i + 1] - a[i]}, {end.at((b[i] + b[i + 1]) / 2), b[i + 1] - b[i]}};
+  const bool inner = i > 0;  // an outer wall keeps its distance
+  const double out = inner ? laying.mitres[h].out : 1, out_end = inner ? laying.mitres[s.halves[h].next].out : 1;
+  Piece p{{start.at(out * (a[i] + a[i + 1]) / 2), a[i + 1] - a[i]},
+          {end.at(out_end * (b[i] + b[i + 1]) / 2), b[i + 1] - b[i]}};
+  if (const auto bend = bend_of(s, laying, h, (a[i] + a[i + 1] + b[i] + b[i + 1]) / 4); bend && inner)
+    p.bend = Vertex{*bend, (p.start.width + p.end.width) / 2};
+  if (out > 1 || out_end > 1) return p;
   const Span& span = laying.spans[h / 2];
   if (span.core || span.mouth || span.narrows) {
     const double area = quad_area(start.at(a[i]), end.at(b[i]), end.at(b[i + 1]), start.at(a[i + 1]));
@@ -190,7 +199,8 @@ std::vector<Line> trace_pairs(const Skeleton& s, const Laying& laying) {
       do {
         seen[first[h] + k] = 1;
         const Piece piece = pair_piece(s, laying, h, k);
-        append(loop.chains.back().path, piece.start, piece.end);
+        append(loop.chains.back().path, piece.start, piece.bend.value_or(piece.end));
+        if (piece.bend) lead_on(loop.chains.back().path, piece.end);
         std::uint32_t g = s.halves[h].next;
         while (laying.spans[g / 2].pairs <= i) g = s.halves[Skeleton::twin(g)].next;
         turned_last = false;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/stop.h"
+#include "walls/mitre.h"
 #include "walls/strip.h"
 #include "walls/stub.h"
 
@@ -146,30 +147,49 @@ class Tracer {
     for (std::size_t j = chain.size(); j-- > 0;) {
       const std::uint32_t t = Skeleton::twin(chain[j]);
       const std::size_t before = j > 0 ? j - 1 : chain.size() - 1;
-      left[j].push_back(side(t, true));
-      left[j].push_back(side(t, false));
+      add_side(t, left[j]);
       if (j > 0 || strip.closed) around(t, Skeleton::twin(chain[before]), left[j]);
       std::reverse(left[j].begin(), left[j].end());
     }
     for (std::size_t j = 0; j < chain.size(); ++j) {
       const std::uint32_t h = chain[j];
-      const auto& from = s_.start(h);
-      strip.add_axis(from.at, std::max(1.0, from.clearance - level(h, true)));
+      add_axis(h, strip);
       for (const Place p : left[j]) strip.add_left(p);
       std::vector<Place> right;  // what lies around a node goes with the piece behind it, as on the left
       if (j > 0 || strip.closed) around(chain[j > 0 ? j - 1 : chain.size() - 1], h, right);
-      right.push_back(side(h, true));
-      right.push_back(side(h, false));
+      add_side(h, right);
       for (const Place p : right) strip.add_right(p);
     }
     const auto& to = s_.end(chain.back());
     strip.add_axis(to.at, std::max(1.0, to.clearance - level(chain.back(), false)));
   }
 
+  /// The start of a half, or the middle between walls that are mitred there.
+  void add_axis(std::uint32_t h, Strip& strip) const {
+    const auto& node = s_.start(h);
+    Place sum{0, 0};
+    int mitred = 0;
+    double free = node.clearance - level(h, true);
+    for (const std::uint32_t g : {h, s_.halves[Skeleton::twin(h)].next}) {
+      const Mitre& mitre = laying_.mitres[g];
+      if (mitre.axis <= 0) continue;
+      const Place p = s_.on_start_rib(g, mitre.axis);
+      sum.x += p.x, sum.y += p.y, ++mitred;
+      free = std::min(free, mitre.axis / mitre.out - level(h, true));
+    }
+    strip.add_axis(mitred > 0 ? Place{sum.x / mitred, sum.y / mitred} : node.at, std::max(1.0, free));
+  }
+
+  void add_side(std::uint32_t h, std::vector<Place>& out) const {
+    out.push_back(side(h, true));
+    if (const auto bend = bend_of(s_, laying_, h, (level(h, true) + level(h, false)) / 2)) out.push_back(*bend);
+    out.push_back(side(h, false));
+  }
+
   Place side(std::uint32_t h, bool at_start) const {
-    const double d = level(h, at_start);
-    return at_start ? s_.on_start_rib(h, std::min(d, s_.start(h).clearance))
-                    : s_.on_end_rib(h, std::min(d, s_.end(h).clearance));
+    const double out = laying_.mitres[at_start ? h : s_.halves[h].next].out, d = out * level(h, at_start);
+    const auto rib = at_start ? s_.start_rib(h) : s_.end_rib(h);
+    return rib.at(out > 1 ? d : std::min(d, rib.top.clearance));
   }
 
   /// What lies right of the axis between the end of h and the start of g: corners are followed, mouths are passed.

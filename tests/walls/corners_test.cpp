@@ -98,3 +98,40 @@ TEST_CASE("walls: a wall in a corner keeps to the outline and leaves less bare b
     CHECK_FALSE(is_covered(walls, {-11, t}));
   }
 }
+
+TEST_CASE("walls: where a thin part bends all beads keep their widths", "[walls]") {
+  // Five beads. Angles between arms: a right one, a blunt one, and one of each hand.
+  for (const double degrees : {90.0, 120.0, 150.0, -110.0}) {
+    const double turn = degrees * std::numbers::pi / 180, half = 980, far = 10'000;
+    const auto on = [&](double along, double aside) {  // the second arm
+      const double side = turn > 0 ? aside : -aside;
+      return Point{rounded(along * std::cos(turn) - side * std::sin(turn)),
+                   rounded(along * std::sin(turn) + side * std::cos(turn))};
+    };
+    const double at = half / std::tan(std::abs(turn) / 2), sign = turn > 0 ? 1 : -1;
+    Ring ring{{rounded(far), rounded(-sign * half)},
+              {rounded(far), rounded(sign * half)},
+              {rounded(at), rounded(sign * half)},
+              on(far, -half),
+              on(far, half),
+              {rounded(-at), rounded(-sign * half)}};
+    if (sign < 0) std::reverse(ring.begin(), ring.end());
+    const WallLayer walls = walls_with(100, {ring, {}});
+    CAPTURE(degrees);
+    int middles = 0, inner = 0;
+    for (const Bead& bead : walls.beads) {
+      if (bead.inset == 0) continue;
+      Um least = 10_mm, most = 0, bends = 0;
+      for (const Junction& j : bead.path)
+        if (distance(j.at, {0, 0}) < 5_mm) least = std::min(least, j.width), most = std::max(most, j.width), ++bends;
+      CHECK(most < 1.1 * least);
+      CHECK(bends <= (bead.closed ? 4 : 5));
+      (bead.closed ? inner : middles) += 1;
+    }
+    CHECK(middles == 1);
+    CHECK(inner == 1);
+    // Nothing is bare but beside the outer wall, which goes round.
+    CHECK(is_covered(walls, {0, 0}));
+    CHECK(is_covered(walls, {rounded(-0.4 * at), rounded(-sign * 400)}));
+  }
+}
