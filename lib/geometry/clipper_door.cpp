@@ -2,6 +2,7 @@
 #include "geometry/clipper_door.h"
 
 #include "core/stop.h"
+#include "geometry/heaps.h"
 #include "geometry/nesting.h"
 #include "geometry/ring_chains.h"
 #include "geometry/simplify.h"
@@ -82,72 +83,6 @@ std::vector<Ring> settled(const ClipperLib::Paths& contours, std::int64_t coarse
   return out;
 }
 
-/// The box of a ring, on the fine grid.
-struct FineBox {
-  FinePoint min, max;
-};
-
-FineBox box_of(const FineRing& ring) {
-  FineBox box{ring.front(), ring.front()};
-  for (const auto p : ring) {
-    box.min = {std::min(box.min.x, p.x), std::min(box.min.y, p.y)};
-    box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y)};
-  }
-  return box;
-}
-
-/// Rings that cannot meet those of other heaps: a sweep over all of them at once would take rings^1.5 steps.
-/// Cuts between boxes, across and along in turn, as long as there is a gap to cut in. O(n log n).
-class Heaps {
- public:
-  Heaps(const FineRings& subject, const FineRings& clip) {
-    for (const auto* rings : {&subject, &clip})
-      for (const auto& ring : *rings)
-        if (!ring.empty()) items_.push_back({box_of(ring), &ring, rings == &clip});
-    cut(0, items_.size(), true, 0, false);
-  }
-
-  struct Item {
-    FineBox box;
-    const FineRing* ring;
-    bool clip;
-  };
-  std::size_t size() const { return ends_.size(); }
-  std::span<const Item> operator[](std::size_t i) const {
-    const std::size_t begin = i == 0 ? 0 : ends_[i - 1];
-    return {items_.data() + begin, ends_[i] - begin};
-  }
-
- private:
-  static constexpr std::size_t small = 16;        // is swept as fast as it is cut
-  static constexpr int deepest = 12;              // islands in rows and columns need two
-  static constexpr std::int64_t gap = 2 * steps;  // more than a corner moves when it is rounded
-
-  /// @param stuck there was no gap the other way
-  void cut(std::size_t begin, std::size_t end, bool across, int depth, bool stuck) {
-    if (begin == end) return;
-    if (end - begin <= small || depth == deepest) return ends_.push_back(end);
-    stop_if_asked();
-    const auto low = [&](const Item& i) { return across ? i.box.min.x : i.box.min.y; };
-    const auto high = [&](const Item& i) { return across ? i.box.max.x : i.box.max.y; };
-    std::stable_sort(items_.begin() + static_cast<std::ptrdiff_t>(begin),
-                     items_.begin() + static_cast<std::ptrdiff_t>(end),
-                     [&](const Item& a, const Item& b) { return low(a) < low(b); });
-    std::vector<std::size_t> cuts;
-    std::int64_t reach = high(items_[begin]);
-    for (std::size_t i = begin + 1; i < end; ++i) {
-      if (low(items_[i]) > reach + gap) cuts.push_back(i);
-      reach = std::max(reach, high(items_[i]));
-    }
-    if (cuts.empty() && stuck) return ends_.push_back(end);
-    cuts.push_back(end);
-    for (const auto next : cuts) cut(std::exchange(begin, next), next, !across, depth + 1, cuts.size() == 1);
-  }
-
-  std::vector<Item> items_;
-  std::vector<std::size_t> ends_;
-};
-
 /// What each of several operations leaves of one input. Outers counter-clockwise, holes clockwise.
 using Results = std::vector<std::vector<Ring>>;
 
@@ -175,20 +110,34 @@ Results swept_at_once(std::span<const Operation> operations, WindingRule rule, c
   throw std::logic_error("geometry: a polygon Boolean failed on every grid");
 }
 
+/// As one sweep finds them, from the highest y down.
+void sort_as_swept(std::vector<Ring>& rings) {
+  std::vector<std::pair<Point, std::size_t>> order;
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    const Point top = *std::max_element(rings[i].begin(), rings[i].end(),
+                                        [](Point a, Point b) { return a.y != b.y ? a.y < b.y : a.x > b.x; });
+    order.push_back({{-top.y, top.x}, i});
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<Ring> out;
+  out.reserve(rings.size());
+  for (const auto& [at, i] : order) out.push_back(std::move(rings[i]));
+  rings = std::move(out);
+}
+
 Results swept(std::span<const Operation> operations, WindingRule rule, const FineRings& subject, const FineRings& clip,
               Point origin) {
   constexpr std::size_t many = 256;
   if (subject.size() + clip.size() <= many) return swept_at_once(operations, rule, subject, clip, origin);
-  const Heaps heaps(subject, clip);
   Results out(operations.size());
-  FineRings subjects, clips;
-  for (std::size_t i = 0; i < heaps.size(); ++i) {
-    subjects.clear(), clips.clear();
-    for (const auto& item : heaps[i]) (item.clip ? clips : subjects).push_back(*item.ring);
+  for (const Heap& heap : heaps_of(subject, clip)) {
+    const auto [subjects, clips] = heap.input();
     auto parts = swept_at_once(operations, rule, subjects, clips, origin);
     for (std::size_t k = 0; k < out.size(); ++k)
-      std::move(parts[k].begin(), parts[k].end(), std::back_inserter(out[k]));
+      std::copy_if(std::move_iterator(parts[k].begin()), std::move_iterator(parts[k].end()), std::back_inserter(out[k]),
+                   [&](const Ring& ring) { return !heap.is_frame(ring, origin); });
   }
+  for (auto& rings : out) sort_as_swept(rings);
   return out;
 }
 

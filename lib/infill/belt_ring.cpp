@@ -8,13 +8,12 @@
 namespace weft::infill {
 namespace {
 
-constexpr double widest = most_belt_lines + 0.5;  // bands: wider ones are filled across
-constexpr double looked_at = 7;                   // bands: how deep
-constexpr double step_um = 200;                   // along the wall: half a bead
-constexpr double mean_over_um = 4000;             // along the wall, of a belt's width: no line begins and ends for less
-constexpr double shortest_um = 2000;              // of a line, of a pause in it, and of what is no spike between belts
-constexpr double about_um = 500;                  // that is about as long
-constexpr double doubt = 0.3;                     // cells: nearer to a limit a mean by cells says nothing
+constexpr double looked_at = widest_strip + 2;  // bands: how deep
+constexpr double step_um = 200;                 // along the wall: half a bead
+constexpr double mean_over_um = 4000;           // along the wall, of a belt's width: no line begins and ends for less
+constexpr double shortest_um = 2000;            // of a line, of a pause in it, and of what is no spike between belts
+constexpr double about_um = 500;                // that is about as long
+constexpr double doubt = 0.3;                   // cells: nearer to a limit a mean by cells says nothing
 
 /// Whether a layer has a place and what is around it.
 bool surely_has(const Mask& cells, Point p) {
@@ -219,7 +218,7 @@ void BeltRing::find_means() {
     const auto [length_from, area_from] = sum_to(from, s.along - half);
     const auto [length_to, area_to] = sum_to(to, s.along + half);
     const double mean = s.free ? (area_to - area_from) / (length_to - length_from) : 0;
-    s.over = std::min(mean - depth_, widest * ground_.band - mean);
+    s.over = std::min(mean - depth_, widest_strip * ground_.band - mean);
   }
 }
 

@@ -3,6 +3,7 @@
 #include "core/polygon.h"
 #include "geometry/spatial_index.h"
 #include "infill/belts.h"
+#include "infill/strips.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -13,7 +14,7 @@
 /// Private to belts.cpp.
 namespace weft::infill {
 
-constexpr int most_belt_lines = 3;
+constexpr int most_belt_lines = static_cast<int>(widest_strip);
 
 /// What is asked about a belt's width.
 struct BeltGround {

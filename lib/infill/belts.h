@@ -27,12 +27,12 @@ struct Belts {
   Mask area;
 };
 
-/// Finds belts of no more than about three lines' width and lays lines along the wall in them: the one in depth
-/// (k − ½) · band runs where the belt is at least that wide. A belt's inner edge follows from what lies layers away and
-/// is not seen: it moves to the edge of the last line, by half a line at most. So a belt below half a line has none, as
-/// what it would close is below the walls of the next layer. Where lines begin and end is decided by the belt's mean
-/// width over some millimetres, by outlines where cells leave it in doubt, and lines that are about as long as the
-/// shortest are kept or left out together: so equal places are alike, however the grid lies on them.
+/// Finds belts of no more than about five lines' width (`widest_strip`) and lays lines along the wall in them: the one
+/// in depth (k − ½) · band runs where the belt is at least that wide. A belt's inner edge follows from what lies layers
+/// away and is not seen: it moves to the edge of the last line, by half a line at most. So a belt below half a line has
+/// none, as what it would close is below the walls of the next layer. Where lines begin and end is decided by the
+/// belt's mean width over some millimetres, by outlines where cells leave it in doubt, and lines that are about as long
+/// as the shortest are kept or left out together: so equal places are alike, however the grid lies on them.
 /// @param inside of the walls, exactly
 /// @param solid,sparse cells of it; what is too narrow for a line of its own is solid, too
 /// @param layers whose insides decide which is which

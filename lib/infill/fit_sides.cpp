@@ -11,7 +11,7 @@ namespace {
 
 constexpr double most_slope = 0.4;      // of an edge that lines run along: 22°, where a turn along it becomes too long
 constexpr double shortest = 1;          // bands; a strand is not changed for a shorter edge
-constexpr double jog = 0.25;            // bands along a line, in which it moves aside
+constexpr double jog = 1;               // bands along a line, in which it moves aside
 constexpr double least_change_um = 15;  // of a side; for less no junction is worth it
 constexpr double touching_um = 1;       // the lattice
 
@@ -41,8 +41,9 @@ bool SideFit::along(Turned a, Turned b) {
   return std::abs(b.y - a.y) <= most_slope * std::abs(b.x - a.x);
 }
 
-SideFit::SideFit(const Outline& outline, const LineSet& lines, std::span<const Interval> intervals, double band)
-    : band_(band), intervals_(intervals), beside_(intervals.size(), false) {
+SideFit::SideFit(const Outline& outline, const LineSet& lines, std::span<const Interval> intervals, double band,
+                 WidthRange range)
+    : band_(band), range_(range), intervals_(intervals), beside_(intervals.size(), false) {
   std::vector<std::uint32_t> first(static_cast<std::size_t>(lines.count) + 1, 0);
   for (const Interval& i : intervals) ++first[static_cast<std::size_t>(i.line) + 1];
   for (std::size_t k = 1; k < first.size(); ++k) first[k] += first[k - 1];
@@ -134,7 +135,7 @@ std::vector<SideFit::Corner> SideFit::side(const Besides& all, std::uint32_t int
   return corners;
 }
 
-std::vector<Sides> SideFit::of(std::uint32_t interval) const {
+std::vector<Sides> SideFit::both(std::uint32_t interval) const {
   const std::vector<Corner> below = side(below_, interval), above = side(above_, interval);
   const auto between = [](const std::vector<Corner>& c, std::size_t i, double x) {
     return i == 0 ? c.front().reach : i < c.size() ? reach_at(c[i - 1], c[i], x) : c.back().reach;
@@ -146,6 +147,31 @@ std::vector<Sides> SideFit::of(std::uint32_t interval) const {
     } else {
       all.push_back({above[a].x, between(below, b, above[a].x), above[a].reach}), ++a;
     }
+  }
+  return all;
+}
+
+std::optional<std::pair<double, double>> SideFit::with_room(std::uint32_t interval) const {
+  const std::vector<Sides> all = both(interval);
+  const double least = range_.least / 2 * band_;
+  const auto has_room = [&](const Sides& each) { return each.below + each.above >= least; };
+  const auto first = std::find_if(all.begin(), all.end(), has_room);
+  if (first == all.end()) return std::nullopt;
+  const auto last = std::find_if(all.rbegin(), all.rend(), has_room).base() - 1;
+  const auto between = [&](const Sides& narrow, const Sides& wide) {
+    const double w = narrow.below + narrow.above, t = (least - w) / (wide.below + wide.above - w);
+    return std::lerp(narrow.x, wide.x, t);
+  };
+  return std::pair{first == all.begin() ? first->x : between(first[-1], *first),
+                   last + 1 == all.end() ? last->x : between(last[1], *last)};
+}
+
+std::vector<Sides> SideFit::of(std::uint32_t interval) const {
+  std::vector<Sides> all = both(interval);
+  for (Sides& each : all) {
+    const double width = each.below + each.above,
+                 more = std::clamp(width, range_.least * band_, range_.most * band_) - width;
+    each.below += more / 2, each.above += more / 2;
   }
   return thinned(all);
 }

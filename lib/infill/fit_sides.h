@@ -3,7 +3,9 @@
 #include "infill/scan.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace weft::infill {
@@ -14,6 +16,11 @@ struct Sides {
   double below = 0, above = 0;  ///< from the line; fractional microns
 };
 
+/// How wide lines may be, in bands.
+struct WidthRange {
+  double least = 0, most = 1e9;
+};
+
 /// Where edges run along the lines of a fill, closer than a neighbour would lie, a line ends at the edge: it covers
 /// what is between them, less or more than its own half. So a fill neither lies in a wall along it nor leaves a gap
 /// there, although its lines stand on one grid. Edges across the lines are none of this: there lines end or turn.
@@ -22,8 +29,10 @@ class SideFit {
   /// Pre: the intervals are the outline's on these lines, as `Outline::cut` gives them; outer rings run
   ///      counter-clockwise, holes clockwise.
   /// @param band of a line, in the outline's unit: edges farther from its middle do not concern it
+  /// @param range of what lines cover: what is beyond it, they lack or have too much on both sides alike
   /// Cost: O(n log n) in the edges and intervals.
-  SideFit(const Outline& outline, const LineSet& lines, std::span<const Interval> intervals, double band);
+  SideFit(const Outline& outline, const LineSet& lines, std::span<const Interval> intervals, double band,
+          WidthRange range = {});
 
   /// Whether lines run along the edge, rather than end at it.
   static bool along(Turned a, Turned b);
@@ -34,6 +43,10 @@ class SideFit {
   /// Corners of what an interval covers, from its left end to its right one, straight between them; two corners or
   /// more.
   std::vector<Sides> of(std::uint32_t interval) const;
+
+  /// From where to where along an interval there is room for half of the narrowest line at least: less is nearer to
+  /// nothing than to a line. What is narrower between those places is not looked for; nothing where all is.
+  std::optional<std::pair<double, double>> with_room(std::uint32_t interval) const;
 
  private:
   /// A stretch of an interval with an edge beside it.
@@ -50,8 +63,10 @@ class SideFit {
   };
   static double reach_at(const Corner& a, const Corner& b, double x);
   std::vector<Corner> side(const Besides& all, std::uint32_t interval) const;
+  std::vector<Sides> both(std::uint32_t interval) const;
 
   double band_;
+  WidthRange range_;
   std::span<const Interval> intervals_;
   std::vector<bool> beside_;  // by interval
   Besides above_, below_;     // by interval, then from left to right

@@ -12,7 +12,6 @@
 #include "model/flow.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -24,32 +23,6 @@ namespace {
 
 double radians(double degrees) {
   return degrees * std::numbers::pi / 180;
-}
-
-/// The direction (up to 90°) of most of the area's edge, when half of it runs that way or across. Lines along straight
-/// walls end square on the walls across, so they leave nothing open.
-std::optional<double> angle_along_walls(const Region& region) {
-  constexpr double shortest_um = 1000;  // of what counts as a straight wall
-  constexpr std::size_t bins = 90;
-  constexpr double quarter = std::numbers::pi / 2;
-  std::array<double, bins> length{}, longest{}, angle{};
-  double all = 0;
-  const auto look = [&](const Ring& ring) {
-    for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-      const double l = distance(ring[j], ring[i]);
-      all += l;
-      if (l < shortest_um) continue;
-      double a = std::fmod(std::atan2(ring[i].y - ring[j].y, ring[i].x - ring[j].x) + 2 * std::numbers::pi, quarter);
-      if (a > quarter - 1e-9) a = 0;
-      const auto bin = static_cast<std::size_t>(std::lround(a / quarter * bins)) % bins;
-      length[bin] += l;
-      if (l > longest[bin]) longest[bin] = l, angle[bin] = a;
-    }
-  };
-  look(region.outer);
-  for (const Ring& hole : region.holes) look(hole);
-  const auto peak = static_cast<std::size_t>(std::max_element(length.begin(), length.end()) - length.begin());
-  return length[peak] >= all / 2 ? std::optional(angle[peak]) : std::nullopt;
 }
 
 /// The directions, joints and order that a pattern of solid layers asks for.

@@ -209,7 +209,7 @@ void give_strips_to_top(const Mask& seen_above, double line, Kinds& kinds) {
 /// Strips of solid between tops, below walls that stand there, are top: between letters' floors they would be a
 /// patchwork.
 void give_what_lies_between_to_top(double line, Kinds& kinds) {
-  constexpr double widest = 3.5;  // lines, as strips that lines run along
+  constexpr double widest = 3.5;  // lines: two walls of letters and what they enclose
   if (!kinds.top.any() || !kinds.solid.any()) return;
   const int by = cells(widest / 2 * line, kinds.top.grid());
   const Mask between = kinds.top.grown(by).shrunk(by) & kinds.solid;

@@ -3,6 +3,7 @@
 
 #include "core/stop.h"
 #include "infill/fit_sides.h"
+#include "infill/fitted_lines.h"
 #include "infill/scan.h"
 
 #include <algorithm>
@@ -19,11 +20,11 @@ using namespace weft::literals;
 
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 constexpr double short_lines = 1.5;       // bands; shorter lines cannot turn
-constexpr double widest_strip = 2.4;      // bands across; wider strips are filled line by line
+constexpr double widest_pair = 2.4;       // bands across; wider strips are filled line by line
 constexpr double widest_strand = 1.35;    // bands, of a bead along a strip: one and a half nozzles, of lines of 1.125
 constexpr double narrowest_strand = 0.6;  // bands, of one of two
-constexpr double widest_side = 1.6;       // bands, of a line that an edge runs along
 constexpr double narrowest_side = 0.25;   // bands, of a line that an edge runs along
+constexpr WidthRange beside_edges{0.65, widest_strand};
 constexpr double longest_turn = 2.7;      // bands; shallower edges are run along (fit_sides.h), not turned along
 constexpr double least_left = 0.3;        // bands of a line between its turns; else the turn is as wide as the place
 constexpr double most_lean = 4;           // bands that a narrow strip may lean from line to line and still be one strip
@@ -84,30 +85,6 @@ Chains chains_of(std::size_t count, const std::vector<std::pair<std::uint32_t, s
   return chains;
 }
 
-/// Whole lines between the two longest edges that lines run along, one below and one above, and as many beyond them as
-/// there is room for: a corner that stands out of a strip does not make its lines too narrow.
-LineSet fitted_lines(const Outline& outline, double band) {
-  constexpr double most_of = 0.5;  // of the outline's length along the lines
-  struct Edge {
-    double length = 0, y = 0;
-  } floor, ceiling;
-  const std::vector<Turned>& points = outline.points();
-  double left = points.front().x, right = left;
-  for (std::uint32_t i = 0; i < points.size(); ++i) {
-    const Turned a = points[i], b = points[outline.next(i)];
-    left = std::min(left, a.x), right = std::max(right, a.x);
-    Edge& edge = b.x > a.x ? floor : ceiling;  // the inside is to the left
-    if (SideFit::along(a, b) && std::abs(b.x - a.x) > edge.length) edge = {std::abs(b.x - a.x), (a.y + b.y) / 2};
-  }
-  double low = outline.least_y(), high = outline.greatest_y();
-  if (std::min(floor.length, ceiling.length) >= most_of * (right - left) && ceiling.y - floor.y > band / 2)
-    low = floor.y, high = ceiling.y;
-  const double count = std::max(1.0, std::round((high - low) / band)), spacing = (high - low) / count,
-               below = std::round((low - outline.least_y()) / spacing),
-               above = std::round((outline.greatest_y() - high) / spacing);
-  return {low + (0.5 - below) * spacing, spacing, static_cast<int>(below + count + above)};
-}
-
 class Filler {
  public:
   Filler(const Region& region, const SolidStyle& style, Beads& beads)
@@ -125,10 +102,11 @@ class Filler {
     lines_ = fitted_lines(outline_, style_.band);
     width_ = style_.fixed_strand ? style_.band : std::max(1, rounded(lines_.spacing));
     all_ = outline_.cut(lines_);
-    if (!style_.fixed_strand) sides_.emplace(outline_, lines_, all_, lines_.spacing);
+    if (!style_.fixed_strand) sides_.emplace(outline_, lines_, all_, lines_.spacing, beside_edges);
     left_.reserve(all_.size()), right_.reserve(all_.size());
     for (const Interval& i : all_)
       left_.push_back(i.from - over(i.from_edge)), right_.push_back(i.to + over(i.to_edge));
+    if (sides_) keep_to_room();
     const auto pairs = neighbours(all_, most_lean * lines_.spacing, [&](std::uint32_t a, std::uint32_t c) {
       return way(a, c, true).has_value() && way(a, c, false).has_value();
     });
@@ -146,6 +124,21 @@ class Filler {
         if (--chains.waits_for[waiting] == 0) ready.push_back(waiting);
     }
     end_bead();
+  }
+
+  /// Lines end where there is room for none, and are none where there is none for them at all.
+  void keep_to_room() {
+    for (std::uint32_t i = 0; i < all_.size(); ++i) {
+      if (sides_->is_plain(i)) continue;
+      const auto room = sides_->with_room(i);
+      if (!room) left_[i] = right_[i] = all_[i].from;
+      if (room && room->first > all_[i].from) left_[i] = room->first;
+      if (room && room->second < all_[i].to) right_[i] = room->second;
+    }
+  }
+  bool is_nothing(std::uint32_t i) const { return left_[i] >= right_[i]; }
+  bool ends_early(std::uint32_t i, bool right) const {
+    return right ? right_[i] < all_[i].to : left_[i] > all_[i].from;
   }
 
   /// What the ends reach over the edge comes out of the lines' width: the wall there has its plastic already.
@@ -245,7 +238,7 @@ class Filler {
   /// How many lines from i on cross a strip of that many strands; none when the place is not a strip.
   std::pair<std::size_t, int> strip_at(std::span<const std::uint32_t> chain, std::size_t i) const {
     const double lines = about_across(chain, i) / lines_.spacing;
-    if (lines > widest_strip) return {0, 0};
+    if (lines > widest_pair) return {0, 0};
     const int strands = lines < widest_strand ? 1 : 2;
     bool turns = false;  // one of the lines is long enough to turn at
     std::size_t end = i;
@@ -263,8 +256,12 @@ class Filler {
   void emit_lines(std::span<const std::uint32_t> lines) {
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const std::uint32_t here = lines[i];
+      if (is_nothing(here)) {
+        end_bead();
+        continue;
+      }
       const std::optional<Joint> joint = open_ ? joint_to(here) : std::nullopt;
-      const bool rightwards = joint || i > 0 ? !open_->rightwards : nearer_to_left(here);
+      const bool rightwards = joint || (i > 0 && open_) ? !open_->rightwards : nearer_to_left(here);
       double start = rightwards ? left_[here] : right_[here];
       const double end = rightwards ? right_[here] : left_[here];
       if (joint) {
@@ -274,7 +271,7 @@ class Filler {
         end_bead();
         start += (rightwards ? 1 : -1) * std::max(0.0, kept_within(here, !rightwards));
       }
-      prolonged_ += all_[here].from - left_[here] + right_[here] - all_[here].to;
+      prolonged_ += std::max(0.0, all_[here].from - left_[here]) + std::max(0.0, right_[here] - all_[here].to);
       open_ = {here, rightwards, start, end};
       at_ = {end, y(here)}, started_ = true;
     }
@@ -301,7 +298,9 @@ class Filler {
   /// less, so that no line of an acute corner is a dab of its own.
   std::optional<Joint> joint_to(std::uint32_t next) const {
     const auto& [line, rightwards, start, end] = *open_;
-    if (!style_.connect || all_[next].line != all_[line].line + 1) return std::nullopt;
+    if (!style_.connect || all_[next].line != all_[line].line + 1 || ends_early(line, rightwards) ||
+        ends_early(next, rightwards))
+      return std::nullopt;
     const double turn = turn_length(line, next, rightwards);
     if (turn == 0) return std::nullopt;
     const double least = least_left * lines_.spacing, here = std::abs(end - start), there = length(next);
@@ -330,8 +329,7 @@ class Filler {
       const Sides& a = after == corners.begin() ? b : after[-1];
       const double t = b.x > a.x ? std::clamp((x - a.x) / (b.x - a.x), 0.0, 1.0) : 0;
       const double below = std::lerp(a.below, b.below, t), above = std::lerp(a.above, b.above, t);
-      const double width = std::clamp(below + above, narrowest_side * lines_.spacing, widest_side * lines_.spacing);
-      return Vertex{{x, y(i) + (above - below) / 2}, rounded(width)};
+      return Vertex{{x, y(i) + (above - below) / 2}, rounded(below + above)};
     };
     const auto inside = [&](const Sides& each) { return each.x > std::min(from, to) && each.x < std::max(from, to); };
     path.push_back(at(from));

@@ -4,8 +4,11 @@
 #include "geometry/offset.h"
 #include "infill/scan.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace weft::infill {
 
@@ -71,16 +74,58 @@ std::optional<double> angle_of_axis(const Region& region, std::optional<double> 
   return along.greatest_y() - along.least_y() <= width + *bend ? std::optional(angle) : std::nullopt;
 }
 
+std::optional<double> angle_along_walls(const Region& region) {
+  constexpr double shortest_um = 1000;  // of what counts as a straight wall
+  constexpr std::size_t bins = 90;
+  constexpr double quarter = std::numbers::pi / 2;
+  constexpr double same = 0.1 * std::numbers::pi / 180;  // two microns over a millimetre
+  struct Straight {
+    double angle = 0, length = 0;
+    std::size_t bin = 0;
+  };
+  std::vector<Straight> all;
+  std::array<double, bins> length{};
+  double whole = 0;
+  const auto look = [&](const Ring& ring) {
+    for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+      const double l = distance(ring[j], ring[i]);
+      whole += l;
+      if (l < shortest_um) continue;
+      double a = std::fmod(std::atan2(ring[i].y - ring[j].y, ring[i].x - ring[j].x) + 2 * std::numbers::pi, quarter);
+      if (a > quarter - 1e-9) a = 0;
+      const auto bin = static_cast<std::size_t>(std::lround(a / quarter * bins)) % bins;
+      length[bin] += l;
+      all.push_back({bin == 0 && a > quarter / 2 ? a - quarter : a, l, bin});
+    }
+  };
+  look(region.outer);
+  for (const Ring& hole : region.holes) look(hole);
+  const auto peak = static_cast<std::size_t>(std::max_element(length.begin(), length.end()) - length.begin());
+  if (length[peak] < whole / 2) return std::nullopt;
+  std::erase_if(all, [&](const Straight& each) { return each.bin != peak; });
+  std::stable_sort(all.begin(), all.end(), [](const Straight& a, const Straight& b) { return a.angle < b.angle; });
+  double best = 0, longest = 0, sum = 0;
+  std::optional<double> angle;
+  for (std::size_t from = 0, to = 0; to < all.size(); ++to) {  // a window of directions that are one
+    sum += all[to].length;
+    for (; all[to].angle - all[from].angle > same; ++from) sum -= all[from].length;
+    if (sum <= best) continue;
+    best = sum, longest = 0;
+    for (std::size_t i = from; i <= to; ++i)
+      if (all[i].length > longest) longest = all[i].length, angle = all[i].angle;
+  }
+  return angle;
+}
+
 std::optional<double> angle_along_strip(const Region& region, Um band) {
-  constexpr double widest = 3.5;    // bands
   constexpr double straight = 0.8;  // of the edge
-  if (2e6 * area_mm2(region) > widest * band * edge_um(region)) return std::nullopt;
+  if (2e6 * area_mm2(region) > widest_strip * band * edge_um(region)) return std::nullopt;
   const EdgeDirection edge = direction_of_edge(region);
   return edge.share < straight ? std::nullopt : std::optional(edge.angle_rad);
 }
 
 bool is_strip(const Region& region, Um band) {
-  constexpr double widest = 3.5;       // bands, as belts and straight strips
+  constexpr double widest = 3.5;       // bands: of more rings the innermost are dabs where the strip bends
   constexpr double least_long = 6.25;  // edge² / 4 areas: of a strip four times as long as wide
   const double edge = edge_um(region), area = 1e6 * area_mm2(region);
   if (2 * area > widest * band * edge || edge * edge < 4 * least_long * area) return false;

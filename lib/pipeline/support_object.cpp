@@ -4,6 +4,7 @@
 #include "core/alike.h"
 #include "core/tolerances.h"
 #include "geometry/boolean.h"
+#include "geometry/box_columns.h"
 #include "geometry/offset.h"
 #include "geometry/spatial_index.h"
 #include "model/flow.h"
@@ -19,6 +20,7 @@
 #include "walls/walls.h"
 
 #include <algorithm>
+#include <cstdint>
 
 #include <fmt/format.h>
 
@@ -166,10 +168,35 @@ bool is_printed(const Settings& settings, const SlicedLayer& layer, std::size_t 
   return !walls.beads.empty() || !walls.inside.empty();
 }
 
-/// Whether any corner of a region lies on what is below.
-bool lies_on(const geometry::SegmentIndex& below, const Region& region) {
-  return std::any_of(region.outer.begin(), region.outer.end(), [&](Point p) { return below.region_at(p).has_value(); });
-}
+/// The regions of a layer, asked for what lies on them.
+class Below {
+ public:
+  explicit Below(const Regions& regions) : regions_(regions), columns_(boxes_of(regions)) {}
+
+  /// Whether any corner of a region lies on one of them.
+  bool holds(const Region& region) const {
+    return std::any_of(region.outer.begin(), region.outer.end(), [&](Point p) {
+      bool held = false;
+      columns_.each_around(p, [&](std::uint32_t r) { held = held || has(regions_[r], p); });
+      return held;
+    });
+  }
+
+ private:
+  static std::vector<Box> boxes_of(const Regions& regions) {
+    std::vector<Box> out;
+    for (const Region& region : regions) out.push_back(box_of(region.outer));
+    return out;
+  }
+  static bool has(const Region& region, Point p) {
+    return side_of(region.outer, p) != Side::outside &&
+           std::none_of(region.holes.begin(), region.holes.end(),
+                        [p](const Ring& hole) { return side_of(hole, p) == Side::inside; });
+  }
+
+  const Regions& regions_;
+  geometry::BoxColumns columns_;
+};
 
 /// What is too small to be printed asks for no support and lies on none: what is printed first above it does. What lies
 /// on something that is printed is held already, so that only the lowest specks of what hangs down are asked, up to the
@@ -188,10 +215,11 @@ void leave_out_specks(const Settings& settings, Outlines& outlines, std::vector<
   for (std::size_t i = 0; i < specks.size(); ++i) {
     if (specks[i].empty()) continue;
     const SlicedLayer& layer = *outlines.layers[i];
-    const geometry::SegmentIndex below(i > 0 ? outlines.layers[i - 1]->regions : Regions{});
+    static const Regions nothing;
+    const Below below(i > 0 ? outlines.layers[i - 1]->regions : nothing);
     Regions small;
     for (const std::size_t r : specks[i]) small.push_back(layer.regions[r]);
-    const auto held = tasks::parallel_map(small.size(), [&](std::size_t s) { return char{lies_on(below, small[s])}; });
+    const auto held = tasks::parallel_map(small.size(), [&](std::size_t s) { return char{below.holds(small[s])}; });
     const auto like = first_alike(small);  // one of each kind is built
     std::vector<char> asked(small.size(), 0);
     for (std::size_t s = 0; s < small.size(); ++s) asked[like[s]] |= char{held[s] == 0};

@@ -120,6 +120,7 @@ constexpr auto rows = std::to_array<Key>({
         .ours = "interlocking_boundary_avoidance",
         .initial = "2"},
     Key{.name = "slicing_mode", .form = Form::choice, .ours = "slicing_mode", .initial = "regular"},
+    Key{.name = "slice_closing_radius", .form = Form::length, .ours = "slice_closing_radius", .initial = "0.049"},
     Key{.name = "xy_size_compensation", .form = Form::length, .ours = "xy_offset", .initial = "0"},
     Key{.name = "top_solid_layers", .form = Form::number, .ours = "top_layers", .initial = "3", .telling = true},
     Key{.name = "bottom_solid_layers", .form = Form::number, .ours = "bottom_layers", .initial = "3", .telling = true},

@@ -100,8 +100,6 @@ Regions solid_of(std::vector<Ring> rings, bool cut_through, SlicingMode mode, bo
   return geometry::unite(solid);  // what stood in a hole is within its region now
 }
 
-constexpr Um near = 50;  // what is further apart has a gap between it, not a crack
-
 double distance_to(Point p, const geometry::Segment& s) {
   const double x = s.b.x - s.a.x, y = s.b.y - s.a.y, square = x * x + y * y;
   if (square == 0) return distance(p, s.a);
@@ -109,8 +107,8 @@ double distance_to(Point p, const geometry::Segment& s) {
   return distance(p, lerp(s.a, s.b, std::clamp(along, 0.0, 1.0)));
 }
 
-/// Whether a corner of one outline lies on another, about.
-bool corners_on_others(const std::vector<Ring>& rings) {
+/// Whether a corner of one outline lies on another, up to `near`.
+bool corners_on_others(const std::vector<Ring>& rings, Um near) {
   const geometry::SegmentIndex index{std::span<const Ring>(rings)};
   std::vector<std::uint32_t> found;
   for (std::uint32_t r = 0; r < rings.size(); ++r)
@@ -123,8 +121,8 @@ bool corners_on_others(const std::vector<Ring>& rings) {
   return false;
 }
 
-/// Whether outlines of two bodies may lie on each other.
-bool near_each_other(const std::vector<Ring>& rings) {
+/// Whether outlines of two bodies may be no further apart than `near`.
+bool near_each_other(const std::vector<Ring>& rings, Um near) {
   std::vector<Box> boxes;
   for (const Ring& ring : rings)
     if (double_area(ring) > 0) boxes.push_back(box_of(ring));
@@ -132,7 +130,7 @@ bool near_each_other(const std::vector<Ring>& rings) {
   for (std::size_t i = 0; i < boxes.size(); ++i)
     for (std::size_t j = i + 1; j < boxes.size() && boxes[j].min.x <= boxes[i].max.x + near; ++j)
       if (boxes[j].min.y <= boxes[i].max.y + near && boxes[i].min.y <= boxes[j].max.y + near)
-        return corners_on_others(rings);
+        return corners_on_others(rings, near);
   return false;
 }
 
@@ -142,14 +140,12 @@ double outlines_um(const Regions& regions) {
   return out;
 }
 
-/// Bodies that touch are one: where two faces lie on each other, each is cut and simplified by itself, and between what
-/// comes of them is a crack through the part, which walls would follow on both sides.
-Regions without_cracks(const Regions& solid, Um resolution) {
-  constexpr Um rounding = 4;          // vertices and crossings of both, each by up to 0.7 µm each way
-  constexpr Um most_simplified = 25;  // who lets outlines stand off by more does not mean narrow gaps
-  constexpr double least_um = 400;    // both sides of what is half as long as a bead is wide
-  constexpr Um lap = 10;              // what is filled meets what it lies between
-  const Um radius = std::min(resolution, most_simplified) + rounding / 2;
+/// Bodies that touch are one: where two faces lie on each other, each is cut and simplified by itself, and often made
+/// of other triangles, and between what comes of them is a crack through the part, which walls would follow on both
+/// sides.
+Regions without_cracks(const Regions& solid, Um radius) {
+  constexpr double least_um = 400;  // both sides of what is half as long as a bead is wide
+  constexpr Um lap = 10;            // what is filled meets what it lies between
   const Regions closed = geometry::closing(solid, radius, geometry::Corner::miter);
   if (outlines_um(closed) > outlines_um(solid) - least_um) return solid;
   // Cracks may be too thin to be areas: both sides are drawn back first, and what that takes elsewhere is a thin rim.
@@ -171,9 +167,10 @@ Cut Cutter::cut(std::size_t i, const LayerSettings& settings) const {
     stop.step();
     ring = geometry::simplified(ring, settings.resolution);
   }
-  bool met = near_each_other(chains.rings);
+  const Um radius = settings.slice_closing_radius;
+  bool met = radius > 0 && near_each_other(chains.rings, 2 * radius);
   out.layer.regions = solid_of(std::move(chains.rings), mesh_->cut_through, settings.slicing_mode, met);
-  if (met) out.layer.regions = without_cracks(out.layer.regions, settings.resolution);
+  if (met && radius > 0) out.layer.regions = without_cracks(out.layer.regions, radius);
   return out;
 }
 

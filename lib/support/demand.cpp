@@ -2,15 +2,19 @@
 #include "core/disjoint_sets.h"
 #include "core/stop.h"
 #include "geometry/boolean.h"
+#include "geometry/box_columns.h"
 #include "geometry/trimmed.h"
 #include "support/bridged.h"
 #include "support/lengths.h"
+#include "support/near_edge.h"
 #include "support/support.h"
 #include "tasks/parallel.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <utility>
 
 namespace weft::support {
 namespace {
@@ -32,18 +36,22 @@ struct LayerPatches {
 /// @param step  what of the layer lies over air
 std::vector<std::size_t> beginning(const Regions& here, const Regions& step, Um outer_line) {
   const double bead = to_mm(outer_line) * to_mm(outer_line);
-  std::vector<std::size_t> out;
   std::vector<Box> boxes;
-  for (const Region& s : step) boxes.push_back(box_of(s.outer));
+  for (const Region& region : here) boxes.push_back(box_of(region.outer).grown(2));
+  const geometry::BoxColumns columns(std::move(boxes));
+  std::vector<double> in_air_mm2(here.size(), 0);
+  for (const Region& piece : step) {
+    const Box box = box_of(piece.outer);
+    columns.each_around(box.min, [&](std::uint32_t r) {
+      if (columns[r].contains(box.max) && side_of(here[r].outer, piece.outer.front()) != Side::outside)
+        in_air_mm2[r] += area_mm2(piece);
+    });
+  }
+  std::vector<std::size_t> out;
   for (std::size_t r = 0; r < here.size(); ++r) {
-    const Box box = box_of(here[r].outer).grown(2);
+    if (in_air_mm2[r] <= 0) continue;
     const double whole = area_mm2(here[r]);
-    double in_air = 0;
-    for (std::size_t s = 0; s < step.size(); ++s)
-      if (box.contains(boxes[s].min) && box.contains(boxes[s].max) &&
-          side_of(here[r].outer, step[s].outer.front()) != Side::outside)
-        in_air += area_mm2(step[s]);
-    if (in_air > 0 && whole - in_air < bead && in_air > whole / 2) out.push_back(r);
+    if (whole - in_air_mm2[r] < bead && in_air_mm2[r] > whole / 2) out.push_back(r);
   }
   return out;
 }
@@ -110,6 +118,7 @@ class Layer {
   /// What reaches further than that beyond the layer below, grown back to it.
   Regions reaching_out(const Regions& step, Um by) const {
     if (by <= 0) return geometry::opening(step, 5);
+    if (!any_may_be_further(step, below_, by)) return {};
     const Regions near = geometry::trimmed(below_, box_of(step).grown(by + 1));
     const Regions over = geometry::subtract(step, grown(near, by));
     if (over.empty()) return {};

@@ -70,6 +70,7 @@ KEYS = [
     ("solid_infill_every_layers", "5", ""),
     ("infill_only_where_needed", "1", ""),
     ("slicing_mode", "even_odd", ""),
+    ("slice_closing_radius", "0", ""),
     ("infill_first", "1", ""),
     ("infill_every_layers", "2", ""),
     ("skirt_height", "0", ""),

@@ -165,13 +165,16 @@ TEST_CASE("prusaslicer keys: what of a plastic shrinks is made larger") {
   CHECK_THAT(run.out, Contains("; material_shrinkage_percentage_xy = 101.0101"));
 }
 
-TEST_CASE("prusaslicer keys: slicing_mode, extra_perimeters and infill_only_where_needed say what weft's settings do") {
+TEST_CASE("prusaslicer keys: how outlines are cut, extra_perimeters and infill_only_where_needed are taken over") {
   Scratch scratch;
-  scratch.write("p.ini", plain + "slicing_mode = close_holes\nextra_perimeters = 1\ninfill_only_where_needed = 1\n");
+  scratch.write("p.ini", plain +
+                             "slicing_mode = close_holes\nslice_closing_radius = 0.02\nextra_perimeters = 1\n"
+                             "infill_only_where_needed = 1\n");
   const auto run = weft({"profile", "show", "p.ini"}, scratch.path());
   INFO(run.err);
   REQUIRE(run.status == 0);
-  CHECK_THAT(run.out, Contains("\nslicing_mode = close_holes\n") && Contains("\nwall_extra_on_slopes = true\n"));
+  CHECK_THAT(run.out, Contains("\nslicing_mode = close_holes\n") && Contains("\nslice_closing_radius = 0.02\n"));
+  CHECK_THAT(run.out, Contains("\nwall_extra_on_slopes = true\n"));
   CHECK_THAT(run.out, Contains("\ninfill_support_enabled = true\n"));
 }
 

@@ -216,6 +216,66 @@ TEST_CASE("geometry: rings nested deep, many times, are told apart by both rules
         1);
 }
 
+TEST_CASE("geometry: plates full of holes are what each place of them is", "[law]") {
+  // Two sets, each of plates that lie on each other, so that holes are wound around more than once; and the second's
+  // outline runs through the outermost holes.
+  using namespace clipper;
+  shapes::Dice dice(23);
+  constexpr int side = 20;
+  constexpr Um pitch = 6000, end = pitch * side;
+  const auto plates = [&](Um aside, int count) {
+    std::vector<Ring> rings;
+    for (int i = 0; i < count; ++i)
+      rings.push_back(rectangle(aside - 400 * i, aside - 300 * i, end + aside + 500 * i, end - aside + 200 * i).outer);
+    for (int i = 0; i < side * side; ++i) {
+      const Point at{pitch * (i % side) + pitch / 2, pitch * (i / side) + pitch / 2};
+      for (int k = 0; k < count; ++k) rings.push_back(shapes::reversed(shapes::star(dice, at, 2800, 9)));
+      if (i % 3 == 0) rings.push_back(shapes::convex(dice, at, 500, 6));
+    }
+    return rings;
+  };
+  const std::vector<Ring> a = plates(0, 2), b = plates(2500, 1);
+  const auto fine = [](const std::vector<Ring>& rings) {
+    FineRings out;
+    for (const Ring& ring : rings) {
+      out.emplace_back();
+      for (const Point p : ring) out.back().push_back({std::int64_t{p.x} * steps, std::int64_t{p.y} * steps});
+    }
+    return out;
+  };
+  const SegmentIndex index_of_a(a), index_of_b(b);
+  const auto winding = [](const SegmentIndex& index, Point p) {
+    std::vector<SegmentIndex::RingWinding> found;
+    index.windings(p, found);
+    int sum = 0;
+    for (const auto& w : found) sum += w.winding;
+    return sum;
+  };
+  for (const WindingRule rule : {WindingRule::positive, WindingRule::nonzero, WindingRule::even_odd})
+    for (const Operation operation :
+         {Operation::unite, Operation::intersect, Operation::subtract, Operation::exclusive_or}) {
+      const SegmentIndex result(run(operation, rule, fine(a), fine(b), {}));
+      const auto solid = [rule](int w) {
+        return rule == WindingRule::positive ? w > 0 : rule == WindingRule::nonzero ? w != 0 : w % 2 != 0;
+      };
+      int wrong = 0, inside = 0, told = 0;
+      while (told < 4000) {
+        const Point p{dice.between(-3000, end + 3000), dice.between(-3000, end + 3000)};
+        constexpr double rounded_um = 2;
+        if (index_of_a.nearest(p, rounded_um) || index_of_b.nearest(p, rounded_um)) continue;
+        const bool in_a = solid(winding(index_of_a, p)), in_b = solid(winding(index_of_b, p));
+        const bool in = operation == Operation::unite       ? in_a || in_b
+                        : operation == Operation::intersect ? in_a && in_b
+                        : operation == Operation::subtract  ? in_a && !in_b
+                                                            : in_a != in_b;
+        ++told, inside += in ? 1 : 0;
+        wrong += in != result.region_at(p).has_value() ? 1 : 0;
+      }
+      CHECK(wrong == 0);
+      CHECK(inside > 100);
+    }
+}
+
 TEST_CASE("geometry: thousands of regions are cut and subtracted as each of them would be", "[geometry]") {
   // More than are given to the library at once; what is taken away lies across several of them.
   Regions many, bars;

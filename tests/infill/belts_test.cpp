@@ -137,7 +137,7 @@ TEST_CASE("belts: of gears that lean by anything, equal teeth differ in one laye
 }
 
 TEST_CASE("belts: under a slope lines run along the wall, side by side, all as wide as any line", "[infill]") {
-  const Um step = GENERATE(150, 250, 300);  // four solid layers: belts of 0.6 to 1.2 mm
+  const Um step = GENERATE(150, 250, 300, 410, 500);  // four solid layers: belts of 0.6 to 2 mm
   const Hill hill(circle({}, 20000), step, 24);
   const Um band = flow::band(450, 200);
   const std::size_t lines = static_cast<std::size_t>(std::lround(4.0 * step / band));
@@ -197,7 +197,7 @@ TEST_CASE("belts: a line away from the wall lies beside another all along, witho
   const Um band = flow::band(450, 200);
   double um = 0, alone = 0;
   for (Um slow = 60; slow <= 300; slow += 80)
-    for (Um fast = 320; fast <= 440; fast += 20) {  // belts of 1.3 to 1.8 mm: about as wide as is filled across
+    for (Um fast = 320; fast <= 640; fast += 40) {  // belts of 1.3 to 2.6 mm: up to what is filled across
       const Hill hill(16, [&](int i) {
         return Regions{
             {{{i * fast, 0}, {26000, 0}, {26000, 20000 - i * slow}, {i * fast + 1700, 20000 - i * slow}}, {}}};
@@ -205,7 +205,7 @@ TEST_CASE("belts: a line away from the wall lies beside another all along, witho
       for (std::size_t i = 5; i < 11; ++i)
         for (const PartAreas& part : hill.areas[i]) {
           const geometry::SegmentIndex edge(hill.insides[i]);
-          std::vector<std::vector<geometry::Segment>> at_depth(4);
+          std::vector<std::vector<geometry::Segment>> at_depth(6);
           const auto depth_of = [&](const infill::BeltLine& line) {
             double most = 0;
             for (const Point p : line.path) most = std::max(most, edge.nearest(p)->distance_um);

@@ -113,9 +113,10 @@ TEST_CASE(
   CHECK(covered_mm2(infill::fill({}, {}, input(areas)).beads) == Approx(17.4 * 17.4).epsilon(0.005));
 }
 
-TEST_CASE("infill: lines run along a strip of up to three of them, on every layer", "[infill]") {
+TEST_CASE("infill: lines run along a strip of up to five of them, on every layer", "[infill]") {
   const double angle = GENERATE(0, 0.3, 1.2);
-  const LayerAreas strip = solid_area(turned(rectangle(0, 0, 30000, 1700), angle)),
+  const Um width = GENERATE(1700, 2400);
+  const LayerAreas strip = solid_area(turned(rectangle(0, 0, 30000, width), angle)),
                    area = solid_area(rectangle(0, 0, 30000, 6000));
   const auto longest = [](const LayerAreas& areas, std::size_t index) {  // a bead's mean line
     const Beads beads = infill::fill({}, {}, input(areas, index)).beads;
@@ -164,6 +165,25 @@ TEST_CASE("infill: every bead knows its part, ordered fills have a sequence of t
   }
   CHECK(of_role[static_cast<std::size_t>(Role::solid_infill)] != of_role[static_cast<std::size_t>(Role::top_skin)]);
   CHECK(of_role[static_cast<std::size_t>(Role::bridge)] != of_role[static_cast<std::size_t>(Role::top_skin)]);
+}
+
+TEST_CASE("infill: lines run along walls, also where a longer edge that is no wall runs nearly so", "[infill]") {
+  const double angle = GENERATE(0.0, 30.0);
+  for (const Um slant : {-120, 120}) {  // 0.35° over 20 mm, which is longer than either piece of wall
+    CAPTURE(angle, slant);
+    const Region area{
+        {{0, 0}, {9000, 0}, {9000, 3000}, {11000, 3000}, {11000, 0}, {20000, 0}, {20000, 9000}, {0, 9000 + slant}}, {}};
+    for (const std::size_t layer : {0U, 1U}) {
+      const LayerAreas areas = solid_area(turned(area, degrees(angle)));
+      for (const Bead& bead : fill({}, {}, input(areas, layer)).beads)
+        for (std::size_t i = 1; i < bead.path.size(); ++i) {
+          const Point a = bead.path[i - 1].at, b = bead.path[i].at;
+          if (distance(a, b) < 4000) continue;
+          const double lean = std::atan2(b.y - a.y, b.x - a.x) - degrees(angle + (layer == 0 ? 0 : 90));
+          CHECK(std::abs(std::sin(lean)) < 0.004);  // between the edge and the next line one leans half as much
+        }
+    }
+  }
 }
 
 TEST_CASE("infill: bridges are strands of the nozzle's diameter", "[infill]") {

@@ -250,6 +250,62 @@ TEST_CASE("solid: a corner that stands out of a strip makes its lines no narrowe
   CHECK(covered_mm2(beads) == Approx(area_mm2(strip)).epsilon(0.01));
 }
 
+TEST_CASE("solid: notches part a strip's side and make its lines no other than on a whole side", "[infill]") {
+  const bool mirrored = GENERATE(false, true);
+  Ring ring{{0, 0}, {19400, 0}, {19400, -180}, {20000, -180}, {20000, 1230}};  // a corner stands out, too
+  for (Um x = 16000; x > 0; x -= 4000)
+    for (const Point p : {Point{x + 800, 1230}, {x + 800, 750}, {x, 750}, {x, 1230}}) ring.push_back(p);
+  ring.push_back({0, 1230});
+  if (mirrored) {
+    for (Point& p : ring) p.y = -p.y;
+    std::reverse(ring.begin(), ring.end());
+  }
+  const Beads beads = filled({ring, {}}, {.band = 410});
+  double plain = 0, whole = 0;
+  for (const Bead& bead : beads)
+    for (std::size_t i = 1; i < bead.path.size(); ++i) {
+      const Junction &a = bead.path[i - 1], &b = bead.path[i];
+      const double length = distance(a.at, b.at);
+      whole += length;
+      if (std::abs(a.width - 410) <= 2 && std::abs(b.width - 410) <= 2) plain += length;
+    }
+  CHECK(plain > 0.85 * whole);
+}
+
+TEST_CASE("solid: beside edges that run along lines at a slant widths stay near that of a line", "[infill][law]") {
+  constexpr Um band = 430;
+  const double slope = GENERATE(0.03, 0.1, 0.2, 0.35);
+  CAPTURE(slope);
+  const Um up = rounded(slope * 20000);
+  const Region wedge{{{0, 0}, {20000, up}, {20000, up + 4000}, {0, 4000}}, {}};
+  for (const bool connect : {true, false})
+    for (const Bead& bead : filled(wedge, {.band = band, .connect = connect}))
+      for (const Junction& j : bead.path) {
+        CHECK(j.width >= 0.6 * band);
+        CHECK(j.width <= 1.5 * band);
+      }
+}
+
+TEST_CASE("solid: lines end where there is less room than for a third of one", "[infill]") {
+  for (const Um high : {90, 220}) {
+    CAPTURE(high);
+    const Um y = 1000;  // a line of the wide part lies there
+    Region area = rectangle(0, 0, 9000, 4000);
+    area.outer = {{0, 0},
+                  {9000, 0},
+                  {9000, y - high / 2},
+                  {14000, y - high / 2},
+                  {14000, y + high / 2},
+                  {9000, y + high / 2},
+                  {9000, 4000},
+                  {0, 4000}};
+    Um farthest = 0;
+    for (const Bead& bead : filled(area, {.band = 400}))
+      for (const Junction& j : bead.path) farthest = std::max(farthest, j.at.x);
+    CHECK((farthest > 9500) == (high > 130));
+  }
+}
+
 TEST_CASE("solid: a bead along a strip whose sides lean towards each other lies on its axis", "[infill]") {
   const Region wedge{{{0, 100}, {0, -100}, {9000, -300}, {9000, 300}}, {}};  // its axis is y = 0
   const double angle = GENERATE(30, 45, 60, 120, 135);

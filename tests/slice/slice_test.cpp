@@ -207,6 +207,52 @@ TEST_CASE("slice: between bodies that touch on a leaning face, cut into triangle
   }
 }
 
+namespace {
+/// Adds an upright prism over a ring; a hole's runs clockwise. Ends are left open: no cut goes through them.
+void add_upright(Mesh& mesh, const Ring& ring, Um height) {
+  const auto base = static_cast<std::uint32_t>(mesh.vertices.size()), n = static_cast<std::uint32_t>(ring.size());
+  for (const Point p : ring) mesh.vertices.push_back({p.x, p.y, 0});
+  for (const Point p : ring) mesh.vertices.push_back({p.x, p.y, height});
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t a = base + i, b = base + (i + 1) % n;
+    mesh.triangles.push_back({a, b, b + n});
+    mesh.triangles.push_back({a, b + n, a + n});
+  }
+}
+
+Ring polygon(double radius_um, int corners, double turned, bool clockwise) {
+  Ring out;
+  for (int i = 0; i < corners; ++i) {
+    const double t = 2 * std::numbers::pi * (i + turned) / corners * (clockwise ? -1 : 1);
+    out.push_back({rounded(radius_um * std::cos(t)), rounded(radius_um * std::sin(t))});
+  }
+  return out;
+}
+
+/// Outlines of a plate of 20 mm with a round hole of 24 corners and, in it, a plug of 17 with that much more radius,
+/// mm: 80 when both are one, 38 more with a gap between them.
+double plug_outlines_mm(double more_um, Um closing_radius) {
+  Mesh mesh;
+  add_upright(mesh, {{-10'000, -10'000}, {10'000, -10'000}, {10'000, 10'000}, {-10'000, 10'000}}, 1'000);
+  add_upright(mesh, polygon(3'000, 24, 0, true), 1'000);
+  add_upright(mesh, polygon(3'000 + more_um, 17, 0.3, false), 1'000);
+  LayerSettings settings;
+  settings.slice_closing_radius = closing_radius;
+  double most_mm = 0;
+  for (const auto& cut : cut_all(mesh, settings)) most_mm = std::max(most_mm, outlines_mm(cut.layer.regions));
+  return most_mm;
+}
+}  // namespace
+
+TEST_CASE("slice: a body in a hole of other facets is one with what is around it, unless the gap is wider") {
+  // sagittas of 26 and 51 um: between bodies of the same radius both cross, and up to 51 um stay open
+  CHECK(plug_outlines_mm(0, 49) == Approx(80).epsilon(0.01));
+  CHECK(plug_outlines_mm(-20, 49) == Approx(80).epsilon(0.01));
+  CHECK(plug_outlines_mm(0, 0) > 90);
+  CHECK(plug_outlines_mm(-150, 49) == Approx(80 + 18.7 + 17.8).epsilon(0.01));
+  CHECK(plug_outlines_mm(-150, 120) == Approx(80).epsilon(0.01));
+}
+
 TEST_CASE("slice: missing triangles are bridged, said, and cost no other outline") {
   Mesh mesh = solids::box({0, 0, 0}, {10000, 10000, 2000});
   mesh.triangles.erase(mesh.triangles.begin() + 4, mesh.triangles.begin() + 6);  // the wall at y = 0

@@ -44,6 +44,7 @@ struct LayerSettings {
   std::optional<LengthOrShare> initial_layer_line_width;  ///< auto: as in the other layers
   Um resolution = 0.015_mm;
   SlicingMode slicing_mode = SlicingMode::regular;
+  Um slice_closing_radius = 0.049_mm;
   CounterboreHoleBridging counterbore_hole_bridging = CounterboreHoleBridging::none;
   bool magic_spiralize = false;
   bool smooth_spiralized_contours = true;
@@ -90,6 +91,9 @@ inline constexpr Rows layer_schema{
     setting("slicing_mode", Scope::object, &LayerSettings::slicing_mode,
             "What of a cut is solid: regular, what any shell encloses; even_odd, what an odd number of outlines "
             "encloses, for models made of shells within shells; close_holes, holes too."),
+    setting("slice_closing_radius", Scope::object, &LayerSettings::slice_closing_radius, Unit::mm, 0_mm, 1_mm,
+            "Bodies of a model that touch, or stand apart by up to twice this, are printed as one: no nozzle leaves so "
+            "narrow a gap open, and walls on both sides of it would only stick to each other."),
     setting("counterbore_hole_bridging", Scope::object, &LayerSettings::counterbore_hole_bridging,
             "What becomes of a hole that begins over a wider one, as a screw's over its counterbore: none, rings "
             "around it hang; partial, strips across the wider one, on the next layer across them, and the hole's own "
