@@ -5,6 +5,7 @@
 #include "picture.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include <catch2/catch.hpp>
 
@@ -78,20 +79,21 @@ TEST_CASE("solid: with ends_within a strand along a strip keeps its round ends i
   CHECK(ends(false) < ends(true) - 100);
 }
 
-TEST_CASE("solid: with ends_within a line that ends at an edge nearly along it keeps its end off that", "[infill]") {
-  constexpr Um band = 430, side = 12000;
-  const double lean = GENERATE(0.15, 0.25, 0.35, 0.45);  // of the edge against the lines
-  CAPTURE(lean);
-  const Region wedge{{{0, 0}, {side, 0}, {side, rounded(side * std::tan(lean))}}, {}};
-  const auto off = [&](bool within) {  // the least that a line's end is away from it
-    double least = side;
-    for (const Bead& bead : filled(wedge, {.band = band, .angle_rad = 0, .connect = false, .ends_within = within}))
-      for (const Junction& j : {bead.path.front(), bead.path.back()})
-        if (length_mm(bead) > 2) least = std::min(least, j.at.x * std::sin(lean) - j.at.y * std::cos(lean));
-    return least;
-  };
-  CHECK(off(true) > band / 4.0);
-  CHECK(off(true) > off(false) + 10);
+TEST_CASE("solid: with ends_within lines of a round area keep their ends in it", "[infill]") {
+  constexpr Um band = 430;
+  const double radius = GENERATE(1000.0, 1700.0, 2500.0, 6000.0);
+  const int corners = GENERATE(16, 40);
+  CAPTURE(radius, corners);
+  Region disc;
+  for (int i = 0; i < corners; ++i) {
+    const double at = 2 * std::numbers::pi * (i + 0.3) / corners;
+    disc.outer.push_back({rounded(radius * std::cos(at)), rounded(radius * std::sin(at))});
+  }
+  double most = -band;  // how far round ends reach over it
+  for (const Bead& bead : filled(disc, {.band = band, .angle_rad = 0, .connect = false, .ends_within = true}))
+    for (const Junction& j : {bead.path.front(), bead.path.back()})
+      most = std::max(most, std::hypot(j.at.x, j.at.y) + j.width / 2.0 - radius);
+  CHECK(most < 30);
 }
 
 TEST_CASE("solid: lines lie side by side without gap and without overlap", "[infill][law]") {
