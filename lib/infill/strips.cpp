@@ -76,6 +76,7 @@ std::optional<double> angle_of_axis(const Region& region, std::optional<double> 
 
 std::optional<double> angle_along_walls(const Region& region) {
   constexpr double shortest_um = 1000;  // of what counts as a straight wall
+  constexpr double least_share = 0.25;  // of the edge: less is chance
   constexpr std::size_t bins = 90;
   constexpr double quarter = std::numbers::pi / 2;
   constexpr double same = 0.1 * std::numbers::pi / 180;  // two microns over a millimetre
@@ -85,7 +86,7 @@ std::optional<double> angle_along_walls(const Region& region) {
   };
   std::vector<Straight> all;
   std::array<double, bins> length{};
-  double whole = 0;
+  double whole = 0, straight = 0;
   const auto look = [&](const Ring& ring) {
     for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
       const double l = distance(ring[j], ring[i]);
@@ -94,14 +95,14 @@ std::optional<double> angle_along_walls(const Region& region) {
       double a = std::fmod(std::atan2(ring[i].y - ring[j].y, ring[i].x - ring[j].x) + 2 * std::numbers::pi, quarter);
       if (a > quarter - 1e-9) a = 0;
       const auto bin = static_cast<std::size_t>(std::lround(a / quarter * bins)) % bins;
-      length[bin] += l;
+      length[bin] += l, straight += l;
       all.push_back({bin == 0 && a > quarter / 2 ? a - quarter : a, l, bin});
     }
   };
   look(region.outer);
   for (const Ring& hole : region.holes) look(hole);
   const auto peak = static_cast<std::size_t>(std::max_element(length.begin(), length.end()) - length.begin());
-  if (length[peak] < whole / 2) return std::nullopt;
+  if (length[peak] < straight / 2 || length[peak] < least_share * whole) return std::nullopt;
   std::erase_if(all, [&](const Straight& each) { return each.bin != peak; });
   std::stable_sort(all.begin(), all.end(), [](const Straight& a, const Straight& b) { return a.angle < b.angle; });
   double best = 0, longest = 0, sum = 0;

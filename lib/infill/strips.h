@@ -17,10 +17,10 @@ inline constexpr double widest_strip = 5.5;
 /// @param bend the most, µm, that it may stand out across that beyond its mean width; nothing: it may bend
 std::optional<double> angle_of_axis(const Region& region, std::optional<double> bend = {});
 
-/// The direction (against X, from −1° to 90°) of most of the area's edge, when half of it runs that way or across.
-/// Lines along straight walls end square on the walls across, so they leave nothing open. Walls run one way to microns;
-/// an edge that other areas were cut off at is not as exact, and where it is longer than any wall it does not count for
-/// more than they do together.
+/// The direction (against X, from −1° to 90°) of most of the area's straight edge, when half of that runs that way or
+/// across, and a quarter of all edge. Lines along straight walls end square on the walls across, so they leave nothing
+/// open; round walls are alike to any lines. Walls run one way to microns; an edge that other areas were cut off at is
+/// not as exact, and where it is longer than any wall it does not count for more than they do together.
 std::optional<double> angle_along_walls(const Region& region);
 
 /// The direction (against X) of a straight strip no wider than some lines: across it they would be dabs with a turn

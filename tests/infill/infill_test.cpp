@@ -2,6 +2,7 @@
 #include "infill/infill.h"
 
 #include "areas.h"
+#include "infill/strips.h"
 #include "model/flow.h"
 
 #include <algorithm>
@@ -184,6 +185,33 @@ TEST_CASE("infill: lines run along walls, also where a longer edge that is no wa
         }
     }
   }
+}
+
+TEST_CASE("infill: lines run along straight walls, however long round ones are", "[infill]") {
+  const auto pierced = [](int corners) {
+    Region area = rectangle(0, 0, 16000, 16000);
+    for (const Point centre : {Point{4000, 4000}, {12000, 4000}, {4000, 12000}, {12000, 12000}}) {
+      Ring hole;
+      for (int i = corners; i > 0; --i)
+        hole.push_back({centre.x + rounded(3300 * std::cos(degrees(360.0 * i / corners))),
+                        centre.y + rounded(3300 * std::sin(degrees(360.0 * i / corners)))});
+      area.holes.push_back(std::move(hole));
+    }
+    return area;
+  };
+  for (const int corners : {24, 120}) {
+    CAPTURE(corners);
+    const LayerAreas areas = solid_area(pierced(corners));
+    for (const Bead& bead : fill({}, {}, input(areas)).beads)
+      for (std::size_t i = 1; i < bead.path.size(); ++i) {
+        const Point a = bead.path[i - 1].at, b = bead.path[i].at;
+        if (distance(a, b) > 2500) CHECK(std::abs(b.y - a.y) < 100);
+      }
+  }
+  Region round;
+  for (int i = 0; i < 40; ++i)
+    round.outer.push_back({rounded(9000 * std::cos(degrees(9.0 * i))), rounded(9000 * std::sin(degrees(9.0 * i)))});
+  CHECK_FALSE(infill::angle_along_walls(round));
 }
 
 TEST_CASE("infill: bridges are strands of the nozzle's diameter", "[infill]") {
