@@ -38,6 +38,13 @@ class Layers {
     else
       walled_ = tasks::parallel_map(layers.size(), [&](std::size_t k) { return fill_walled_columns(to_fill(k)); });
     under_roof_ = tasks::parallel_map(layers.size(), [&](std::size_t k) { return fill_under_roof(to_fill(k)); });
+    outlines_ = tasks::parallel_map(layers.size(), [&](std::size_t k) {
+      Regions all = layers[k].columns;
+      append(all, layers[k].branches), append(all, layers[k].roof);
+      append(all, layers[k].under_roof), append(all, layers[k].bottom);
+      append(all, layers[k].joists.area);
+      return geometry::joined(all);
+    });
   }
 
   std::vector<PrintedLayer> filled() && {
@@ -52,7 +59,7 @@ class Layers {
     const std::vector<Beads> rungs = rungs_for(hang_above, filled);
     return tasks::parallel_map(layers_.size(), [&](std::size_t k) {
       std::copy(rungs[k].begin(), rungs[k].end(), std::back_inserter(filled[k].beads));
-      return printed(layers_[k], std::move(filled[k].beads));
+      return printed(k, std::move(filled[k].beads));
     });
   }
 
@@ -135,21 +142,24 @@ class Layers {
   }
   /// A bead holds itself one height out at 45°, and no further than it lies on the one below by a third of its width.
   RungsBelow& rungs_on(std::size_t k, const Beads& beads, std::optional<RungsBelow>& out) const {
-    Regions area = layers_[k].columns;
-    append(area, layers_[k].roof), append(area, layers_[k].under_roof), append(area, layers_[k].bottom);
     const Um height = layers_[k].height;
     return out.emplace(
-        beads, geometry::joined(area), beneath(k),
+        beads, between_beads(k), beneath(k),
         RungStyle{
             .span = span_, .line = line_, .band = flow::band(line_, height), .step = std::min(height, line_ * 2 / 3)});
   }
-  static PrintedLayer printed(const support::SupportLayer& layer, Beads beads) {
+  /// What rungs may lie in.
+  Regions between_beads(std::size_t k) const {
+    const support::SupportLayer& layer = layers_[k];
+    if (layer.branches.empty() && layer.joists.area.empty()) return outlines_[k];
+    Regions area = layer.columns;
+    append(area, layer.roof), append(area, layer.under_roof), append(area, layer.bottom);
+    return geometry::joined(area);
+  }
+  PrintedLayer printed(std::size_t k, Beads beads) {
     PrintedLayer out;
-    out.z = layer.z, out.height = layer.height, out.beads = std::move(beads);
-    Regions all = layer.columns;
-    append(all, layer.branches), append(all, layer.roof), append(all, layer.under_roof), append(all, layer.bottom);
-    append(all, layer.joists.area);
-    out.outline = geometry::joined(all);
+    out.z = layers_[k].z, out.height = layers_[k].height, out.beads = std::move(beads);
+    out.outline = std::move(outlines_[k]);
     if (out.outline.size() > 1) {
       const geometry::SegmentIndex index(out.outline);
       for (auto& bead : out.beads)
@@ -165,6 +175,7 @@ class Layers {
   std::optional<SupportColumns> columns_;  ///< without walls
   std::vector<Beads> walled_;              ///< columns with walls, by layer
   std::vector<Beads> under_roof_;          ///< by layer
+  std::vector<Regions> outlines_;          ///< of all that each layer covers
 };
 
 }  // namespace

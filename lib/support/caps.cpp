@@ -2,7 +2,7 @@
 #include "support/caps.h"
 
 #include "core/stop.h"
-#include "geometry/boolean.h"
+#include "geometry/nudge.h"
 #include "geometry/simplify.h"
 #include "geometry/trimmed.h"
 #include "support/kinds.h"
@@ -71,10 +71,11 @@ class Capper {
     if (room_.settings().support_roof_enable) append(roof, geometry::trimmed(base.joists.area, near));
     const Regions barred = geometry::trimmed(others, near);
     Regions free = room_.free_part(shape, lies, contact);
-    if (!barred.empty()) free = geometry::subtract(free, barred);
+    if (!barred.empty()) free = geometry::beyond(free, barred, beside_by);
     const auto on = [&](const Regions& under) {
       if (under.empty()) return Regions{};
-      return opened(geometry::intersect(free, geometry::unite(under)), line_ * 4 / 10);
+      const Regions off = geometry::beyond(free, under, beside_by);
+      return opened(off.empty() ? free : geometry::beyond(free, off, beside_by), line_ * 4 / 10);
     };
     out.roof = on(roof);
     out.branches = on(geometry::trimmed(base.branches, near));

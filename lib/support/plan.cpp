@@ -2,6 +2,7 @@
 #include "core/stop.h"
 #include "geometry/boolean.h"
 #include "geometry/clip_lines.h"
+#include "geometry/nudge.h"
 #include "geometry/simplify.h"
 #include "geometry/trimmed.h"
 #include "support/brackets.h"
@@ -148,12 +149,12 @@ struct Near {
 Near near_to(const Regions& all_wanted, const Regions& support) {
   Near out;
   for (const Region& wanted : all_wanted) {
-    const Regions under = geometry::trimmed(support, box_of(wanted.outer).grown(1));
+    const Regions under = geometry::trimmed(support, box_of(wanted.outer).grown(4 * beside_by));
     if (under.empty()) {
       out.partly.push_back(wanted);
       continue;
     }
-    const Regions beside = geometry::subtract({wanted}, under);
+    const Regions beside = geometry::beyond(wanted, under, beside_by);
     const double covered_mm2 = area_mm2(wanted) - area_mm2(beside);
     out.contact_mm2 += covered_mm2;
     // Each piece of what is partly covered touches what covers it.

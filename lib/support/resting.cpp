@@ -2,6 +2,7 @@
 #include "support/resting.h"
 
 #include "geometry/boolean.h"
+#include "geometry/nudge.h"
 #include "geometry/trimmed.h"
 #include "support/lengths.h"
 #include "support/thin.h"
@@ -16,10 +17,11 @@ namespace {
 Regions hanging(const Region& region, const Regions& below) {
   constexpr double least_mm2 = 0.05;
   constexpr Um least_wide = 60;
-  const Regions under = geometry::trimmed(below, box_of(region.outer).grown(1));
+  const Regions under = geometry::trimmed(below, box_of(region.outer).grown(4 * beside_by));
   if (std::find(under.begin(), under.end(), region) != under.end()) return {};
   Regions out;
-  for (const Region& piece : under.empty() ? Regions{region} : geometry::subtract({region}, under)) {
+  const Regions over = under.empty() ? Regions{region} : geometry::beyond(region, under, beside_by);
+  for (const Region& piece : over) {
     const double mm2 = area_mm2(piece);
     if (mm2 < least_mm2) continue;
     if (2e6 * mm2 >= least_wide * perimeter_of(piece.outer))
@@ -49,15 +51,17 @@ Regions falls_down(const Room& room, const Stack::Level& level, const Regions& b
   Regions out;
   for (const Region& piece : hangs) {
     const Box near = box_of(piece.outer).grown(2 * reach);
-    Regions base = geometry::trimmed(below, near);
-    if (room.settings().support_type == SupportType::everywhere) {  // what lies below it, and not walls beside
+    const auto beyond = [&](const Regions& base) {
+      return base.empty() ? Regions{piece} : geometry::subtract({piece}, grown(base, reach));
+    };
+    Regions base = geometry::trimmed(below, near), free = beyond(base);
+    if (!free.empty() && room.settings().support_type == SupportType::everywhere) {
       const Regions part = part_below(room, level, near);
-      if (!part.empty()) append(base, geometry::intersect({piece}, part));
+      if (!part.empty())
+        if (const Regions on_part = geometry::intersect({piece}, part); !on_part.empty())
+          append(base, on_part), free = beyond(base);  // it stands on what lies below it, and not on walls beside
     }
-    if (base.empty())
-      out.push_back(piece);
-    else
-      append(out, geometry::subtract({piece}, grown(base, reach)));
+    append(out, free);
   }
   return out;
 }
@@ -65,14 +69,14 @@ Regions falls_down(const Room& room, const Stack::Level& level, const Regions& b
 }  // namespace
 
 void rest_on(const Room& room, const Stack::Level& level, const Regions& below, Regions& here) {
-  const Um hair = line_width(room.settings(), room.object().nozzle) * 4 / 10;
+  const Um thin = line_width(room.settings(), room.object().nozzle) * 4 / 10;
   Regions left;
   for (Region& region : here) {
     const Regions free = falls_down(room, level, below, hanging(region, below));
     if (free.empty())
       left.push_back(std::move(region));
     else  // nothing rests on a hair that stays beside what goes
-      append(left, without_thin(geometry::subtract({region}, free), hair));
+      append(left, without_thin(geometry::beyond(region, free, beside_by), thin));
   }
   here = std::move(left);
 }

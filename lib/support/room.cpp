@@ -2,6 +2,7 @@
 #include "support/room.h"
 
 #include "geometry/boolean.h"
+#include "geometry/nudge.h"
 #include "geometry/simplify.h"
 #include "geometry/touching.h"
 #include "geometry/trimmed.h"
@@ -9,6 +10,7 @@
 #include "tasks/parallel.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace weft::support {
 namespace {
@@ -153,7 +155,7 @@ Regions Room::barred(const Stack::Level& level, const Place& place, const Region
   Regions nearer;  // where the part is come nearer than elsewhere
   const auto keep_off = [&](Um distance) {
     const Regions off = kept_off(part, distance);
-    append(barred, nearer.empty() ? off : geometry::subtract(off, nearer));
+    append(barred, nearer.empty() ? off : geometry::beyond(off, nearer, 0));
   };
   const auto come_nearer = [&](const Regions& beside, Um distance) {
     const Regions near = geometry::trimmed(beside, place.box.grown(o_.nozzle + 1));
@@ -179,6 +181,17 @@ Regions Room::within_bounds(const Region& region, const Box& box, bool& cut) con
   return geometry::intersect({region}, geometry::trimmed(*o_.room, box));
 }
 
+namespace {
+
+/// So much more is kept off, on each level another: what one cut off does not lie on what cuts the next then, which
+/// takes three times as long.
+Um hair_on(const Stack::Level& level) {
+  constexpr Um least = 2, kinds = 7;
+  return least + std::abs(level.z / 10) % kinds;
+}
+
+}  // namespace
+
 Regions Room::free_part(const Regions& area, const Stack::Level& level, const Regions& contacts, bool* changed,
                         const Regions* above) const {
   Regions out;
@@ -189,9 +202,11 @@ Regions Room::free_part(const Regions& area, const Stack::Level& level, const Re
     Regions left = within_bounds(region, box, cut);
     if (!left.empty()) {
       const Regions alone{region};
+      const Um hair = hair_on(level);
+      const Box wide = box.grown(4 * hair);
       const Regions not_there =
-          geometry::trimmed(barred(level, {box, alone, geometry::SegmentIndex(alone)}, contacts, above), box);
-      if (!not_there.empty()) left = geometry::subtract(left, not_there), cut = true;
+          geometry::trimmed(barred(level, {wide, alone, geometry::SegmentIndex(alone)}, contacts, above), wide);
+      if (!not_there.empty()) left = geometry::beyond(left, not_there, hair), cut = true;
     }
     any = any || cut;
     append(out, left);

@@ -2,6 +2,7 @@
 #include "support/thin.h"
 
 #include "geometry/boolean.h"
+#include "geometry/nudge.h"
 #include "geometry/offset.h"
 #include "geometry/spatial_index.h"
 #include "support/lengths.h"
@@ -37,11 +38,12 @@ void thicken(Regions& area, const Regions& fresh, Um line) {
 
 namespace {
 
+constexpr Um rounded_off = 2;
+
 /// Whether no corner of one, and no middle of an edge, is further from the other than offsets are rounded: a neck has
 /// its corners where it begins to be one.
 bool within(const Regions& inner, const geometry::SegmentIndex& outer) {
-  constexpr double rounded_um = 2;
-  const auto lies = [&](Point p) { return outer.nearest(p, rounded_um) || outer.region_at(p); };
+  const auto lies = [&](Point p) { return outer.nearest(p, rounded_off) || outer.region_at(p); };
   const auto all_lie = [&](const Ring& ring) {
     for (std::size_t i = 0; i < ring.size(); ++i)
       if (!lies(ring[i]) || !lies(lerp(ring[i], ring[i + 1 < ring.size() ? i + 1 : 0], 0.5))) return false;
@@ -58,7 +60,9 @@ Regions without_thin(const Regions& area, Um radius) {
   const Regions wide = geometry::offset(geometry::offset(area, {.by = -radius}), {.by = radius, .miter_limit = 3});
   if (wide.empty()) return wide;
   // Only where a corner was cut off, the whole one reaches further.
-  return within(wide, geometry::SegmentIndex(area)) ? wide : geometry::intersect(wide, area);
+  return within(wide, geometry::SegmentIndex(area))
+             ? wide
+             : geometry::intersect(wide, geometry::nudged_out(area, rounded_off));
 }
 
 }  // namespace weft::support

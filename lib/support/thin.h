@@ -4,11 +4,16 @@
 
 namespace weft::support {
 
+/// What of support is beside more of it may lie so far from that, or over it: far less than beads do, and outlines that
+/// do not lie on each other are cut in a third of the time.
+inline constexpr Um beside_by = 3;
+
 /// Strips thinner than two lines of what is `fresh`, made as wide as that.
 void thicken(Regions& area, const Regions& fresh, Um line);
 
 /// What is thinner than twice the radius goes, and tips sharper than 39°. Other corners stay as they are: what is
-/// rounded on one level would leave nothing below the corners of the next. Post: nothing reaches out of the area.
+/// rounded on one level would leave nothing below the corners of the next. Post: nothing reaches out of the area
+/// further than offsets are rounded.
 Regions without_thin(const Regions& area, Um radius);
 
 }  // namespace weft::support
