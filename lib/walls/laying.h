@@ -25,9 +25,12 @@ struct Span {
 struct Mitre {
   double out = 1;   ///< so many times as far from it as they were if they bent round
   double axis = 0;  ///< how far from it the middle between the walls of both sides is; 0: where the axis is
-  /// They bend before the next rib: where a wall at a distance of 1 µm from the sides of the corner does, from its
-  /// foot.
-  std::optional<Place> bend{};
+  /// That they bend before the next rib.
+  struct Bend {
+    Place way;      ///< where a wall 1 µm from the sides of the corner does, from its foot
+    double middle;  ///< so far from them is the middle
+  };
+  std::optional<Bend> bend{};
 };
 
 struct Laying {

@@ -60,7 +60,8 @@ class Fan {
       const double room = node.clearance + within * (node.clearance - bound);
       if (mitre.axis > room || mitre.axis < mitre.out * bound) return;
     }
-    found[bends].bend = Place{(u.x + v.x) / (1 + cos_turn), (u.y + v.y) / (1 + cos_turn)};
+    found[bends].bend = Mitre::Bend{{(u.x + v.x) / (1 + cos_turn), (u.y + v.y) / (1 + cos_turn)},
+                                    std::min(first.clearance, last.clearance)};
     for (std::size_t i = 0; i < halves_.size(); ++i) out[halves_[i]] = found[i];
   }
 

@@ -17,7 +17,7 @@ inline std::optional<Place> bend_of(const Skeleton& skeleton, const Laying& layi
   const auto& bend = laying.mitres[half].bend;
   if (!bend) return {};
   const Place foot = skeleton.halves[half].foot;
-  return Place{foot.x + distance * bend->x, foot.y + distance * bend->y};
+  return Place{foot.x + distance * bend->way.x, foot.y + distance * bend->way.y};
 }
 
 }  // namespace weft::walls

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace weft::walls {
 namespace {
@@ -12,14 +13,15 @@ namespace {
 using Vertex = Line::Vertex;
 
 constexpr double tip_step_um = 40;
-constexpr double before_end_um = 4;     // the last chord: a square end need not be quite square
-constexpr double off_share = 0.9;       // the middle of a chord stays within so much of the free width of the axis
-constexpr double straight_share = 0.8;  // of the free width at its end: so far before it a bead goes straight on
-constexpr double most_lean = 0.25;      // … and leans no more than so much to where there is more room
-constexpr double closing = 2.5;         // sides that close in faster than this are the end
-constexpr double width_of_end = 0.5;    // … no further than so many widths before it
-constexpr double square_share = 0.4;    // … if all of it is at least so near to its mean distance
-constexpr double squarish = 0.9;        // sine between an end's edge and the way to it: it is met squarely
+constexpr double direction_share = 0.5;  // of the free width: so far before and behind a direction is told
+constexpr double before_end_um = 4;      // the last chord: a square end need not be quite square
+constexpr double off_share = 0.9;        // the middle of a chord stays within so much of the free width of the axis
+constexpr double straight_share = 0.8;   // of the free width at its end: so far before it a bead goes straight on
+constexpr double most_lean = 0.25;       // … and leans no more than so much to where there is more room
+constexpr double closing = 2.5;          // sides that close in faster than this are the end
+constexpr double width_of_end = 0.5;     // … no further than so many widths before it
+constexpr double square_share = 0.4;     // … if all of it is at least so near to its mean distance
+constexpr double squarish = 0.9;         // sine between an end's edge and the way to it: it is met squarely
 constexpr double longer_axis = 2.5;  // … if the axis is longer than so many free widths; else it has no way of its own
 constexpr double last_piece = 0.4;   // of the width: so long is what meets it
 constexpr double sidestep = 0.6;     // … and so long the one before, which leads from the axis to it
@@ -60,6 +62,11 @@ void Strip::add_axis(Place at, double free) {
   along_.push_back(axis_.empty() ? 0 : along_.back() + distance(axis_.back(), at));
   axis_.push_back(at);
   free_.push_back(free);
+}
+
+void Strip::add_bend(Place at, double free) {
+  add_axis(at, free);
+  bends_.push_back(along_.back());
 }
 
 void Strip::collect_sides() {
@@ -253,6 +260,13 @@ void Strip::sample(double from, double to, std::vector<double>& out) const {
       if (b - k * step > from && b - k * step < to) out.push_back(b - k * step);
   }
   if (to > from) out.push_back(to);
+  // Before and behind a bend directions look past it: chords would be aslant.
+  const auto within = [&](double s) { return s > from && s < to; };
+  for (const double bend : bends_) {
+    const double beside = direction_share * free_at(bend);
+    std::erase_if(out, [&](double s) { return within(s) && within(bend) && std::abs(s - bend) < beside; });
+  }
+  std::copy_if(bends_.begin(), bends_.end(), std::back_inserter(out), within);
   std::sort(out.begin(), out.end());
 }
 
@@ -332,7 +346,7 @@ std::vector<Vertex> Strip::bead() {
   for (const double s : samples) {
     const double free = free_at(s);
     std::size_t edge = 0;
-    const Place way = direction(s, std::max(0.5 * free, 10.0));
+    const Place way = direction(s, std::max(direction_share * free, 10.0));
     const Place p = at(s, edge);
     const bool point = (first_pointed && s <= 0) || (last_pointed && s >= whole);
     add(path, point ? Chord{p, p, true} : across(p, way, s, free), p, way, free);

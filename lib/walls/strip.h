@@ -14,6 +14,8 @@ class Strip {
  public:
   /// Adds a point of the axis; `free` is half the width that is there.
   void add_axis(Place at, double free);
+  /// … where all of the strip bends at once.
+  void add_bend(Place at, double free);
   /// Adds a point of the outline right (left) of the axis, beside the axis' last point.
   void add_right(Place at) { right_.push_back({at, tag()}); }
   void add_left(Place at) { left_.push_back({at, tag()}); }
@@ -64,7 +66,7 @@ class Strip {
   void add(std::vector<Line::Vertex>& path, const Chord& chord, Place on_axis, Place way, double free);
 
   std::vector<Place> axis_;
-  std::vector<double> free_, along_;
+  std::vector<double> free_, along_, bends_;  ///< bends: where along the axis
   std::vector<Point> right_, left_;
   std::vector<Side> sides_;           ///< by tag
   std::vector<std::uint32_t> first_;  ///< of each tag in sides_

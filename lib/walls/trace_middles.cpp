@@ -147,7 +147,9 @@ class Tracer {
     for (std::size_t j = chain.size(); j-- > 0;) {
       const std::uint32_t t = Skeleton::twin(chain[j]);
       const std::size_t before = j > 0 ? j - 1 : chain.size() - 1;
-      add_side(t, left[j]);
+      left[j].push_back(side(t, true));
+      if (const auto p = bend_of(s_, laying_, t, mean_level(t))) left[j].push_back(*p);
+      left[j].push_back(side(t, false));
       if (j > 0 || strip.closed) around(t, Skeleton::twin(chain[before]), left[j]);
       std::reverse(left[j].begin(), left[j].end());
     }
@@ -157,8 +159,10 @@ class Tracer {
       for (const Place p : left[j]) strip.add_left(p);
       std::vector<Place> right;  // what lies around a node goes with the piece behind it, as on the left
       if (j > 0 || strip.closed) around(chain[j > 0 ? j - 1 : chain.size() - 1], h, right);
-      add_side(h, right);
+      right.push_back(side(h, true));
       for (const Place p : right) strip.add_right(p);
+      add_bend(h, strip);
+      strip.add_right(side(h, false));
     }
     const auto& to = s_.end(chain.back());
     strip.add_axis(to.at, std::max(1.0, to.clearance - level(chain.back(), false)));
@@ -180,11 +184,14 @@ class Tracer {
     strip.add_axis(mitred > 0 ? Place{sum.x / mitred, sum.y / mitred} : node.at, std::max(1.0, free));
   }
 
-  void add_side(std::uint32_t h, std::vector<Place>& out) const {
-    out.push_back(side(h, true));
-    if (const auto bend = bend_of(s_, laying_, h, (level(h, true) + level(h, false)) / 2)) out.push_back(*bend);
-    out.push_back(side(h, false));
+  /// Where walls on one side are mitred between the ends of a half.
+  void add_bend(std::uint32_t h, Strip& strip) const {
+    for (const std::uint32_t g : {h, Skeleton::twin(h)})
+      if (const auto& bend = laying_.mitres[g].bend)
+        strip.add_bend(*bend_of(s_, laying_, g, bend->middle), std::max(1.0, bend->middle - mean_level(g)));
+    if (const auto p = bend_of(s_, laying_, h, mean_level(h))) strip.add_right(*p);
   }
+  double mean_level(std::uint32_t h) const { return (level(h, true) + level(h, false)) / 2; }
 
   Place side(std::uint32_t h, bool at_start) const {
     const double out = laying_.mitres[at_start ? h : s_.halves[h].next].out, d = out * level(h, at_start);
