@@ -173,7 +173,7 @@ inline constexpr Rows support_schema{
     setting("support_infill_rate", Scope::object, &SupportSettings::support_infill_rate, Unit::percent, 0, 100,
             "Share of the inside of columns that is plastic."),
     setting("support_infill_angle", Scope::object, &SupportSettings::support_infill_angle, Unit::degrees, -360, 360,
-            "Direction of the lines of support, against X; those of interfaces lie across."),
+            "Direction of the lines of support, against X; what a roof lies on lies across, as do floors."),
     setting("support_join_distance", Scope::object, &SupportSettings::support_join_distance, Unit::mm, 0_mm, 50_mm,
             "Columns nearer to each other than this become one."),
     setting("support_initial_layer_density", Scope::object, &SupportSettings::support_initial_layer_density,
@@ -187,7 +187,7 @@ inline constexpr Rows support_schema{
         "Where support stands on the part it begins with a dense interface; else wide columns stand there on pieces of "
         "their lowest beads."),
     setting("support_roof_height", Scope::object, &SupportSettings::support_roof_height, Unit::mm, 0_mm, 10_mm,
-            "Height of the interface on top, in whole layers."),
+            "Height of the interface on top, in whole layers; the lowest of it is strands that carry the rest."),
     setting("support_bottom_height", Scope::object, &SupportSettings::support_bottom_height, Unit::mm, 0_mm, 10_mm,
             "Height of the interface at the bottom, in whole layers; auto is support_roof_height."),
     setting("support_interface_density", Scope::object, &SupportSettings::support_interface_density, Unit::percent, 1,
