@@ -16,10 +16,10 @@ namespace {
 /// Where a corner lies when both its edges have moved to their right, but no further than twice as far.
 Point moved_out(Point before, Point corner, Point after, Um by) {
   const double in = std::max(distance(before, corner), 1.0), on = std::max(distance(corner, after), 1.0);
-  const double ax = (corner.y - before.y) / in, ay = (before.x - corner.x) / in;
-  const double bx = (after.y - corner.y) / on, bz = (corner.x - after.x) / on;
-  const double reach = by / std::max(1 + ax * bx + ay * bz, 0.5);
-  return corner + Point{rounded(reach * (ax + bx)), rounded(reach * (ay + bz))};
+  const double ux = (corner.y - before.y) / in, uy = (before.x - corner.x) / in;
+  const double vx = (after.y - corner.y) / on, vy = (corner.x - after.x) / on;
+  const double reach = by / std::max(1 + ux * vx + uy * vy, 0.5);
+  return corner + Point{rounded(reach * (ux + vx)), rounded(reach * (uy + vy))};
 }
 
 Ring nudged_out(const Ring& ring, Um by) {
