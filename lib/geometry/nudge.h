@@ -4,13 +4,13 @@
 
 namespace weft::geometry {
 
-/// Every corner moved out along its miter, and no edge looked at that crosses another then: a few microns, so that
-/// outlines that lie on those of others do not any more, and Booleans follow them instead of sweeping both.
+/// Every corner moved out by so many microns along its miter, and no edge looked at that crosses another then: a few,
+/// so that outlines that lie on those of others do not any more, and Booleans follow them instead of sweeping both.
 Regions nudged_out(const Regions& regions, Um by);
 
 /// What of a region others do not cover that are a hair wider than they are: a few microns, by which they may then
-/// cross. Pre: the region is one, as a Boolean leaves it; others are whole within four hairs of its box. Cost: a third
-/// of `subtract`, where outlines lie on each other.
+/// cross. Pre: the region is one, as a Boolean leaves it; others are whole within four hairs of its box. Cost: as of
+/// `wound`, or of `subtract` where that cannot tell.
 Regions beyond(const Region& region, const Regions& others, Um hair);
 /// The same of several that do not overlap.
 Regions beyond(const Regions& regions, const Regions& others, Um hair);

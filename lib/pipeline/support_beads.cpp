@@ -47,7 +47,7 @@ class Filler {
         origin_(what.origin),
         line_(support::line_width(s_, what.settings.machine.nozzle_diameter)),
         span_(support::roof_span(what.settings.machine.nozzle_diameter)),
-        short_span_(span_ * 6 / 10),
+        narrow_span_(support::narrow_roof_span(what.settings.machine.nozzle_diameter)),
         between_feet_(support::between_feet(what.settings.machine.nozzle_diameter)),
         band_(flow::band(line_, layer_.height)),
         usual_band_(std::max<Um>(flow::band(line_, what.settings.layers.layer_height), 1)) {}
@@ -231,7 +231,7 @@ class Filler {
       const std::size_t from = beads_.size();
       loops({area}, most_loops, Role::support_interface);
       if (below_->empty()) continue;
-      const auto hanging = better_across(area, from, below_->hanging(laid(from), short_span_));
+      const auto hanging = better_across(area, from, below_->hanging(laid(from), narrow_span_));
       hang_at_.insert(hang_at_.end(), hanging.at.begin(), hanging.at.end());
     }
   }
@@ -241,12 +241,12 @@ class Filler {
   Hanging better_across(const Region& area, std::size_t from, Hanging of_along) {
     constexpr double many = 0.3;
     const auto begin = static_cast<std::ptrdiff_t>(from);
-    if (of_along.um < short_span_ || of_along.um < many * length_um(laid(from))) return of_along;
+    if (of_along.um < narrow_span_ || of_along.um < many * length_um(laid(from))) return of_along;
     Beads along(std::make_move_iterator(beads_.begin() + begin), std::make_move_iterator(beads_.end()));
     beads_.erase(beads_.begin() + begin, beads_.end());
     for (const double angle : {s_.support_infill_angle, across()}) {
       solid({area}, angle, Role::support_interface);
-      Hanging of_across = below_->hanging(laid(from), short_span_);
+      Hanging of_across = below_->hanging(laid(from), narrow_span_);
       if (2 * of_across.um < of_along.um) return of_across;
       beads_.erase(beads_.begin() + begin, beads_.end());
     }
@@ -359,8 +359,8 @@ class Filler {
   const support::SupportLayer& layer_;
   Point origin_;
   Um line_;
-  Um span_;        ///< what a bead crosses without sagging
-  Um short_span_;  ///< … one that nothing but the part lies on
+  Um span_;         ///< what a bead crosses without sagging
+  Um narrow_span_;  ///< … one of a narrow roof
   Um between_feet_, band_;
   Um usual_band_;  ///< at layer_height: what shares are of, so that lines of layers of any height lie on each other
   const Beneath* below_ = nullptr;

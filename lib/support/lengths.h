@@ -81,6 +81,11 @@ inline Um hollow_column(Um line, double share) {
 /// Roofs narrower than that are beads along them.
 inline constexpr Um narrow_roof = 3_mm;
 
+/// The free length that these cross: they have no other level above them, only the part.
+inline Um narrow_roof_span(Um nozzle) {
+  return 6 * nozzle;
+}
+
 /// The share of plastic of the strands that a roof on columns lies on: two beads' width between one and the next, which
 /// the thinnest cap crosses.
 inline double under_roof_share(const SupportSettings& s) {

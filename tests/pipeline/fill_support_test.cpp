@@ -210,14 +210,26 @@ TEST_CASE("support: what crosses from rest to rest hangs no more than what lies,
   CHECK(hangs({21000, 1000}, {29000, 9000}) == 0);
 }
 
+namespace {
+/// Level i of a column of 40 mm whose lower side is there.
+support::SupportLayer column_from(Um low, int i) {
+  return level(2000 + 200 * i, 200, &support::SupportLayer::columns, {rectangle(0, low, 40000, 40000)});
+}
+/// Where a column's lines lie that run along x.
+std::set<Um> lines_of(const Settings& s, const support::SupportLayer& column) {
+  const auto filled = pipeline::fill_support(s, {column}, {});
+  std::set<Um> rows;
+  for (const Bead& bead : filled.front().beads) rows.insert(bead.path[0].at.y);
+  REQUIRE(rows.size() > 10);
+  return rows;
+}
+}  // namespace
+
 TEST_CASE("support: a narrow roof crosses the lines of a column where beads along it would hang between two of them") {
   const auto s = fine_lines();
   const Regions column{rectangle(0, 0, 40000, 40000)};
   const auto of_column = level(2000, 200, &support::SupportLayer::columns, column);
-  const auto alone = pipeline::fill_support(s, {of_column}, {});
-  std::set<Um> rows;
-  for (const Bead& bead : alone.front().beads) rows.insert(bead.path[0].at.y);
-  REQUIRE(rows.size() > 10);
+  const std::set<Um> rows = lines_of(s, of_column);
   const Um row = *std::next(rows.begin(), 5), apart = *std::next(rows.begin(), 6) - row;
   const auto roof = [&](Um z, Um low, Um high) {
     return level(z, 200, &support::SupportLayer::roof, {rectangle(5000, low, 25000, high)});
@@ -237,14 +249,12 @@ TEST_CASE("support: a narrow roof crosses the lines of a column where beads alon
 TEST_CASE("support: a dab under a tip between two lines of a column lies on a rung, one on a line needs none") {
   const auto s = fine_lines();
   const auto of_column = level(2000, 200, &support::SupportLayer::columns, {rectangle(0, 0, 40000, 40000)});
-  const auto alone = pipeline::fill_support(s, {of_column}, {});
-  std::set<Um> rows;
-  for (const Bead& bead : alone.front().beads) rows.insert(bead.path[0].at.y);
-  REQUIRE(rows.size() > 10);
+  const std::set<Um> rows = lines_of(s, of_column);
   const Um row = *std::next(rows.begin(), 5), next = *std::next(rows.begin(), 6);
   const auto rungs = [&](Um y) {
     const auto dab = level(2200, 200, &support::SupportLayer::roof, {rectangle(19500, y - 500, 20500, y + 500)});
-    return pipeline::fill_support(s, {of_column, dab}, {})[0].beads.size() - alone.front().beads.size();
+    return pipeline::fill_support(s, {of_column, dab}, {})[0].beads.size() -
+           pipeline::fill_support(s, {of_column}, {}).front().beads.size();
   };
   CHECK(rungs(row) == 0);
   REQUIRE(rungs((row + next) / 2) == 1);
@@ -328,10 +338,7 @@ TEST_CASE("support: a roof lies on strands across its column's lines, and its ow
 TEST_CASE("support: a strip of roof beside the one below it lies on rungs between that and the next line") {
   const auto s = fine_lines();
   auto of_column = level(2000, 200, &support::SupportLayer::columns, {rectangle(0, 0, 40000, 40000)});
-  const auto alone = pipeline::fill_support(s, {of_column}, {});
-  std::set<Um> rows;
-  for (const Bead& bead : alone.front().beads) rows.insert(bead.path[0].at.y);
-  REQUIRE(rows.size() > 10);
+  const std::set<Um> rows = lines_of(s, of_column);
   const Um row = *std::next(rows.begin(), 5), next = *std::next(rows.begin(), 6);
   of_column.columns = {rectangle(0, row + 800, 40000, 40000)};
   of_column.roof = {rectangle(0, row, 40000, row + 800)};
@@ -352,17 +359,11 @@ TEST_CASE("support: a strip of roof beside the one below it lies on rungs betwee
 
 TEST_CASE("support: where a column gets one more line, that lies on brackets") {
   const auto s = fine_lines();
-  const auto column = [](Um low, int i) {
-    return level(2000 + 200 * i, 200, &support::SupportLayer::columns, {rectangle(0, low, 40000, 40000)});
-  };
-  const auto alone = pipeline::fill_support(s, {column(0, 0)}, {});
-  std::set<Um> rows;
-  for (const Bead& bead : alone.front().beads) rows.insert(bead.path[0].at.y);
-  REQUIRE(rows.size() > 10);
+  const std::set<Um> rows = lines_of(s, column_from(0, 0));
   const Um next = *std::next(rows.begin(), 4);  // of the column above; the one below ends just before it
   std::vector<support::SupportLayer> stack;
-  for (int i = 0; i < 15; ++i) stack.push_back(column(next + 20, i));
-  stack.push_back(column(next - 300, 15));
+  for (int i = 0; i < 15; ++i) stack.push_back(column_from(next + 20, i));
+  stack.push_back(column_from(next - 300, 15));
   const auto filled = pipeline::fill_support(s, stack, {});
   const auto hangs_mm = [&](bool on_brackets) {
     Beads below = filled[14].beads;
@@ -377,17 +378,11 @@ TEST_CASE("support: where a column gets one more line, that lies on brackets") {
 TEST_CASE(
     "support: a roof that reaches beyond a column's last line lies on brackets, each grown out of the one below") {
   const auto s = fine_lines();
-  const auto of_column = [](Um low, int i) {
-    return level(2000 + 200 * i, 200, &support::SupportLayer::columns, {rectangle(0, low, 40000, 40000)});
-  };
-  const auto alone = pipeline::fill_support(s, {of_column(0, 0)}, {});
-  std::set<Um> rows;
-  for (const Bead& bead : alone.front().beads) rows.insert(bead.path[0].at.y);
-  REQUIRE(rows.size() > 10);
+  const std::set<Um> rows = lines_of(s, column_from(0, 0));
   const Um last = *std::next(rows.begin(), 5), edge = last - 2300;
   constexpr int levels = 15;
   std::vector<support::SupportLayer> stack;
-  for (int i = 0; i < levels; ++i) stack.push_back(of_column(edge, i));
+  for (int i = 0; i < levels; ++i) stack.push_back(column_from(edge, i));
   stack.push_back(level(2000 + 200 * levels, 200, &support::SupportLayer::roof, {rectangle(5000, edge, 25000, last)}));
   const auto filled = pipeline::fill_support(s, stack, {});
   const auto hangs_mm = [](const Beads& beads, const Beads& on) {
