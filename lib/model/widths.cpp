@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 
 namespace weft {
 namespace {
@@ -30,50 +30,68 @@ VertexPath finer(const VertexPath& path, bool closed) {
   return out;
 }
 
-/// Widths along a path: each for so long.
-struct Widths {
-  std::vector<double> lengths, values;
-};
+/// Cuts heights of widths along a path that are held for less than `least`, and fills dips.
+class Cutter {
+ public:
+  /// `lengths`: for how long each width is held. A path that is a circle begins anywhere.
+  Cutter(std::vector<double> lengths, bool circle, double least)
+      : lengths_(std::move(lengths)),
+        circle_(circle),
+        least_(least),
+        way_(lengths_.size() + 1),
+        height_(lengths_.size()) {}
 
-/// Cuts heights of a row that are held for less (sign 1), or fills dips (-1). A row that is a circle begins anywhere.
-void cut(Widths& row, bool circle, double least, double sign) {
-  const std::size_t n = row.values.size();
-  std::vector<double>& value = row.values;
-  // A circle is cut open at its deepest place: no height lies across that.
-  std::size_t first = 0;
-  for (std::size_t i = 0; circle && i < n; ++i)
-    if (sign * value[i] < sign * value[first]) first = i;
-  const auto place = [&](std::size_t k) { return first + k < n ? first + k : first + k - n; };
-  std::vector<double> way(n + 1, 0.0);
-  std::vector<std::size_t> order(n);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  for (std::size_t k = 0; k < n; ++k) way[k + 1] = way[k] + row.lengths[place(k)];
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    const double p = sign * value[place(a)], q = sign * value[place(b)];
-    return p != q ? p > q : a < b;
-  });
-  // Stretches grow from the highest places down. One is told at its ends by where its other end is.
-  constexpr std::size_t none = ~std::size_t{0};
-  std::vector<std::size_t> other(n, none);
-  const auto holds = [&](std::size_t from, std::size_t to) {
-    const bool end = !circle && (from == 0 || to + 1 == n);
-    return way[to + 1] - way[from] >= (end ? least / 2 : least);
-  };
-  for (const std::size_t k : order) {
-    const bool before = k > 0 && other[k - 1] != none, behind = k + 1 < n && other[k + 1] != none;
-    const std::size_t from = before ? other[k - 1] : k, to = behind ? other[k + 1] : k;
-    const double level = value[place(k)];
-    const auto lower = [&](std::size_t a, std::size_t b) {
-      if (holds(a, b)) return;  // all of it is decided
-      for (std::size_t i = a; i <= b; ++i) value[place(i)] = level;
-    };
-    if (holds(from, to)) {
-      if (before) lower(from, k - 1);
-      if (behind) lower(k + 1, to);
+  /// Heights (sign 1) or dips (-1). Stretches that are as high grow from a place where the path rises to where it falls
+  /// below that: one stack has all that are open, each of them higher than the one below.
+  void cut(std::vector<double>& values, double sign) {
+    const std::size_t n = values.size();
+    // A circle is cut open at its deepest place: no height lies across that.
+    std::size_t first = 0;
+    for (std::size_t i = 0; circle_ && i < n; ++i)
+      if (sign * values[i] < sign * values[first]) first = i;
+    for (std::size_t k = 0, i = first; k < n; ++k, i = i + 1 < n ? i + 1 : 0)
+      height_[k] = sign * values[i], way_[k + 1] = way_[k] + lengths_[i];
+    for (std::size_t k = 0; k <= n; ++k) {
+      const double here = k < n ? height_[k] : -std::numeric_limits<double>::infinity();
+      std::size_t from = k;
+      while (!open_.empty() && open_.back().height > here) {
+        from = open_.back().from;
+        close(k);
+      }
+      if (k < n && (open_.empty() || open_.back().height < here)) open_.push_back({from, here});
     }
-    other[from] = to, other[to] = from;
+    short_.clear();
+    for (std::size_t k = 0, i = first; k < n; ++k, i = i + 1 < n ? i + 1 : 0) values[i] = sign * height_[k];
   }
-}
+
+ private:
+  struct Rise {
+    std::size_t from;
+    double height;
+  };
+  struct Stretch {
+    std::size_t from, to;
+  };
+
+  /// The highest stretch ends here: if it is held long enough, those upon it that are not are as high as it is.
+  void close(std::size_t to) {
+    const auto [from, height] = open_.back();
+    open_.pop_back();
+    const bool end = !circle_ && (from == 0 || to == height_.size());
+    const bool held = way_[to] - way_[from] >= (end ? least_ / 2 : least_);
+    const auto place = [&](std::size_t k) { return height_.begin() + static_cast<std::ptrdiff_t>(k); };
+    for (; !short_.empty() && short_.back().from >= from; short_.pop_back())
+      if (held) std::fill(place(short_.back().from), place(short_.back().to), height);
+    if (!held) short_.push_back({from, to});
+  }
+
+  std::vector<double> lengths_;
+  bool circle_;
+  double least_;
+  std::vector<double> way_, height_;
+  std::vector<Rise> open_;
+  std::vector<Stretch> short_;  // whole, side by side, and not held long enough
+};
 
 }  // namespace
 
@@ -81,24 +99,25 @@ void steady_widths(VertexPath& path, bool closed, double least) {
   if (path.size() < 2 || least <= 0 || is_even(path)) return;
   path = finer(path, closed);
   const std::size_t n = path.size();
-  Widths row{std::vector<double>(n, 0.0), std::vector<double>(n)};
+  std::vector<double> lengths(n, 0.0), low(n);
   double whole = 0, area = 0;
   for (std::size_t i = 0; i + (closed ? 0 : 1) < n; ++i) {
     const std::size_t next = i + 1 < n ? i + 1 : 0;
     const double half = length_of(path[i], path[next]) / 2;
-    row.lengths[i] += half, row.lengths[next] += half;
+    lengths[i] += half, lengths[next] += half;
     whole += 2 * half, area += half * (path[i].band + path[next].band);
   }
-  for (std::size_t i = 0; i < n; ++i) row.values[i] = path[i].band;
+  for (std::size_t i = 0; i < n; ++i) low[i] = path[i].band;
   if (whole < least) {
     if (whole > 0)
       for (PathVertex& v : path) v.band = area / whole;
     return;
   }
   stop_if_asked();
-  Widths low = row, high = std::move(row);
-  for (const double sign : {1.0, -1.0}) cut(low, closed, least, sign), cut(high, closed, least, -sign);
-  for (std::size_t i = 0; i < n; ++i) path[i].band = (low.values[i] + high.values[i]) / 2;
+  std::vector<double> high = low;
+  Cutter cutter(std::move(lengths), closed, least);
+  for (const double sign : {1.0, -1.0}) cutter.cut(low, sign), cutter.cut(high, -sign);
+  for (std::size_t i = 0; i < n; ++i) path[i].band = (low[i] + high[i]) / 2;
 }
 
 }  // namespace weft

@@ -122,3 +122,43 @@ TEST_CASE("widths: neither the way round nor where a circle begins matters, and 
     }
   }
 }
+
+TEST_CASE("widths: each is the mean of both orders of cuts and fills, each to the highest level that is held") {
+  constexpr double apart = 20;  // so near that no vertices are added
+  // As it is said: for each vertex, the stretches around it at each level.
+  const auto cut = [](const std::vector<double>& values, double sign) {
+    const std::size_t n = values.size();
+    std::vector<double> out = values;
+    for (std::size_t i = 0; i < n; ++i) {
+      double best = -1e9;
+      for (const double level : values) {
+        if (sign * level > sign * values[i] || sign * level < best) continue;
+        std::size_t from = i, to = i;
+        while (from > 0 && sign * values[from - 1] >= sign * level) --from;
+        while (to + 1 < n && sign * values[to + 1] >= sign * level) ++to;
+        const bool end = from == 0 || to + 1 == n;
+        const double length =
+            apart * (static_cast<double>(to - from + 1) - (from == 0 ? 0.5 : 0) - (to + 1 == n ? 0.5 : 0));
+        if (length >= (end ? least / 2 : least)) best = sign * level;
+      }
+      out[i] = sign * best;
+    }
+    return out;
+  };
+  std::mt19937 random(7);
+  for (int round = 0; round < 100; ++round) {
+    const std::size_t n = 30 + random() % 70;
+    const auto heights = 2 + random() % 40;  // few: many are equal
+    std::vector<double> values;
+    for (std::size_t i = 0; i < n; ++i)
+      values.push_back(i > 0 && random() % 3 > 0 ? values.back() : 300.0 + static_cast<double>(random() % heights));
+    VertexPath path;
+    for (std::size_t i = 0; i < n; ++i) path.push_back({apart * static_cast<double>(i), 0, values[i]});
+    steady_widths(path, false, least);
+    REQUIRE(path.size() == n);
+    if (std::all_of(values.begin(), values.end(), [&](double v) { return v == values[0]; })) continue;
+    const auto low = cut(cut(values, 1), -1), high = cut(cut(values, -1), 1);
+    CAPTURE(round);
+    for (std::size_t i = 0; i < n; ++i) CHECK(path[i].band == (low[i] + high[i]) / 2);
+  }
+}
