@@ -69,8 +69,10 @@ class Nearest {
     xx_ = length_ * (to.xx - from.xx) - x_ * x_;
     yy_ = length_ * (to.yy - from.yy) - y_ * y_;
     xy_ = length_ * (to.xy - from.xy) - x_ * y_;
-    if (even || length_ <= 0) return;
-    w_ = to.w - from.w, turns_ = (to.sw - from.sw - w_ * way_) / length_;
+    if (length_ <= 0) return;
+    per_ = 1 / length_;
+    if (even) return;
+    w_ = to.w - from.w, turns_ = (to.sw - from.sw - w_ * way_) * per_;
     ww_ = std::max(0.0, length_ * (to.ww - from.ww) - w_ * w_ - 12 * turns_ * turns_);
   }
   double length() const { return length_; }
@@ -80,17 +82,18 @@ class Nearest {
     return rest < 0 || (x > 0 && y > 0 && x * y > xy_ * xy_);
   }
   /// That integral. Pre: length() > 0
-  double misfit() const { return (std::max(0.0, (xx_ + yy_ - root()) / 2) + ww_) / length_; }
+  double misfit() const { return (std::max(0.0, (xx_ + yy_ - root()) / 2) + ww_) * per_; }
   /// How many moves it becomes, not rounded: no choice hangs on a micron of width.
-  double moves() const { return moves_for(24 * std::abs(turns_) / length_, length_); }
+  double moves() const { return moves_for(24 * std::abs(turns_) * per_, length_); }
   static double moves_for(double change, double length) {
-    return std::max(1.0, std::min(change / tolerances::band_step, length / tolerances::shortest_piece));
+    constexpr double per_step = 1.0 / tolerances::band_step, per_piece = 1.0 / tolerances::shortest_piece;
+    return std::max(1.0, std::min(change * per_step, length * per_piece));
   }
   StraightBead bead() const {
     if (length_ <= 0) return {};
     const auto [x, y] = direction();
-    const double l = std::sqrt(x * x + y * y), per = 1 / length_;
-    return {x_ * per, y_ * per, w_ * per, l > 0 ? x / l : 1, l > 0 ? y / l : 0, 12 * turns_ * per * per, way_};
+    const double l = std::sqrt(x * x + y * y);
+    return {x_ * per_, y_ * per_, w_ * per_, l > 0 ? x / l : 1, l > 0 ? y / l : 0, 12 * turns_ * per_ * per_, way_};
   }
   /// Whether a stretch from a to b surely nowhere turns back on the bead by more than that: what its way is longer than
   /// its advance along the bead is twice what it goes back in all.
@@ -115,7 +118,7 @@ class Nearest {
     const double d = xx_ - yy_;
     return std::sqrt(d * d + 4 * xy_ * xy_);
   }
-  double length_, way_;               // way of its middle
+  double length_, per_ = 0, way_;     // one over the length; way of its middle
   double x_, y_, w_ = 0, turns_ = 0;  // integrals; of half the band, too, times the way from the middle, per length
   double xx_, yy_, xy_, ww_ = 0;      // moments about the means, times the length
 };
@@ -193,7 +196,7 @@ class Course {
 /// The vertices between which pieces are worth most, none of which is off by more than `most`; none at all if pieces
 /// would be too short.
 std::vector<std::size_t> worth_most(const Course& course, double most) {
-  constexpr double never = 1e18;
+  constexpr double never = 1e18, per_worth = 1 / worth_of_a_move;
   const std::size_t last = course.size() - 1;
   std::vector<double> cost(course.size(), never);
   std::vector<std::size_t> from(course.size(), 0);
@@ -218,7 +221,7 @@ std::vector<std::size_t> worth_most(const Course& course, double most) {
         continue;
       }
       least = nearest.misfit();
-      double sum = cost[i] + nearest.moves() + least / worth_of_a_move;
+      double sum = cost[i] + nearest.moves() + least * per_worth;
       if (sum >= cost[j]) continue;
       if (course.turns_back(nearest, i, j)) sum += last_resort;
       take(j, sum);

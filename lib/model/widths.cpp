@@ -39,7 +39,8 @@ class Cutter {
         circle_(circle),
         least_(least),
         way_(lengths_.size() + 1),
-        height_(lengths_.size()) {}
+        height_(lengths_.size()),
+        open_(lengths_.size() + 1, {0, lowest}) {}
 
   /// Heights (sign 1) or dips (-1). Stretches that are as high grow from a place where the path rises to where it falls
   /// below that: one stack has all that are open, each of them higher than the one below.
@@ -47,24 +48,24 @@ class Cutter {
     const std::size_t n = values.size();
     // A circle is cut open at its deepest place: no height lies across that.
     std::size_t first = 0;
-    for (std::size_t i = 0; circle_ && i < n; ++i)
+    for (std::size_t i = 1; circle_ && i < n; ++i)
       if (sign * values[i] < sign * values[first]) first = i;
+    double way = 0;
     for (std::size_t k = 0, i = first; k < n; ++k, i = i + 1 < n ? i + 1 : 0)
-      height_[k] = sign * values[i], way_[k + 1] = way_[k] + lengths_[i];
+      height_[k] = sign * values[i], way_[k + 1] = way += lengths_[i];
+    std::size_t top = 0;  // of the stack; below all is one that never ends
     for (std::size_t k = 0; k <= n; ++k) {
-      const double here = k < n ? height_[k] : -std::numeric_limits<double>::infinity();
+      const double here = k < n ? height_[k] : lowest;
       std::size_t from = k;
-      while (!open_.empty() && open_.back().height > here) {
-        from = open_.back().from;
-        close(k);
-      }
-      if (k < n && (open_.empty() || open_.back().height < here)) open_.push_back({from, here});
+      for (; open_[top].height > here; --top) from = open_[top].from, close(open_[top], k);
+      if (open_[top].height < here) open_[++top] = {from, here};
     }
     short_.clear();
     for (std::size_t k = 0, i = first; k < n; ++k, i = i + 1 < n ? i + 1 : 0) values[i] = sign * height_[k];
   }
 
  private:
+  static constexpr double lowest = -std::numeric_limits<double>::infinity();
   struct Rise {
     std::size_t from;
     double height;
@@ -73,16 +74,14 @@ class Cutter {
     std::size_t from, to;
   };
 
-  /// The highest stretch ends here: if it is held long enough, those upon it that are not are as high as it is.
-  void close(std::size_t to) {
-    const auto [from, height] = open_.back();
-    open_.pop_back();
-    const bool end = !circle_ && (from == 0 || to == height_.size());
-    const bool held = way_[to] - way_[from] >= (end ? least_ / 2 : least_);
+  /// A stretch ends before `to`: if it is held long enough, those upon it that are not are as high as it is.
+  void close(const Rise& rise, std::size_t to) {
+    const bool end = !circle_ && (rise.from == 0 || to == height_.size());
+    const bool held = way_[to] - way_[rise.from] >= (end ? least_ / 2 : least_);
     const auto place = [&](std::size_t k) { return height_.begin() + static_cast<std::ptrdiff_t>(k); };
-    for (; !short_.empty() && short_.back().from >= from; short_.pop_back())
-      if (held) std::fill(place(short_.back().from), place(short_.back().to), height);
-    if (!held) short_.push_back({from, to});
+    for (; !short_.empty() && short_.back().from >= rise.from; short_.pop_back())
+      if (held) std::fill(place(short_.back().from), place(short_.back().to), rise.height);
+    if (!held) short_.push_back({rise.from, to});
   }
 
   std::vector<double> lengths_;
