@@ -31,33 +31,6 @@ void for_each_word(int from, int to, F&& f) {
   }
 }
 
-/// The middle of three neighbouring words, grown by `cells` to higher and lower columns. Pre: 0 < cells < 64
-Word grown_between(Word before, Word here, Word after, int cells) {
-  if ((before | here | after) == 0 || ~here == 0) return here;
-  Word up = here, from_before = before, down = here, from_after = after;
-  for (int done = 0, by = 0; done < cells; done += by) {  // what is grown by n grows by up to n + 1 in one step
-    by = std::min(done + 1, cells - done);
-    up |= up << by | from_before >> (64 - by);
-    from_before |= from_before << by;
-    down |= down >> by | from_after << (64 - by);
-    from_after |= from_after >> by;
-  }
-  return up | down;
-}
-
-/// Grows a row to higher and lower columns.
-void grow_along(std::span<Word> row, int cells) {
-  for (int by = 0; cells > 0; cells -= by) {
-    by = std::min(cells, 63);
-    Word before = 0;
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      const Word here = row[i];
-      row[i] = grown_between(before, here, i + 1 < row.size() ? row[i + 1] : 0, by);
-      before = here;
-    }
-  }
-}
-
 /// Turns the bits where an area begins or ends into the bits between them.
 void fill_between_flips(Word* row, std::size_t words) {
   Word inside = 0;
@@ -275,33 +248,48 @@ Mask::Rows Mask::rows_set() const {
   return {row_of_word(lowest), row_of_word(highest) + 1};
 }
 
-std::unique_ptr<Word[]> Mask::grown_rows(Rows of, int cells, bool outside) const {
+Mask::Grown Mask::grown_rows(Rows of, int cells, bool outside) const {
   stop_if_asked();
-  const auto reach = static_cast<std::size_t>(cells);
-  const std::size_t margin = 2 * reach * words_, size = margin + (of.to - of.from) * words_;
-  auto rows = std::make_unique_for_overwrite<Word[]>(size);
-  std::fill_n(rows.get(), margin, 0);
+  const auto reach = static_cast<std::size_t>(cells), across = 2 * reach;
+  const std::size_t before = (across + 63) / 64, stride = before + words_;
+  const std::size_t margin = across * stride, size = margin + (of.to - of.from) * stride;
+  Grown grown{reach, before, stride, std::make_unique_for_overwrite<Word[]>(size + 1)};
+  Word* const to = grown.words.get();
+  std::fill_n(to, margin, 0);
   const Word* from = bits_.data() + of.from * words_;
   const Word in_last = grid_.columns % 64 == 0 ? ~Word{0} : bit_of(grid_.columns) - 1;
-  for (std::size_t at = margin; at < size; at += words_, from += words_) {
-    Word* const to = rows.get() + at;
+  for (std::size_t at = margin; at < size; at += stride, from += words_) {
+    std::fill_n(to + at, before, 0);
+    Word* const row = to + at + before;
     if (outside) {
-      for (std::size_t i = 0; i < words_; ++i) to[i] = ~from[i];
-      to[words_ - 1] &= in_last;
+      for (std::size_t i = 0; i < words_; ++i) row[i] = ~from[i];
+      row[words_ - 1] &= in_last;
     } else {
-      std::copy_n(from, words_, to);
+      std::copy_n(from, words_, row);
     }
-    grow_along({to, words_}, cells);
   }
-  // Each row takes what is up to twice `cells` above it, for they lie `cells` too low. What a row has of n rows it has
-  // of 2 n by one more look, n rows up.
-  for (std::size_t done = 1, by = 0; done < 2 * reach + 1; done += by) {
-    by = std::min(done, 2 * reach + 1 - done);
-    Word* const to = rows.get();
-    const Word* const above = to + by * words_;
-    for (std::size_t i = 0, end = size - by * words_; i < end; ++i) to[i] |= above[i];
+  to[size] = 0;
+  // Each cell takes what is up to twice `cells` further along its row, and then above it. What it has of n cells it has
+  // of 2 n by one more look, n cells on.
+  for (std::size_t done = 1, by = 0; done < across + 1; done += by) {
+    by = std::min({done, std::size_t{32}, across + 1 - done});
+    for (std::size_t i = margin; i < size; ++i) to[i] |= to[i] >> by | to[i + 1] << (64 - by);
   }
-  return rows;
+  for (std::size_t done = 1, by = 0; done < across + 1; done += by) {
+    by = std::min(done, across + 1 - done);
+    const Word* const above = to + by * stride;
+    for (std::size_t i = 0, end = size - by * stride; i < end; ++i) to[i] |= above[i];
+  }
+  return grown;
+}
+
+/// Calls f(i, word) for the words of a row.
+template <class F>
+void Mask::Grown::for_each_word(std::size_t row, F&& f) const {
+  const std::size_t part = reach % 64;
+  const Word* const from = &words[row * stride + before - reach / 64];
+  for (std::size_t i = 0; i + before < stride; ++i)
+    f(i, part == 0 ? from[i] : from[i] << part | from[i - 1] >> (64 - part));
 }
 
 Mask Mask::grown(int cells) const {
@@ -309,11 +297,13 @@ Mask Mask::grown(int cells) const {
   Mask out(grid_);
   const Rows set = rows_set();
   if (set.empty()) return out;
-  const auto rows = grown_rows(set, cells, false);
-  const auto reach = static_cast<std::size_t>(cells);
-  const std::size_t from = set.from - std::min(set.from, reach),
-                    to = std::min(set.to + reach, static_cast<std::size_t>(grid_.rows));
-  std::copy_n(&rows[(from + reach - set.from) * words_], (to - from) * words_, out.row(static_cast<int>(from)));
+  const Grown rows = grown_rows(set, cells, false);
+  const std::size_t from = set.from - std::min(set.from, rows.reach),
+                    to = std::min(set.to + rows.reach, static_cast<std::size_t>(grid_.rows));
+  for (std::size_t r = from; r < to; ++r) {
+    Word* const row = out.row(static_cast<int>(r));
+    rows.for_each_word(r + rows.reach - set.from, [&](std::size_t i, Word w) { row[i] = w; });
+  }
   out.clear_beyond_columns();
   return out;
 }
@@ -326,10 +316,12 @@ Mask Mask::shrunk(int cells) const {
   const auto reach = static_cast<std::size_t>(cells);
   const Rows around{set.from - std::min(set.from, reach),
                     std::min(set.to + reach, static_cast<std::size_t>(grid_.rows))};
-  const auto rows = grown_rows(around, cells, true);
-  const Word* const outside = &rows[(set.from + reach - around.from) * words_];
-  for (std::size_t i = 0, from = set.from * words_, n = (set.to - set.from) * words_; i < n; ++i)
-    out.bits_[from + i] = bits_[from + i] & ~outside[i];
+  const Grown outside = grown_rows(around, cells, true);
+  for (std::size_t r = set.from; r < set.to; ++r) {
+    Word* const to = out.row(static_cast<int>(r));
+    const Word* const here = row(static_cast<int>(r));
+    outside.for_each_word(r + reach - around.from, [&](std::size_t i, Word w) { to[i] = here[i] & ~w; });
+  }
   return out;
 }
 

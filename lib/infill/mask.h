@@ -99,9 +99,17 @@ class Mask {
     bool empty() const { return from == to; }
   };
   Rows rows_set() const;  ///< from the first to the last in which a cell is set
+  /// Rows that are grown by `reach`, as they are made: each lies `reach` too far back and too low, behind words that
+  /// take what grows out of it.
+  struct Grown {
+    std::size_t reach, before, stride;
+    std::unique_ptr<std::uint64_t[]> words;
+    template <class F>
+    void for_each_word(std::size_t row, F&& f) const;
+  };
   /// What is set in these rows, or what is not (`outside`), grown by so many cells; with as many rows more below and
   /// above.
-  std::unique_ptr<std::uint64_t[]> grown_rows(Rows of, int cells, bool outside) const;
+  Grown grown_rows(Rows of, int cells, bool outside) const;
 
   Grid grid_;
   std::size_t words_ = 0;  // of a row
