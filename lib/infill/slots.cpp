@@ -32,7 +32,8 @@ double angle_of_longest_edge(const Ring& ring) {
   return angle;
 }
 
-/// Whether two of a region's edges face each other as sides of a slot do: most regions are spared an opening by that.
+/// Whether two of a region's edges may face each other as sides of a slot do: most regions are spared an opening by
+/// that.
 bool has_sides_of_slots(const Region& region, double band) {
   struct Side {
     Point from, to;
@@ -55,6 +56,8 @@ bool has_sides_of_slots(const Region& region, double band) {
     return along(b.from) > 0 && along(b.to) < a.length && std::min(off(b.from), off(b.to)) > 0 &&
            std::min(off(b.from), off(b.to)) < widest * band;
   };
+  constexpr std::size_t many = 256;  // looking at all pairs would cost more than the opening
+  if (sides.size() > many) return true;
   for (std::size_t i = 0; i < sides.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
       if (faces(sides[i], sides[k])) return true;
