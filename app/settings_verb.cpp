@@ -6,7 +6,9 @@
 #include "settings/catalogue.h"
 #include "verbs.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -74,6 +76,32 @@ std::string as_plain(const std::vector<const CatalogueEntry*>& entries, const La
   return out;
 }
 
+/// The settings that a name stands for: a key, a section, or with '*' at its end all keys that begin so.
+/// @throws Error{settings} where there is none
+std::vector<const CatalogueEntry*> named_by(const std::string& name) {
+  if (const auto* e = find_setting(name)) return {e};
+  const bool open = name.ends_with('*');
+  const std::string_view start = std::string_view(name).substr(0, name.size() - (open ? 1 : 0));
+  std::vector<const CatalogueEntry*> out;
+  for (const auto& e : catalogue())
+    if (open ? e.key.starts_with(start) : e.section == start) out.push_back(&e);
+  const auto near = nearest_key(name);
+  if (out.empty())
+    throw Error{Error::Kind::settings,
+                fmt::format("unknown setting '{}'", name),
+                {},
+                near.empty() ? "" : fmt::format("did you mean '{}'?", near)};
+  return out;
+}
+
+/// Those of all names, in their order; without any name, every setting.
+std::vector<const CatalogueEntry*> named_by(const std::vector<std::string>& names) {
+  std::vector<const CatalogueEntry*> out;
+  for (const auto& name : names.empty() ? std::vector<std::string>{"*"} : names)
+    std::ranges::copy(named_by(name), std::back_inserter(out));
+  return out;
+}
+
 }  // namespace
 
 po::options_description settings_options() {
@@ -89,22 +117,13 @@ int settings(const Words& words) {
   const auto command = parse_command(words, options);
   if (command.help) {
     std::ostringstream out;
-    out << "weft settings [KEY...]: every setting, or those named\n\n" << options << "\n" << common_help();
+    out << "weft settings [NAME...]: every setting, or those named: a key, a section (support, walls …), or keys\nthat "
+           "begin alike ('wall_*')\n\n"
+        << options << "\n"
+        << common_help();
     return write_output("-", out.str()), 0;
   }
-  std::vector<const CatalogueEntry*> entries;
-  if (command.inputs.empty())
-    for (const auto& e : catalogue()) entries.push_back(&e);
-  for (const auto& key : command.inputs) {
-    const auto* e = find_setting(key);
-    const auto near = nearest_key(key);
-    if (!e)
-      throw Error{Error::Kind::settings,
-                  fmt::format("unknown setting '{}'", key),
-                  {},
-                  near.empty() ? "" : fmt::format("did you mean '{}'?", near)};
-    entries.push_back(e);
-  }
+  const auto entries = named_by(command.inputs);
   const auto format = command.options["format"].as<std::string>();
   if (format != "text" && format != "json" && format != "markdown")
     throw Error{Error::Kind::usage, fmt::format("'{}' is not one of text, json, markdown", format), "--format"};

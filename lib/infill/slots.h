@@ -4,9 +4,10 @@
 
 namespace weft::infill {
 
-/// As fill_solid; and where its lines leave out more than corners, slots no wider than a line get one of their own,
-/// which two lines stood astride of. Cost: that of fill_solid, and where it leaves something out an opening of the
-/// region.
+/// As fill_solid; but straight slots of the region, no wider than about two lines, get lines of their own along them.
+/// Lines at an angle would be dabs there, swing in width where they cross it aslant, or stand astride of it; and arms
+/// that are alike would be filled in as many ways as they have directions. Cost: that of fill_solid, and where two
+/// edges face each other as a slot's do an opening of the region.
 void fill_solid_and_slots(const Region& region, const SolidStyle& style, Beads& beads);
 
 }  // namespace weft::infill

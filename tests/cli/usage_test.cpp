@@ -84,6 +84,28 @@ TEST_CASE("command line: every setting is listed with type, range and meaning") 
   CHECK(weft({"settings", "layer_hight"}).status == 3);
 }
 
+TEST_CASE("settings are listed by section, and by how keys begin", "[cli]") {
+  const auto keys = [](const std::string& name) {
+    std::vector<std::string> out;
+    for (const auto& row : nlohmann::json::parse(weft({"settings", "--format", "json", name}).out))
+      out.push_back(row["key"]);
+    return out;
+  };
+  const auto everything = nlohmann::json::parse(weft({"settings", "--format", "json"}).out);
+  std::vector<std::string> of_section, alike;
+  for (const auto& row : everything) {
+    const std::string key = row["key"];
+    if (row["section"] == "support") of_section.push_back(key);
+    if (key.starts_with("wall_")) alike.push_back(key);
+  }
+  REQUIRE(of_section.size() > 20);
+  REQUIRE(alike.size() > 5);
+  CHECK(keys("support") == of_section);
+  CHECK(keys("wall_*") == alike);
+  CHECK(keys("*").size() == everything.size());
+  CHECK(weft({"settings", "nothing_*"}).status == 3);
+}
+
 TEST_CASE("command line: --explain says where a value comes from and what it shadows") {
   Scratch scratch;
   scratch.write("a.ini", "layer_height = 0.3\n");

@@ -74,6 +74,42 @@ TEST_CASE("infill: a slot between walls is filled wherever lines lie beside it",
   }
 }
 
+TEST_CASE("infill: an arm of an area is filled along, whichever way its lines run", "[infill]") {
+  const double angle = degrees(GENERATE(0, 15, 30, 45, 60, 75, 90, 105, 120, 135, 150, 165));
+  const Um wide = GENERATE(300, 500, 600, 900);
+  CAPTURE(angle, wide);
+  Region area;  // a square with an arm out of its right side
+  for (const Point p : {Point{-4000, -4000},
+                        {4000, -4000},
+                        {4000, -wide / 2},
+                        {9000, -wide / 2},
+                        {9000, wide / 2},
+                        {4000, wide / 2},
+                        {4000, 4000},
+                        {-4000, 4000}})
+    area.outer.push_back(p);
+  const LayerAreas areas = solid_area(turned(area, angle));
+  ShellSettings shells;
+  shells.skin_angle = 45, shells.skin_line_width = 450;
+  const Beads beads = infill::fill({}, shells, input(areas)).beads;
+  const double lines = wide < 800 ? 1 : 2;
+  double laid = 0;  // µm² of lines in the arm between 5 and 8.5 mm
+  for (const Bead& bead : beads)
+    for (std::size_t i = 1; i < bead.path.size(); ++i) {
+      const Junction &a = bead.path[i - 1], &b = bead.path[i];
+      for (double t = 0.005; t < 1; t += 0.01) {
+        const double x = std::lerp(a.at.x, b.at.x, t), y = std::lerp(a.at.y, b.at.y, t);
+        if (const double u = x * std::cos(angle) + y * std::sin(angle), v = y * std::cos(angle) - x * std::sin(angle);
+            u < 5000 || u > 8500 || std::abs(v) > wide / 2.0)
+          continue;
+        const double width = std::lerp(a.width, b.width, t);
+        CHECK(width == Approx(wide / lines).epsilon(0.05));
+        laid += width * distance(a.at, b.at) * 0.01;
+      }
+    }
+  CHECK(laid == Approx(3500.0 * wide).epsilon(0.05));
+}
+
 TEST_CASE("infill: a straight-walled area is covered up to its walls", "[infill][law]") {
   const bool turns = GENERATE(true, false);
   const double angle = GENERATE(0.0, 12.3, 45.0, 81.7);
