@@ -50,7 +50,7 @@ Place foot_on(const MedialAxis::Site& site, Place p) {
   return lerp(site.a, site.b, std::clamp(t, 0.0, 1.0));
 }
 
-void add_nodes_between(const MedialAxis& axis, std::uint32_t half_edge, double chord,
+void add_nodes_between(const MedialAxis& axis, std::uint32_t half_edge, double chord, double reach,
                        std::vector<MedialAxis::Node>& out) {
   const auto& forward = axis.half_edges[half_edge];
   const auto& backward = axis.half_edges[MedialAxis::twin(half_edge)];
@@ -61,7 +61,7 @@ void add_nodes_between(const MedialAxis& axis, std::uint32_t half_edge, double c
   const Curve curve = curve_of(s, t);
   if (!(curve.h > 0.5)) return;
   const double from = curve.angle_of(curve.x_of(a.at)), to = curve.angle_of(curve.x_of(b.at));
-  const double widest = std::max({a.clearance, b.clearance, 1.0});
+  const double widest = std::clamp(std::max(a.clearance, b.clearance), 1.0, std::max(1.0, reach));
   const double step = 2 * std::sqrt(2 * chord / std::max(widest, 4 * chord));
   auto run = [&](double x, double y) {
     const int pieces = std::clamp(static_cast<int>(std::ceil(std::abs(y - x) / step)), 1, 200);

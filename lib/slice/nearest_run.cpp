@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -20,6 +21,7 @@ using geometry::Place;
 
 /// Curved axis is led along by pieces that stand off it by no more, for they are borders of what is printed.
 constexpr double chord_um = 5;
+constexpr double anywhere = std::numeric_limits<double>::infinity();  // what is nearest is asked for at any distance
 
 /// A border that is nearer to an edge than this lies on it; one nearer to its ends is one of them.
 constexpr double on_edge_um = 40, at_end_um = 4;
@@ -78,7 +80,7 @@ class Cells {
       // Both sides of an edge round the same nodes, so that what is beside each other shares its border.
       const std::uint32_t even = h & ~1U;
       nodes_.assign(1, axis_.nodes[axis_.half_edges[even].from]);
-      geometry::add_nodes_between(axis_, even, chord_um, nodes_);
+      geometry::add_nodes_between(axis_, even, chord_um, anywhere, nodes_);
       nodes_.push_back(axis_.nodes[axis_.half_edges[even + 1].from]);
       if (h != even) std::reverse(nodes_.begin(), nodes_.end());
       const auto& site = axis_.sites[axis_.half_edges[h].site];

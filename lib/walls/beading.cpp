@@ -72,6 +72,10 @@ Count count_for(const Widths& w, double thickness, bool even) {
   return {n / 2, n % 2 == 1};
 }
 
+double reach_of(const Widths& w) {
+  return threshold(w, 2 * w.walls) / 2;
+}
+
 void bounds_for(const Widths& w, Count count, double half, double* bounds) {
   const int pairs = count.pairs;
   bounds[0] = 0;

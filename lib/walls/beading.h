@@ -39,6 +39,9 @@ Count count_for(const Widths& widths, double thickness, bool even);
 /// The thickness at which `less` beads become `less + 1`.
 double threshold(const Widths& widths, int less);
 
+/// How far from the outline beads lie at most: in the middle of what is thicker than twice that is room for infill.
+double reach_of(const Widths& widths);
+
 /// Bounds of the bands from the outline to the axis for a half thickness: pairs + 1 values, the first 0; without a
 /// middle the last is the axis. Sum over both sides and the middle is the thickness.
 void bounds_for(const Widths& widths, Count count, double half, double* bounds);

@@ -96,7 +96,7 @@ Part part_of(const WallSettings& settings, const Widths& widths, const Region& r
     out.inside = plain(widths, {region}, index, out.beads);
     return out;
   }
-  Skeleton skeleton = skeleton_of(axis, chord_um);
+  Skeleton skeleton = skeleton_of(axis, chord_um, reach_of(widths));
   LayingOptions options;
   options.steep = std::sin(settings.wall_transition_angle / 2 * std::numbers::pi / 180);
   options.steep_tip = std::max(options.steep, std::sin(tip_deg / 2 * std::numbers::pi / 180));

@@ -33,7 +33,7 @@ std::uint32_t Skeleton::split(std::uint32_t edge, double t) {
   return g / 2;
 }
 
-Skeleton skeleton_of(const MedialAxis& axis, double chord) {
+Skeleton skeleton_of(const MedialAxis& axis, double chord, double reach) {
   Skeleton out;
   out.nodes.reserve(axis.nodes.size() * 2);
   out.halves.reserve(axis.half_edges.size() * 2);
@@ -44,7 +44,7 @@ Skeleton skeleton_of(const MedialAxis& axis, double chord) {
   for (std::uint32_t k = 0; k < axis.half_edges.size(); k += 2) {
     stop.step();
     inner.clear();
-    geometry::add_nodes_between(axis, k, chord, inner);
+    geometry::add_nodes_between(axis, k, chord, reach, inner);
     const auto& right = axis.sites[axis.half_edges[k].site];
     const auto& left = axis.sites[axis.half_edges[k + 1].site];
     std::uint32_t from = axis.half_edges[k].from;

@@ -46,7 +46,8 @@ struct Skeleton {
   std::uint32_t split(std::uint32_t edge, double t);
 };
 
-/// Pieces of curved axis subtend at most the angle at which a chord stands off an arc of the clearance by `chord`, µm.
-Skeleton skeleton_of(const geometry::MedialAxis& axis, double chord);
+/// Pieces of curved axis subtend at most the angle at which a chord stands off an arc of the clearance by `chord`, µm,
+/// or off one of radius `reach`, where no bead lies further from the outline than that.
+Skeleton skeleton_of(const geometry::MedialAxis& axis, double chord, double reach);
 
 }  // namespace weft::walls

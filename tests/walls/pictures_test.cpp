@@ -130,7 +130,7 @@ std::vector<std::pair<std::string, std::string>> pictures() {
   const Um nozzle = 0.4_mm;
   const Widths widths = widths_of(settings, nozzle, 0.2_mm, 1);
   const auto axis = geometry::medial_axis(region);
-  Skeleton skeleton = skeleton_of(axis, 4);
+  Skeleton skeleton = skeleton_of(axis, 4, reach_of(widths));
   LayingOptions options;
   options.ramp = settings.wall_transition_length.of(nozzle);
   options.filter = settings.wall_transition_filter_distance;
