@@ -6,6 +6,7 @@
 #include "shapes.h"
 
 #include <algorithm>
+#include <complex>
 #include <numbers>
 
 #include <catch2/catch.hpp>
@@ -117,6 +118,70 @@ TEST_CASE("geometry: a grown region keeps its distance and no more, on seeded st
       CHECK(nearest <= by + 6);
     }
   }
+}
+
+namespace {
+/// What edges sweep over as they move, and what fills the gaps between them.
+Regions swept(const Regions& regions, const OffsetOptions& options) {
+  using Vector = std::complex<double>;
+  std::vector<Ring> rings;
+  const auto add = [&](Point from, const std::vector<Vector>& others) {
+    Ring ring{from};
+    for (const Vector v : others) ring.push_back(from + Point{rounded(v.real()), rounded(v.imag())});
+    if (double_area(ring) < 0) std::reverse(ring.begin(), ring.end());
+    if (double_area(ring) > 0) rings.push_back(std::move(ring));
+  };
+  const double by = options.by;
+  for (const Ring& ring : rings_of(regions))
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Point a = ring[i == 0 ? ring.size() - 1 : i - 1], b = ring[i], c = ring[i + 1 < ring.size() ? i + 1 : 0];
+      const Vector in(b.x - a.x, b.y - a.y), on(c.x - b.x, c.y - b.y);
+      const Vector before = in / std::abs(in), after = on / std::abs(on), out{0, -by};
+      add(b, {on, on + out * after, out * after});
+      const double turn_rad = std::arg(on / in);
+      if (turn_rad * by <= 0) continue;
+      std::vector<Vector> fan;
+      if (options.corner == Corner::round)
+        for (int k = 0; k <= 64; ++k) fan.push_back(out * before * std::polar(1.0, turn_rad * k / 64));
+      else if (1 / std::cos(turn_rad / 2) <= options.miter_limit)
+        fan = {out * before, out * before + std::abs(by * std::tan(turn_rad / 2)) * before, out * after};
+      else
+        fan = {out * before, out * before + std::abs(by * std::tan(turn_rad / 4)) * before,
+               out * after - std::abs(by * std::tan(turn_rad / 4)) * after, out * after};
+      add(b, fan);
+    }
+  return regions_from_rings(rings, WindingRule::nonzero);
+}
+}  // namespace
+
+TEST_CASE("geometry: an offset is what edges sweep over, however short they are", "[law]") {
+  const auto seed = static_cast<std::uint32_t>(GENERATE(range(0, 60)));
+  CAPTURE(seed);
+  shapes::Dice dice(seed);
+  Regions shape;
+  for (int i = dice.between(1, 6); i > 0; --i) {
+    const Point at{dice.between(-4000, 4000), dice.between(-4000, 4000)};
+    const int corners = dice.between(3, 120);
+    shape.push_back({dice.share() < 0.5 ? shapes::star(dice, at, dice.between(500, 4000), corners)
+                                        : shapes::convex(dice, at, dice.between(500, 4000), corners),
+                     {}});
+  }
+  shape = unite(shape);
+  const Um by = dice.between(5, 1500);
+  const auto wide_part_beyond = [](const Regions& some, const Regions& others) {
+    return area_mm2(opening(subtract(some, others), 4));
+  };
+  for (const Um signed_by : {by, -by})
+    for (const Corner corner : {Corner::round, Corner::miter}) {
+      CAPTURE(signed_by, static_cast<int>(corner));
+      const Regions ours = offset(shape, {.by = signed_by, .corner = corner, .arc_tolerance = 1});
+      const Regions ours_swept = signed_by > 0 ? unite(shape, ours) : subtract(shape, ours);
+      const auto least = swept(shape, {.by = signed_by, .corner = Corner::round});
+      const auto most =
+          swept(shape, {.by = signed_by, .corner = corner, .miter_limit = 2.1});  // 2, for rounded corners
+      CHECK(wide_part_beyond(ours_swept, signed_by > 0 ? unite(shape, most) : most) == 0);
+      CHECK(wide_part_beyond(signed_by > 0 ? least : intersect(shape, least), ours_swept) == 0);
+    }
 }
 
 TEST_CASE("geometry: moving a region by whole microns moves its offset and changes nothing else", "[law]") {
