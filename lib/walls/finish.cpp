@@ -109,7 +109,7 @@ void append_bead(const Line& line, const FinishOptions& o, Beads& out) {
 
 void finish(Line line, const FinishOptions& o, std::vector<Line>& out, LeftOut& left_out) {
   if (line.path.size() < 2) return;
-  const double steady = line.inset == 0 ? o.steady_outer : o.steady_inner;
+  const double steady = line.inset == 0 ? o.steady_outer : o.steady_loop;
   if (line.closed) line.path.push_back(line.path.front());
   const bool all_thick =
       std::all_of(line.path.begin(), line.path.end(), [&](const Vertex& v) { return v.width >= o.least_feature; });
@@ -139,7 +139,7 @@ void finish(Line line, const FinishOptions& o, std::vector<Line>& out, LeftOut& 
       std::reverse(stretch.begin(), stretch.end());
     }
     keep_within(stretch, o.most_width);
-    simplify(stretch, false, steady);
+    simplify(stretch, false, line.inset == 0 ? o.steady_outer : o.steady_open);
     out.push_back({std::move(stretch), false, line.inset, first_meets, last_meets});
   }
   leave_out(length_of(line.path));

@@ -19,7 +19,9 @@ struct FinishOptions {
   double stable_outer = 200, stable_inner = 200;  ///< narrowest planned width, µm
   double most_width = 1e9;                        ///< no bead is wider, µm
   double least_flow = 0.05, most_flow = 1;
-  double steady_outer = 0, steady_inner = 0;  ///< a width that is held for less is left out (model/widths), µm
+  /// A width that is held for less is left out (model/widths), µm: of outer walls, of inner loops, and of what is open
+  /// between them.
+  double steady_outer = 0, steady_loop = 0, steady_open = 0;
 };
 
 /// Whether an open bead of that length and area is worth its two travels: what is too short is not, nor what lays less

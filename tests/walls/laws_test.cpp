@@ -138,7 +138,9 @@ TEST_CASE("walls: of what walls are to fill little is bare, and little is laid t
     return c.walled > 0 ? 100 * std::max(c.bare, c.twice) / c.walled : 0;
   });
   CAPTURE(bare / walled, twice / walled);
-  CHECK(bare / walled < 0.02);
+  // Of what is commanded. Open beads that give up what they hold for less than 1.75 nozzles leave 0.0003 more bare than
+  // if it were one; an extruder that lags by 20 ms fills more with them.
+  CHECK(bare / walled < 0.021);
   CHECK(twice / walled < 0.02);
 }
 
