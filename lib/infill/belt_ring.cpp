@@ -13,7 +13,7 @@ constexpr double step_um = 200;                 // along the wall: half a bead
 constexpr double mean_over_um = 4000;           // along the wall, of a belt's width: no line begins and ends for less
 constexpr double shortest_um = 2000;            // of a line, of a pause in it, and of what is no spike between belts
 constexpr double about_um = 500;                // that is about as long
-constexpr double doubt = 0.3;                   // cells: nearer to a limit a mean by cells says nothing
+constexpr double doubt = 1.5;                   // cells: nearer to a limit a mean by cells says nothing
 
 /// Whether a layer has a place and what is around it.
 bool surely_has(const Mask& cells, Point p) {
@@ -90,42 +90,57 @@ void BeltRing::look_across(Sample& s) const {
 void BeltRing::measure(Sample& s, Measuring& on) const {
   if (std::exchange(s.exact, true) || !s.free) return;
   const double by_cells = s.width * (s.all_solid ? 2 : 1), enough = std::min(by_cells + 3 * cell_, most_);
-  s.width = std::min(first_that_all_have(s, enough, on), most_);
-  if (s.width == most_) s.width = std::min(first_that_all_have(s, most_, on), most_);
+  s.width = std::min(first_that_all_cover(s, enough, on), most_);
+  if (s.width == most_) s.width = std::min(first_that_all_cover(s, most_, on), most_);
   if (!s.all_solid && look(s, 2 * s.width + cell_) != Cell::wall) return;
   ground_.layers.here->edges().crossings(s.at, place(s, most_), on.met);
   if (!on.met.empty()) s.width = std::min(s.width, (depth_ + on.met.front().along * (most_ - depth_)) / 2);
 }
 
-/// How far it is from the wall to where no other layer lacks anything, if that is no further than `most`. A layer that
-/// surely has what those have that were asked need not be asked.
-double BeltRing::first_that_all_have(const Sample& s, double most, Measuring& on) const {
-  const std::vector<const LayerInside*>& others = ground_.layers.others;
-  const double from = -cell_;
-  const Point a = place(s, from), b = place(s, most);
+/// How far it is from the wall to where every cover is, if that is no further than `most`. A cover that surely is where
+/// those are that were asked need not be asked.
+double BeltRing::first_that_all_cover(const Sample& s, double most, Measuring& on) const {
+  const std::vector<Cover>& covers = ground_.layers.covers;
   on.changes.clear();
-  on.asked.assign(others.size(), false);
+  on.asked.assign(covers.size(), false);
   double first = 0;
-  int lack = 0;  // that many lack what is at a
+  int lack = 0;  // that many lack what is before the first change
   const auto next = [&] {
     const Point at = place(s, first);
     std::size_t i = 0;
-    while (i < others.size() && (on.asked[i] || surely_has(others[i]->cells(), at))) ++i;
+    while (i < covers.size() && (on.asked[i] || surely_has(*covers[i].cells, at))) ++i;
     return i;
   };
-  for (std::size_t i = next(); i < others.size(); i = next()) {
+  for (std::size_t i = next(); i < covers.size(); i = next()) {
     on.asked[i] = true;
-    others[i]->edges().crossings(a, b, on.met);
-    lack += on.met.empty() ? !others[i]->cells().at(s.at) : on.met.front().enters;
-    for (const auto& c : on.met) on.changes.push_back({from + c.along * (most - from), c.enters ? -1 : 1});
+    lack += add_changes(s, covers[i], most, on);
     std::sort(on.changes.begin(), on.changes.end());
     int still = lack;
     std::size_t k = 0;
-    while (still > 0 && k < on.changes.size()) still += on.changes[k++].second;
+    while (k < on.changes.size() && (still > 0 || on.changes[k].first <= 0)) still += on.changes[k++].second;
     if (still > 0) return beyond;
     if (k > 0) first = std::max(0.0, on.changes[k - 1].first);
   }
   return first;
+}
+
+/// Where a cover begins and ends along the way inwards: as far before and beyond its area's edges as it is grown.
+/// @returns whether it lacks what is before its first change
+bool BeltRing::add_changes(const Sample& s, const Cover& cover, double most, Measuring& on) const {
+  const double by = cover.grown, from = -cell_ - by, to = most + by;
+  cover.area->edges().crossings(place(s, from), place(s, to), on.met);
+  if (on.met.empty()) return !cover.area->cells().at(s.at);
+  const std::size_t before = on.changes.size();
+  for (const auto& c : on.met) {
+    const double at = from + c.along * (to - from);
+    if (!c.enters)
+      on.changes.push_back({at + by, 1});
+    else if (on.changes.size() > before && on.changes.back().first >= at - by)
+      on.changes.pop_back();  // grown, they are one
+    else
+      on.changes.push_back({at - by, -1});
+  }
+  return on.met.front().enters;
 }
 
 /// Maximal runs of samples, once around; a ring that is all one begins with the first.
@@ -189,7 +204,7 @@ void BeltRing::find_lines(const LinesBefore& before) {
   const auto too_narrow = [&](const Sample& s) { return s.width + cell_ < depth_; };
   if (std::all_of(samples_.begin(), samples_.end(), too_narrow)) return;
   find_means();
-  measure_doubtful(1), measure_doubtful(-1);
+  measure_doubtful();
   for (Sample& s : samples_) {
     if (!s.free || s.over < 0) continue;
     s.within = before.within(s.at), s.over = std::min(s.over, s.within);
@@ -222,19 +237,12 @@ void BeltRing::find_means() {
   }
 }
 
-/// Lines, or with sign −1 pauses, that may be long enough or may not, as far as cells can tell, are measured.
-void BeltRing::measure_doubtful(double sign) {
+/// What may have a line or may not, as far as cells can tell, is measured.
+void BeltRing::measure_doubtful() {
   const double most = doubt * cell_;
-  bool any = false;
-  for (const Run& run : runs([&](const Sample& s) { return s.free && sign * s.over > -most; })) {
-    if (length_of(run) < shortest_um - about_um) continue;
-    double sure = 0;
-    for (std::size_t k = 0; k < run.count; ++k)
-      if (const Sample& s = sample(run.first + k); sign * s.over > most) sure += s.length;
-    if (sure >= shortest_um + about_um) continue;
-    measure_around(run), any = true;
-  }
-  if (any) find_means();
+  const std::vector<Run> doubtful = runs([&](const Sample& s) { return s.free && std::abs(s.over) < most; });
+  for (const Run& run : doubtful) measure_around(run);
+  if (!doubtful.empty()) find_means();
 }
 
 void BeltRing::measure_around(const Run& run) {

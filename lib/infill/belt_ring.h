@@ -108,12 +108,13 @@ class BeltRing {
   Cell look(const Sample& s, double um) const;
   void look_across(Sample& s) const;
   void measure(Sample& s, Measuring& on) const;
-  double first_that_all_have(const Sample& s, double most, Measuring& on) const;
+  double first_that_all_cover(const Sample& s, double most, Measuring& on) const;
+  bool add_changes(const Sample& s, const Cover& cover, double most, Measuring& on) const;
   /// That far from the wall.
   Point place(const Sample& s, double um) const {
     return {s.at.x + rounded((um - depth_) * s.nx), s.at.y + rounded((um - depth_) * s.ny)};
   }
-  void measure_doubtful(double sign);
+  void measure_doubtful();
   void measure_around(const Run& run);
   void find_means();
   double later(std::size_t i) const;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "core/polygon.h"
-#include "infill/layer_inside.h"
+#include "infill/layer_area.h"
 #include "infill/mask.h"
 
 #include <cstddef>
@@ -15,8 +15,9 @@ struct BeltLine {
   bool closed = false;
 };
 
-/// Under slopes solid infill is a narrow belt between the wall and sparse infill. Lines at an angle to it would be
-/// dabs with a turn between each two; loops along the wall are even, and the same on both sides of a symmetric part.
+/// Under slopes and ledges solid infill is a narrow belt between the wall and sparse infill. Lines at an angle to it
+/// would be dabs with a turn between each two; loops along the wall are even, and the same on both sides of a symmetric
+/// part.
 struct Belts {
   struct Of {
     std::size_t region = 0;  ///< of what is inside of the walls
@@ -30,12 +31,13 @@ struct Belts {
 /// Finds belts of no more than about five lines' width (`widest_strip`) and lays lines along the wall in them: the one
 /// in depth (k − ½) · band runs where the belt is at least that wide. A belt's inner edge follows from what lies layers
 /// away and is not seen: it moves to the edge of the last line, by half a line at most. So a belt below half a line has
-/// none, as what it would close is below the walls of the next layer. Where lines begin and end is decided by the
-/// belt's mean width over some millimetres, by outlines where cells leave it in doubt, and lines that are about as long
-/// as the shortest are kept or left out together: so equal places are alike, however the grid lies on them.
+/// none: there the skin lacks a layer, or a wall lies beside what carries it with less than half of a line. Where lines
+/// begin and end is decided by the belt's mean width over some millimetres, by outlines where cells leave it in doubt,
+/// and lines that are about as long as the shortest are kept or left out together: so equal places are alike, however
+/// the grid lies on them.
 /// @param inside of the walls, exactly
 /// @param solid,sparse cells of it; what is too narrow for a line of its own is solid, too
-/// @param layers whose insides decide which is which
+/// @param layers what decides which is which
 /// @param band of a line, µm
 /// Cost: three offsets of the regions that have such belts, one of those that could; where a width is in doubt, the
 /// edges of the layers in reach beside it.

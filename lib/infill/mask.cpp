@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <vector>
 
 namespace weft::infill {
 namespace {
@@ -29,6 +30,22 @@ void for_each_word(int from, int to, F&& f) {
     if (i == last) cells &= bit_of(to - 1) | (bit_of(to - 1) - 1);
     if (!f(i, cells)) return;
   }
+}
+
+/// A row, one cell to higher and lower columns.
+void grow_along_by_one(std::span<Word> row) {
+  Word before = 0;
+  for (std::size_t i = 0; i + 1 < row.size(); ++i) {
+    const Word here = row[i];
+    row[i] = here | here << 1 | before >> 63 | here >> 1 | row[i + 1] << 63;
+    before = here;
+  }
+  const Word here = row.back();
+  row.back() = here | here << 1 | before >> 63 | here >> 1;
+}
+
+void or_into(Word* to, std::span<const Word> from) {
+  for (std::size_t i = 0; i < from.size(); ++i) to[i] |= from[i];
 }
 
 /// Turns the bits where an area begins or ends into the bits between them.
@@ -306,6 +323,34 @@ Mask Mask::grown(int cells) const {
   }
   out.clear_beyond_columns();
   return out;
+}
+
+Mask Mask::grown_round(double cells) const {
+  const int reach = static_cast<int>(cells);
+  if (reach <= 0) return *this;
+  stop_if_asked();
+  Mask out(grid_);
+  const Rows set = rows_set();
+  const int last = grid_.rows - 1;
+  std::vector<Word> along(words_);
+  for (int r = static_cast<int>(set.from), end = static_cast<int>(set.to); r < end; ++r) {
+    std::copy_n(row(r), words_, along.begin());
+    int grown = 0;
+    for (int away = reach; away >= 0; --away) {  // from the disc's ends to its middle: each row at least as long
+      const int half = static_cast<int>(std::sqrt(cells * cells - away * away));
+      for (; grown < half; ++grown) grow_along_by_one(along);
+      if (r >= away) or_into(out.row(r - away), along);
+      if (away > 0 && r + away <= last) or_into(out.row(r + away), along);
+    }
+  }
+  out.clear_beyond_columns();
+  return out;
+}
+
+bool Mask::within(const Mask& other) const {
+  for (std::size_t i = 0; i < bits_.size(); ++i)
+    if ((bits_[i] & ~other.bits_[i]) != 0) return false;
+  return true;
 }
 
 Mask Mask::shrunk(int cells) const {

@@ -78,6 +78,11 @@ class Mask {
   Mask grown(int cells) const;
   Mask shrunk(int cells) const;
   Mask opened(int cells) const { return shrunk(cells).grown(cells); }
+  /// Grown by `cells` in all directions alike (a disc): to where the middle of a cell is no further away than that.
+  Mask grown_round(double cells) const;
+
+  /// Whether all that is set is set in the other as well. Pre: grids are the same
+  bool within(const Mask& other) const;
 
   /// Whether any cell of the box is set in both. Pre: they have the same grid, and the box reaches into it.
   bool meets(const Mask& other, const Box& within) const;

@@ -29,32 +29,30 @@ struct LayerRange {
   std::size_t from, to;
 };
 
-/// The masks that a run of layers needs, made once: insides of all layers within reach, outlines of the run, of three
-/// layers below and one above.
+/// What a run of layers is compared with, made once: outlines and insides of all layers within reach.
 class Window {
  public:
-  Window(const ShellObject& object, LayerRange run, LayerRange within_reach)
-      : insides_from_(within_reach.from), outlines_from_(run.from - std::min<std::size_t>(run.from, 3)) {
+  Window(const ShellObject& object, LayerRange within_reach) : from_(within_reach.from) {
     const Grid whole = Grid::over(object.box, finest_cell, 0, most_cells);
     Box box;
-    for (std::size_t i = within_reach.from; i < within_reach.to; ++i)
+    for (std::size_t i = from_; i < within_reach.to; ++i)
       box.add(weft::box_of(*object.layers[i].outline)), box.add(weft::box_of(*object.layers[i].inside));
     grid_ = whole.window(box, margin_cells * whole.cell);
-    for (std::size_t i = insides_from_; i < within_reach.to; ++i)
-      insides_.emplace_back(grid_, *object.layers[i].inside);
-    for (std::size_t i = outlines_from_; i < std::min(run.to + 1, object.layers.size()); ++i)
-      outlines_.emplace_back(grid_, *object.layers[i].outline);
+    for (std::size_t i = from_; i < within_reach.to; ++i)
+      layers_.push_back({{grid_, *object.layers[i].outline}, {grid_, *object.layers[i].inside}});
   }
+  struct Layer {
+    LayerArea outline, inside;
+  };
   const Grid& grid() const { return grid_; }
-  const Mask& outline(std::size_t layer) const { return outlines_[layer - outlines_from_]; }
-  const Mask& inside(std::size_t layer) const { return layer_inside(layer).cells(); }
-  const LayerInside& layer_inside(std::size_t layer) const { return insides_[layer - insides_from_]; }
+  const Layer& layer(std::size_t index) const { return layers_[index - from_]; }
+  const Mask& outline(std::size_t index) const { return layer(index).outline.cells(); }
+  const Mask& inside(std::size_t index) const { return layer(index).inside.cells(); }
 
  private:
-  std::size_t insides_from_, outlines_from_;
+  std::size_t from_;
   Grid grid_;
-  std::vector<Mask> outlines_;
-  std::vector<LayerInside> insides_;
+  std::vector<Layer> layers_;
 };
 
 /// How many layers above (or below) a layer decide whether it is solid: [low, high) with the layer itself; beyond the
@@ -78,23 +76,35 @@ Reach reach_of(const ShellSettings& settings, std::span<const ShellLayer> layers
   return reach;
 }
 
-/// Nothing where that reaches beyond the object's ends.
-std::optional<LayersInReach> layers_in(Reach reach, const Window& window, std::size_t layers, std::size_t index) {
+/// What has to cover sparse infill: outlines, or air were within the skin; and insides, or walls would stand on sparse
+/// infill. A wall, and solid that carries one, may step by `step` (µm) beyond what is below it: insides cover that much
+/// more, and as much again for each layer further away. Below it is the same: there walls end in solid.
+/// @returns nothing where the skin reaches beyond the object's ends
+std::optional<LayersInReach> layers_in(Reach reach, const Window& window, std::size_t layers, std::size_t index,
+                                       Um step) {
   if (reach.below > index || index + reach.above >= layers) return std::nullopt;
-  LayersInReach out{&window.layer_inside(index), {}};
+  LayersInReach out{&window.layer(index).inside, {}};
+  const Mask& here = out.here->cells();
+  const auto add = [&](const Window::Layer& other, std::size_t away) {
+    if (here.within(other.inside.cells())) return;
+    const int steps = static_cast<int>(away);
+    out.covers.push_back({&other.outline, 0, &other.outline.cells()});
+    const Mask& carried = other.inside.grown(step, steps);
+    if (!other.outline.cells().within(carried)) out.covers.push_back({&other.inside, steps * step, &carried});
+  };
   for (std::size_t away = std::max(reach.below, reach.above); away > 0; --away) {
-    if (away <= reach.below) out.others.push_back(&window.layer_inside(index - away));
-    if (away <= reach.above) out.others.push_back(&window.layer_inside(index + away));
+    if (away <= reach.below) add(window.layer(index - away), away);
+    if (away <= reach.above) add(window.layer(index + away), away);
   }
   return out;
 }
 
 Mask solid_cells(const LayersInReach& layers) {
-  std::vector<const Mask*> others;
-  for (const LayerInside* other : layers.others) others.push_back(&other->cells());
-  Mask core = layers.here->cells();
-  core &= others;
-  return layers.here->cells() - core;
+  std::vector<const Mask*> covers;
+  for (const Cover& cover : layers.covers) covers.push_back(cover.cells);
+  Mask covered = layers.here->cells();
+  covered &= covers;
+  return layers.here->cells() - covered;
 }
 
 /// Strips of an area that are narrower than a line and a half.
@@ -155,7 +165,8 @@ Split split_of(const ShellSettings& settings, const InfillSettings& infill, cons
   const bool whole =
       settings.infill_solid_every_layers && index % static_cast<std::size_t>(*settings.infill_solid_every_layers) == 0;
   std::optional<LayersInReach> layers;
-  if (infill.infill_sparse_density < 100 && !whole) layers = layers_in(reach, window, object.layers.size(), index);
+  if (infill.infill_sparse_density < 100 && !whole)
+    layers = layers_in(reach, window, object.layers.size(), index, std::max(object.nozzle / 2, layer.height));
   if (!layers) {
     out.solid = inside;
     return out;
@@ -306,7 +317,7 @@ std::vector<LayerAreas> find_areas(const ShellSettings& settings, const InfillSe
     within_reach.to =
         std::max(within_reach.to, std::min(object.layers.size(), i + std::max<std::size_t>(reach.above, 1) + 1));
   }
-  const Window window(object, run, within_reach);
+  const Window window(object, within_reach);
   std::vector<LayerAreas> result;
   std::optional<Mask> sparse_below, unclosed_below;
   for (std::size_t i = below_run; i < run.to; ++i) {

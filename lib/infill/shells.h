@@ -57,13 +57,14 @@ using LayerAreas = std::vector<PartAreas>;  ///< parts ascending, each once
 
 /// What of the layers [first, first + count) is skin, bridge, or sparse.
 ///
-/// A place is solid when, within the skin's layers above or below it, there is air or a wall: so slopes are closed
-/// under and over their walls as well ("vertical shell thickness"). Layers are compared on a grid of bits (mask.h) of
-/// 0.1 mm (more for objects over 150 mm); strips narrower than two thirds of a line are left out unless they are seen
-/// from outside, which are widened to a line instead; belts between walls and sparse infill are as wide as their lines
-/// (belts.h). Boundaries between two kinds of fill follow the grid within one
-/// cell; those along walls are exact.
-/// Pre:  the layers are in order; `first + count` is within them. The result of a layer does not depend on `first` and
+/// A place is solid when, within the skin's layers above or below it, there is air: beside a slope as far as walls
+/// alone are thinner than the skin. Solid also carries the walls above, and holds those that end below: all that is
+/// beyond the inside of these, but for half a nozzle, or at 45° if that is more, for each layer that they are away.
+/// Layers are compared on a grid of bits (mask.h) of 0.1 mm (more for objects over 150 mm); strips narrower than two
+/// thirds of a line are left out unless they are seen from outside, which are widened to a line instead; belts between
+/// walls and sparse infill are as wide as their lines (belts.h). Boundaries between two kinds of fill follow the grid
+/// within one cell; those along walls are exact. Pre:  the layers are in order; `first + count` is within them. The
+/// result of a layer does not depend on `first` and
 ///       `count`: call it for runs of 8 to 32 layers (a run reads the skin's layers around it).
 /// Cost: 0.1 to 0.3 ms a layer for a part the size of a hand.
 std::vector<LayerAreas> find_areas(const ShellSettings& settings, const InfillSettings& infill,

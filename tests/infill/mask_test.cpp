@@ -57,13 +57,35 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("mask: grown to all sides alike it holds all cells that are no further from one of its own") {
+  for (const int columns : {64, 130, 200})
+    for (const double cells : {0.7, 1.0, 1.5, 2.25, 4.5, 9.0}) {
+      const Grid grid = grid_of(columns, 40);
+      const Mask mask = scattered(grid, static_cast<unsigned>(columns), 9);
+      const Mask grown = mask.grown_round(cells);
+      Mask expected(grid);
+      const int reach = static_cast<int>(cells);
+      for (int r = 0; r < grid.rows; ++r)
+        for (int c = 0; c < grid.columns; ++c)
+          for (int y = -reach; y <= reach; ++y)
+            for (int x = -reach; x <= reach; ++x)
+              if (x * x + y * y <= cells * cells && mask.at(c + x, r + y)) expected.set(c, r);
+      INFO(columns << " columns, grown by " << cells);
+      CHECK(grown == expected);
+      CHECK(mask.within(grown));
+      CHECK(grown.within(mask) == (grown == mask));
+    }
+}
+
 TEST_CASE("mask: what is empty stays so, and nothing is set beyond the columns") {
   const Grid grid = grid_of(70, 10);
   CHECK_FALSE(Mask(grid).grown(3).any());
+  CHECK_FALSE(Mask(grid).grown_round(3).any());
   const Region all{{{0, 0}, {7000, 0}, {7000, 1000}, {0, 1000}}, {}};
   const Mask full(grid, {&all, 1});
   CHECK(full.count() == 700);
   CHECK(full.grown(5) == full);
+  CHECK(full.grown_round(5) == full);
   CHECK(full.shrunk(5) == full);
 }
 

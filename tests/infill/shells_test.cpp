@@ -6,6 +6,7 @@
 #include "geometry/offset.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <catch2/catch.hpp>
 
@@ -116,9 +117,9 @@ TEST_CASE("shells: narrow solid beside a top stays what it is beside sparse infi
           "[infill]") {
   std::vector<Regions> steps(14, {rectangle(0, 0, 30000, 20000)});
   steps.resize(24, {rectangle(0, 0, 20000, 20000)});
-  const LayerAreas step = Object(std::move(steps)).areas(skin(4, 4, 0, 0))[13];
+  const LayerAreas step = Object(std::move(steps), 1200).areas(skin(4, 4, 0, 0))[13];
   CHECK(sum(step, &PartAreas::sparse) > 100);
-  CHECK(sum(step, &PartAreas::top) == Approx(9 * 18).epsilon(0.05));
+  CHECK(sum(step, &PartAreas::top) == Approx(8.8 * 17.6).epsilon(0.05));
 
   std::vector<Regions> bars(3, {rectangle(0, 0, 30000, 3000)});
   bars.resize(8, {rectangle(5000, 0, 30000, 3000)});
@@ -136,7 +137,7 @@ TEST_CASE("shells: what lies between two floors that are near each other is top 
     for (Ring& hole : pocketed.holes) std::reverse(hole.begin(), hole.end());
     std::vector<Regions> outlines(10, {rectangle(0, 0, 40000, 30000)});
     outlines.resize(20, {pocketed});
-    const LayerAreas floor = Object(std::move(outlines)).areas(skin(4, 4, 0, 0))[9];
+    const LayerAreas floor = Object(std::move(outlines), 1200).areas(skin(4, 4, 0, 0))[9];
     CHECK(sum(floor, &PartAreas::sparse) > 300);
     double mm2 = 0;
     for (const PartAreas& part : floor)
@@ -226,8 +227,110 @@ TEST_CASE("shells: solid reaches under the walls of what stands on it", "[infill
   const auto areas = step.areas(skin(4, 4, 0, 0, 0));
   CHECK(solid_at(areas[9], {10500, 15000}));
   CHECK(!solid_at(areas[9], {15000, 15000}));
-  CHECK(sum(areas[9], &PartAreas::sparse) == Approx(64).epsilon(0.06));
+  CHECK(sum(areas[9], &PartAreas::sparse) == Approx(8.4 * 8.4).epsilon(0.06));
   CHECK(sum(areas[9], &PartAreas::top) > 600);
+}
+
+TEST_CASE("shells: walls as thick as the skin close a slope alone, and leave it to solid where it is gentler",
+          "[infill]") {
+  const auto beside_slope_mm2 = [](Um step, Um wall) {  // four layers of skin
+    std::vector<Regions> outlines;
+    for (int i = 0; i < 20; ++i) outlines.push_back({rectangle(i * step, 0, 40000 - i * step, 30000)});
+    ShellSettings shells = skin(4, 4, 0, 0, 0);
+    shells.skin_line_width = 450;
+    const auto areas = Object(std::move(outlines), wall).areas(shells);
+    return sum(areas[10], &PartAreas::solid) + sum(areas[10], &PartAreas::belted);
+  };
+  CHECK(beside_slope_mm2(100, 450) == 0);
+  CHECK(beside_slope_mm2(200, 450) > 2 * 28 * 0.4);
+  for (const Um wall : {900, 1350}) {
+    CAPTURE(wall);
+    for (const Um step : {100, 200, 230}) CHECK(beside_slope_mm2(step, wall) == 0);  // 200: 45°
+    CHECK(beside_slope_mm2(500, wall) > 2 * 27 * 0.8);
+  }
+}
+
+TEST_CASE("shells: walls that begin on a ledge stand on solid, which is wider the nearer it is", "[infill]") {
+  constexpr Um wall = 1350;
+  const bool upside_down = GENERATE(false, true);  // walls that end below one
+  std::vector<Regions> outlines(10, {rectangle(0, 0, 30000, 30000)});
+  outlines.insert(outlines.end(), 10, {rectangle(1100, 1100, 28900, 28900)});  // within the walls of what is below
+  if (upside_down) std::reverse(outlines.begin(), outlines.end());
+  ShellSettings shells = skin(4, 4, 0, 0, 0);
+  shells.skin_line_width = 450;
+  const auto areas = Object(std::move(outlines), wall).areas(shells);
+  const auto solid_um = [&](std::size_t layer) {  // from the walls inwards
+    Um um = 0;
+    while (solid_at(areas[upside_down ? 19 - layer : layer], {wall + um + 10, 15000})) um += 10;
+    return um;
+  };
+  CHECK(solid_um(9) == Approx(1100 - 200).margin(210));
+  CHECK(solid_um(8) == Approx(1100 - 400).margin(210));
+  CHECK(solid_um(7) == Approx(1100 - 600).margin(210));
+  CHECK(solid_um(6) == Approx(1100 - 800).margin(210));
+  CHECK(solid_um(5) == 0);
+}
+
+TEST_CASE(
+    "shells: no air lies within the skin of sparse infill, and walls stand beside what carries them by less than "
+    "a line",
+    "[infill][law]") {
+  constexpr int count = 30, skin_layers = 4;
+  constexpr Um line = 450, half_band = 204, exact = 150;  // a cell of the grid, and what stands for a round wall
+  const Um wall = GENERATE(1, 2, 3) * line;
+  const int shape = GENERATE(range(0, 6));
+  const bool upside_down = GENERATE(false, true);
+  const auto radius = [&](int i) {
+    const double up = i / static_cast<double>(count);
+    switch (shape) {
+      case 0:
+        return 18'000. - 200 * i;  // 45°
+      case 1:
+        return 18'000. - 346 * i;  // 60°
+      case 2:
+        return 18'000. - 120 * i;  // 31°
+      case 3:
+        return 14'000. * std::sqrt(1 - up * up) + 10;  // a dome
+      case 4:
+        return 18'000. - (i < 15 ? 0 : 500) - (i < 20 ? 0 : 900);  // ledges
+      default:
+        return i < 15 ? 18'000. : 9'000.;  // a tower on a plate
+    }
+  };
+  std::vector<Regions> outlines;
+  Region base;  // of three lobes
+  for (int k = 0; k < 180; ++k) {
+    const double a = degrees(2 * k), r = 18'000 + 2'000 * std::cos(3 * a);
+    base.outer.push_back({rounded(r * std::cos(a)), rounded(r * std::sin(a))});
+  }
+  for (int i = 0; i < count; ++i) outlines.push_back(geometry::offset({base}, {.by = rounded(radius(i) - 18'000)}));
+  if (upside_down) std::reverse(outlines.begin(), outlines.end());
+  const Object object(std::move(outlines), wall);
+  ShellSettings shells = skin(skin_layers, skin_layers, 0, 0, 0);
+  shells.skin_line_width = line;
+  const auto areas = object.areas(shells);
+  double sparse_mm2 = 0;
+  const auto mm2 = [](const Regions& regions) {
+    double sum = 0;
+    for (const Region& region : regions) sum += area_mm2(region);
+    return sum;
+  };
+  for (int i = 0; i < count; ++i) {
+    CAPTURE(wall, shape, upside_down, i);
+    Regions sparse;
+    for (const PartAreas& part : areas[static_cast<std::size_t>(i)])
+      sparse.insert(sparse.end(), part.sparse.begin(), part.sparse.end());
+    if (sparse.empty()) continue;
+    sparse_mm2 += mm2(sparse);
+    const Regions surely = geometry::offset(sparse, {.by = -half_band - exact});
+    for (int j = std::max(0, i - skin_layers); j <= std::min(count - 1, i + skin_layers); ++j)
+      CHECK(mm2(geometry::subtract(surely, object.outlines[static_cast<std::size_t>(j)])) < 0.05);
+    if (i + 1 == count) continue;
+    const auto above = static_cast<std::size_t>(i + 1);
+    const Regions walls = geometry::subtract(object.outlines[above], object.insides[above]);
+    CHECK(mm2(geometry::intersect(geometry::offset(sparse, {.by = -2 * half_band - exact}), walls)) < 0.05);
+  }
+  CHECK(sparse_mm2 > 1000);
 }
 
 TEST_CASE("shells: a gap between two supports is bridged along its shorter span", "[infill]") {
