@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
+#include <span>
 
 namespace weft::slice {
 namespace {
@@ -134,6 +136,24 @@ bool near_each_other(const std::vector<Ring>& rings, Um near) {
   return false;
 }
 
+/// Whether an area has outlines of two bodies within `near`: what has one is a notch of it.
+bool lies_between(const Region& area, const geometry::SegmentIndex& bodies, Um near) {
+  std::optional<std::uint32_t> one;
+  std::vector<std::uint32_t> found;
+  for (const Ring& ring : geometry::rings_of({area}))
+    for (const Point p : ring) {
+      found.clear();
+      bodies.near({{p.x - near, p.y - near}, {p.x + near, p.y + near}}, found);
+      for (const std::uint32_t s : found) {
+        if (distance_to(p, bodies.segments()[s]) > near) continue;
+        const std::uint32_t body = bodies.origin(s).region;
+        if (one.value_or(body) != body) return true;
+        one = body;
+      }
+    }
+  return false;
+}
+
 double outlines_um(const Regions& regions) {
   double out = 0;
   for (const Ring& ring : geometry::rings_of(regions)) out += perimeter_of(ring);
@@ -143,7 +163,8 @@ double outlines_um(const Regions& regions) {
 /// Bodies that touch are one: where two faces lie on each other, each is cut and simplified by itself, and often made
 /// of other triangles, and between what comes of them is a crack through the part, which walls would follow on both
 /// sides.
-Regions without_cracks(const Regions& solid, Um radius) {
+/// @param bodies their outlines, as they were cut
+Regions without_cracks(const Regions& solid, const std::vector<Ring>& bodies, Um radius) {
   constexpr double least_um = 400;  // both sides of what is half as long as a bead is wide
   constexpr Um lap = 10;            // what is filled meets what it lies between
   const Regions closed = geometry::closing(solid, radius, geometry::Corner::miter);
@@ -151,7 +172,10 @@ Regions without_cracks(const Regions& solid, Um radius) {
   // Cracks may be too thin to be areas: both sides are drawn back first, and what that takes elsewhere is a thin rim.
   const Regions cracks_and_rim = geometry::subtract(closed, geometry::offset(solid, {.by = -lap}));
   Regions cracks = geometry::opening(cracks_and_rim, lap * 7 / 10, geometry::Corner::miter);
-  std::erase_if(cracks, [](const Region& crack) { return perimeter_of(crack.outer) < least_um; });  // notches
+  const geometry::SegmentIndex index{std::span<const Ring>(bodies)};
+  std::erase_if(cracks, [&](const Region& crack) {
+    return perimeter_of(crack.outer) < least_um || !lies_between(crack, index, 2 * lap);
+  });
   return cracks.empty() ? solid : geometry::unite(solid, cracks);
 }
 
@@ -169,8 +193,9 @@ Cut Cutter::cut(std::size_t i, const LayerSettings& settings) const {
   }
   const Um radius = settings.slice_closing_radius;
   bool met = radius > 0 && near_each_other(chains.rings, 2 * radius);
+  const std::vector<Ring> bodies = met ? chains.rings : std::vector<Ring>{};
   out.layer.regions = solid_of(std::move(chains.rings), mesh_->cut_through, settings.slicing_mode, met);
-  if (met && radius > 0) out.layer.regions = without_cracks(out.layer.regions, radius);
+  if (met && radius > 0) out.layer.regions = without_cracks(out.layer.regions, bodies, radius);
   return out;
 }
 

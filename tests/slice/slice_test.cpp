@@ -253,6 +253,20 @@ TEST_CASE("slice: a body in a hole of other facets is one with what is around it
   CHECK(plug_outlines_mm(-150, 120) == Approx(80).epsilon(0.01));
 }
 
+TEST_CASE("slice: a gap between bodies is filled, and a notch of one of them stays as sharp as it is") {
+  Mesh mesh;
+  add_upright(mesh, {{0, 0}, {10'000, 0}, {10'000, 10'000}, {0, 10'000}, {0, 5'400}, {3'000, 5'000}, {0, 4'600}},
+              1'000);
+  add_upright(mesh, {{10'050, 0}, {20'000, 0}, {20'000, 10'000}, {10'050, 10'000}}, 1'000);
+  LayerSettings settings;
+  settings.slice_closing_radius = 49;
+  const double notch_mm2 = 1.2, of_its_tip = 0.018;  // where it is narrower than 98 um
+  for (const auto& cut : cut_all(mesh, settings)) {
+    CHECK(cut.layer.regions.size() == 1);
+    CHECK(area_mm2(cut.layer.regions) == Approx(200 - notch_mm2).margin(of_its_tip / 3));
+  }
+}
+
 TEST_CASE("slice: missing triangles are bridged, said, and cost no other outline") {
   Mesh mesh = solids::box({0, 0, 0}, {10000, 10000, 2000});
   mesh.triangles.erase(mesh.triangles.begin() + 4, mesh.triangles.begin() + 6);  // the wall at y = 0
