@@ -284,9 +284,9 @@ void BeltRing::add_runs(bool line, LengthLimit& limit) const {
   for (const Run& run : turnable(line)) limit.add(drawn_length(run));
 }
 
-void BeltRing::turn_short(bool line, double shortest_um) {
+void BeltRing::turn_short(bool line, double least_um) {
   for (const Run& run : turnable(line))
-    if (drawn_length(run) < shortest_um)
+    if (drawn_length(run) < least_um)
       for (std::size_t k = 0; k < run.count; ++k) samples_[(run.first + k) % samples_.size()].line = !line;
 }
 

@@ -121,7 +121,7 @@ class BeltRing {
   double drawn_length(const Run& run) const;
   std::vector<Run> turnable(bool line) const;
   void add_runs(bool line, LengthLimit& limit) const;
-  void turn_short(bool line, double shortest_um);
+  void turn_short(bool line, double least_um);
   Polyline between(double from, double to) const;
 
   Ring ring_;
