@@ -413,6 +413,7 @@ Um apart(const SupportSettings& s, Um nozzle) {
 
 std::vector<Regions> columns(const Room& room, const Stack& stack, const std::vector<Regions>& contacts,
                              const std::vector<Regions>& given, tasks::Spare& spare) {
+  if (stack.levels.empty()) return {};  // what is so near to the plate has no room for any
   const auto& s = room.settings();
   std::vector<Regions> shadow;
   if (s.support_type == SupportType::buildplate) shadow = shadows(room, stack);

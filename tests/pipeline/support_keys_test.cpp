@@ -262,3 +262,20 @@ TEST_CASE("support: no setting of support or raft is left without a row that sho
   for (const auto& entry : catalogue())
     if (entry.section == "support" || entry.section == "raft") CHECK(shown.count(std::string(entry.key)) == 1);
 }
+
+TEST_CASE("support: what hangs too near to the plate for a level of support gets none, whatever columns are",
+          "[support]") {
+  const Model model({{-4, -4, 0, 4, 4, 0.1}, {-8, -8, 0.1, 8, 8, 1}});
+  const Sets near{{"support_enforce_layers", "2"}, {"layer_height", "0.08"}, {"initial_layer_height", "0.08"}};
+  for (const Sets& widening : {Sets{},
+                               {{"support_normal_shape", "grid"}},
+                               {{"support_use_towers", "true"}},
+                               {{"support_conical_enabled", "true"}, {"support_conical_angle", "-20"}}})
+    for (const char* structure : {"normal", "tree", "hybrid"}) {
+      CAPTURE(widening, structure);
+      Sets sets = widening;
+      sets.insert(sets.end(), near.begin(), near.end());
+      sets.push_back({"support_structure", structure});
+      CHECK(all_support(sliced(sets, model)) == 0);
+    }
+}
