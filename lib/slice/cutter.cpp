@@ -109,17 +109,23 @@ double distance_to(Point p, const geometry::Segment& s) {
   return distance(p, lerp(s.a, s.b, std::clamp(along, 0.0, 1.0)));
 }
 
+/// Whether `is(ring)` of any outline within `near` of a place.
+template <class Is>
+bool any_near(const geometry::SegmentIndex& rings, Point at, Um near, std::vector<std::uint32_t>& found, Is is) {
+  found.clear();
+  rings.near({{at.x - near, at.y - near}, {at.x + near, at.y + near}}, found);
+  return std::any_of(found.begin(), found.end(), [&](std::uint32_t s) {
+    return distance_to(at, rings.segments()[s]) <= near && is(rings.origin(s).region);
+  });
+}
+
 /// Whether a corner of one outline lies on another, up to `near`.
 bool corners_on_others(const std::vector<Ring>& rings, Um near) {
   const geometry::SegmentIndex index{std::span<const Ring>(rings)};
   std::vector<std::uint32_t> found;
   for (std::uint32_t r = 0; r < rings.size(); ++r)
-    for (const Point p : rings[r]) {
-      found.clear();
-      index.near({{p.x - near, p.y - near}, {p.x + near, p.y + near}}, found);
-      for (const std::uint32_t s : found)
-        if (index.origin(s).region != r && distance_to(p, index.segments()[s]) <= near) return true;
-    }
+    for (const Point p : rings[r])
+      if (any_near(index, p, near, found, [r](std::uint32_t ring) { return ring != r; })) return true;
   return false;
 }
 
@@ -140,17 +146,10 @@ bool near_each_other(const std::vector<Ring>& rings, Um near) {
 bool lies_between(const Region& area, const geometry::SegmentIndex& bodies, Um near) {
   std::optional<std::uint32_t> one;
   std::vector<std::uint32_t> found;
+  const auto is_another = [&one](std::uint32_t body) { return body != (one ? *one : one.emplace(body)); };
   for (const Ring& ring : geometry::rings_of({area}))
-    for (const Point p : ring) {
-      found.clear();
-      bodies.near({{p.x - near, p.y - near}, {p.x + near, p.y + near}}, found);
-      for (const std::uint32_t s : found) {
-        if (distance_to(p, bodies.segments()[s]) > near) continue;
-        const std::uint32_t body = bodies.origin(s).region;
-        if (one.value_or(body) != body) return true;
-        one = body;
-      }
-    }
+    for (const Point p : ring)
+      if (any_near(bodies, p, near, found, is_another)) return true;
   return false;
 }
 

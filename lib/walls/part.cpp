@@ -27,8 +27,8 @@ constexpr double dab_share = 2.0 / 3;  // of the square of a bead's width: a sma
 constexpr double chord_um = 4;         // how far a chord may stand off a bead that bends around a corner
 // A width is held for so many nozzles or not laid: an orifice lays nothing that is finer than itself, and within that
 // way an extruder has hardly begun to answer. The edge of an outer wall is seen: it gives up only what no two moves fit
-// into. Open beads between walls change most. At 60 mm/s an extruder that lags by 20 ms follows them by 1.2 mm: what it
-// lays fills better where they change less, although what is commanded fills a little worse.
+// into. Open beads between walls change most. At 60 mm/s an extruder that lags by 20 ms follows them by 1.2 mm: it lays
+// less twice where they change less, by more than what is commanded then leaves bare.
 constexpr double steady_loop = 1.0, steady_open = 1.75, steady_outer = 0.25;
 constexpr Um rest_chord = 2;  // … and off what walls leave: most of its points are ribs that tell nothing, rounded
 

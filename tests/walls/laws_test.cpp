@@ -139,7 +139,7 @@ TEST_CASE("walls: of what walls are to fill little is bare, and little is laid t
   });
   CAPTURE(bare / walled, twice / walled);
   // Of what is commanded. Open beads that give up what they hold for less than 1.75 nozzles leave 0.0003 more bare than
-  // if it were one; an extruder that lags by 20 ms fills more with them.
+  // if it were one; what an extruder that lags by 20 ms lays of them is bare or laid twice less, in all.
   CHECK(bare / walled < 0.021);
   CHECK(twice / walled < 0.02);
 }
