@@ -9,7 +9,6 @@
 namespace weft {
 namespace {
 
-constexpr double worth_of_a_move = 0.5 * tolerances::path * tolerances::path * tolerances::shortest_piece;  // µm³
 constexpr double moves_saved = 2;  // no piece saves so many, but beside those that would be too short
 
 double distance2_of(const PathVertex& a, const PathVertex& b) {
@@ -195,8 +194,10 @@ class Course {
 
 /// The vertices between which pieces are worth most, none of which is off by more than `most`; none at all if pieces
 /// would be too short.
-std::vector<std::size_t> worth_most(const Course& course, double most) {
-  constexpr double never = 1e18, per_worth = 1 / worth_of_a_move;
+/// @param worth_of_a_move µm³
+std::vector<std::size_t> worth_most(const Course& course, double worth_of_a_move, double most) {
+  constexpr double never = 1e18;
+  const double per_worth = 1 / worth_of_a_move;
   const std::size_t last = course.size() - 1;
   std::vector<double> cost(course.size(), never);
   std::vector<std::size_t> from(course.size(), 0);
@@ -234,14 +235,14 @@ std::vector<std::size_t> worth_most(const Course& course, double most) {
   return out;
 }
 
-std::vector<std::size_t> worth_most(const Course& course) {
+std::vector<std::size_t> worth_most(const Course& course, double worth_of_a_move) {
   for (double most = moves_saved * worth_of_a_move; most < 1e15; most *= 2)
-    if (auto out = worth_most(course, most); !out.empty()) return out;
+    if (auto out = worth_most(course, worth_of_a_move, most); !out.empty()) return out;
   return {0, course.size() - 1};
 }
 
 /// Whether no piece of two of the path's is worth a move less: then none of more is.
-bool none_is_saved(const VertexPath& path) {
+bool none_is_saved(const VertexPath& path, double worth_of_a_move) {
   for (std::size_t i = 1; i < path.size(); ++i) {
     const double length2 = distance2_of(path[i - 1], path[i]);
     if (length2 < least_piece * least_piece) return false;
@@ -385,15 +386,16 @@ class Ends {
 
 }  // namespace
 
-std::vector<Stop> ends_of_pieces(const VertexPath& path) {
+std::vector<Stop> ends_of_pieces(const VertexPath& path, double off) {
   if (path.size() == 2) return {{0, 0}, {1, 0}};
-  if (none_is_saved(path)) {
+  const double worth_of_a_move = off * off * tolerances::shortest_piece;
+  if (none_is_saved(path, worth_of_a_move)) {
     std::vector<Stop> own;
     for (std::size_t i = 0; i < path.size(); ++i) own.push_back({i, 0});
     return own;
   }
   const Course course(path);
-  const auto at = worth_most(course);
+  const auto at = worth_most(course, worth_of_a_move);
   std::vector<Stop> out;
   out.reserve(at.size());
   if (at.size() == path.size())

@@ -33,7 +33,8 @@ bool is_even(const VertexPath& path);
 /// of a closed path. Returns, for each vertex, which one of the path as it was it is, or lies behind; a closed path may
 /// begin at another one than before. Cost: O(n log n) where the path turns evenly. Source: L² projection on hat
 /// functions.
-std::vector<std::size_t> simplify(VertexPath& path, bool closed);
+/// @param off how far a piece's edges may lie off along tolerances::shortest_piece to save a move, µm
+std::vector<std::size_t> simplify(VertexPath& path, bool closed, double off = tolerances::path);
 
 /// Firmware extrudes evenly along a move: into how many pieces one of that length (µm) is cut along which the band
 /// changes by so much (µm), so that in none it changes by more than tolerances::band_step. Pieces are at least
