@@ -24,7 +24,9 @@ constexpr double widest_pair = 2.4;       // bands across; wider strips are fill
 constexpr double widest_strand = 1.35;    // bands, of a bead along a strip: one and a half nozzles, of lines of 1.125
 constexpr double narrowest_strand = 0.6;  // bands, of one of two
 constexpr double narrowest_side = 0.25;   // bands, of a line that an edge runs along
-constexpr WidthRange beside_edges{0.65, widest_strand};
+// Where edges run along lines. An extruder that lags by 40 ms at 60 mm/s is after 2.4 mm where it should be: of swings
+// that are shorter, as beside edges that slant, it lays the mean, whatever it is asked for.
+constexpr FitWidths beside_edges{{0.65, widest_strand}, {0.85, 1.15}, 6};
 constexpr double longest_turn = 2.7;      // bands; shallower edges are run along (fit_sides.h), not turned along
 constexpr double least_left = 0.3;        // bands of a line between its turns; else the turn is as wide as the place
 constexpr double most_lean = 4;           // bands that a narrow strip may lean from line to line and still be one strip

@@ -271,6 +271,28 @@ TEST_CASE("shells: walls that begin on a ledge stand on solid, which is wider th
   CHECK(solid_um(5) == 0);
 }
 
+TEST_CASE("shells: a patch beside a top is part of it, also where sparse infill is at its other side", "[infill]") {
+  const Um covered = GENERATE(8000, 2000);  // beside the top, by one layer; the narrow one has lines along it
+  constexpr Um size = 30000, wall = 450, top = 10000;
+  std::vector<Regions> outlines(10, {rectangle(0, 0, size, size)});
+  outlines.push_back({rectangle(0, 0, size - top, size)});
+  outlines.insert(outlines.end(), 10, {rectangle(0, 0, size - top - covered, size)});
+  ShellSettings shells = skin(4, 4, 0, 0);
+  shells.skin_line_width = 450;
+  const auto areas = Object(std::move(outlines), wall).areas(shells);
+  const auto is_top = [&](Um x) {
+    return std::any_of(areas[9].begin(), areas[9].end(), [x](const PartAreas& a) {
+      return holds(a.top, {x, size / 2});
+    });
+  };
+  CAPTURE(covered);
+  REQUIRE(sum(areas[9], &PartAreas::sparse) > 200);
+  CHECK(is_top(size - top / 2));
+  CHECK(solid_at(areas[9], {size - top - covered / 2, size / 2}));
+  CHECK(is_top(size - top - covered / 2) == (covered > 2000));
+  CHECK(!solid_at(areas[9], {5000, size / 2}));
+}
+
 TEST_CASE("shells: walls that cross a bar between the belts of its slopes stand on solid", "[infill]") {
   constexpr Um wall = 1350;
   std::vector<Regions> outlines(10, {rectangle(0, 0, 5700, 40000)});
