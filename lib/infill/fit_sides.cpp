@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace weft::infill {
 namespace {
@@ -42,8 +43,8 @@ bool SideFit::along(Turned a, Turned b) {
 }
 
 SideFit::SideFit(const Outline& outline, const LineSet& lines, std::span<const Interval> intervals, double band,
-                 WidthRange range)
-    : band_(band), range_(range), intervals_(intervals), beside_(intervals.size(), false) {
+                 const FitWidths& widths)
+    : band_(band), widths_(widths), intervals_(intervals), beside_(intervals.size(), false) {
   std::vector<std::uint32_t> first(static_cast<std::size_t>(lines.count) + 1, 0);
   for (const Interval& i : intervals) ++first[static_cast<std::size_t>(i.line) + 1];
   for (std::size_t k = 1; k < first.size(); ++k) first[k] += first[k - 1];
@@ -153,7 +154,7 @@ std::vector<Sides> SideFit::both(std::uint32_t interval) const {
 
 std::optional<std::pair<double, double>> SideFit::with_room(std::uint32_t interval) const {
   const std::vector<Sides> all = both(interval);
-  const double least = range_.least / 2 * band_;
+  const double least = widths_.steady.least / 2 * band_;
   const auto has_room = [&](const Sides& each) { return each.below + each.above >= least; };
   const auto first = std::find_if(all.begin(), all.end(), has_room);
   if (first == all.end()) return std::nullopt;
@@ -166,13 +167,29 @@ std::optional<std::pair<double, double>> SideFit::with_room(std::uint32_t interv
                    last + 1 == all.end() ? last->x : between(last[1], *last)};
 }
 
+/// Stretches that are narrower, or wider, than lines may be for short are looked at one by one.
+void SideFit::keep_within_widths(std::vector<Sides>& all) const {
+  const auto side_of_brief = [&](const Sides& each) {
+    const double bands = (each.below + each.above) / band_;
+    return bands < widths_.brief.least ? -1 : bands > widths_.brief.most ? 1 : 0;
+  };
+  for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
+    const int side = side_of_brief(all[first]);
+    while (end < all.size() && side_of_brief(all[end]) == side) ++end;
+    const double from = first > 0 ? std::midpoint(all[first - 1].x, all[first].x) : all[first].x,
+                 to = end < all.size() ? std::midpoint(all[end - 1].x, all[end].x) : all[end - 1].x;
+    const WidthRange& range = to - from < widths_.steady_from * band_ ? widths_.brief : widths_.steady;
+    for (std::size_t i = first; i < end; ++i) {
+      const double width = all[i].below + all[i].above,
+                   more = std::clamp(width, range.least * band_, range.most * band_) - width;
+      all[i].below += more / 2, all[i].above += more / 2;
+    }
+  }
+}
+
 std::vector<Sides> SideFit::of(std::uint32_t interval) const {
   std::vector<Sides> all = both(interval);
-  for (Sides& each : all) {
-    const double width = each.below + each.above,
-                 more = std::clamp(width, range_.least * band_, range_.most * band_) - width;
-    each.below += more / 2, each.above += more / 2;
-  }
+  keep_within_widths(all);
   return thinned(all);
 }
 

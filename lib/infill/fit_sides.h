@@ -20,6 +20,11 @@ struct Sides {
 struct WidthRange {
   double least = 0, most = 1e9;
 };
+struct FitWidths {
+  WidthRange steady;  ///< where they stay narrower or wider than others
+  WidthRange brief;   ///< for less than `steady_from`
+  double steady_from = 0;
+};
 
 /// Where edges run along the lines of a fill, closer than a neighbour would lie, a line ends at the edge: it covers
 /// what is between them, less or more than its own half. So a fill neither lies in a wall along it nor leaves a gap
@@ -29,10 +34,10 @@ class SideFit {
   /// Pre: the intervals are the outline's on these lines, as `Outline::cut` gives them; outer rings run
   ///      counter-clockwise, holes clockwise.
   /// @param band of a line, in the outline's unit: edges farther from its middle do not concern it
-  /// @param range of what lines cover: what is beyond it, they lack or have too much on both sides alike
+  /// @param widths of what lines cover: what is beyond, they lack or have too much on both sides alike
   /// Cost: O(n log n) in the edges and intervals.
   SideFit(const Outline& outline, const LineSet& lines, std::span<const Interval> intervals, double band,
-          WidthRange range = {});
+          const FitWidths& widths = {});
 
   /// Whether lines run along the edge, rather than end at it.
   static bool along(Turned a, Turned b);
@@ -64,9 +69,10 @@ class SideFit {
   static double reach_at(const Corner& a, const Corner& b, double x);
   std::vector<Corner> side(const Besides& all, std::uint32_t interval) const;
   std::vector<Sides> both(std::uint32_t interval) const;
+  void keep_within_widths(std::vector<Sides>& all) const;
 
   double band_;
-  WidthRange range_;
+  FitWidths widths_;
   std::span<const Interval> intervals_;
   std::vector<bool> beside_;  // by interval
   Besides above_, below_;     // by interval, then from left to right

@@ -7,6 +7,7 @@
 #include "infill/exact_areas.h"
 #include "infill/hanging.h"
 #include "infill/mask_parts.h"
+#include "infill/strips.h"
 #include "model/flow.h"
 
 #include <algorithm>
@@ -186,6 +187,7 @@ Split split_of(const ShellSettings& settings, const InfillSettings& infill, cons
 
 /// Narrow solid beside sparse infill is as wide as its lines; what is too short for one is sparse.
 /// @param thin of what is sparse: what belts may close
+/// @param line width of the lines that are laid: what carries walls between two belts is no more than some of them
 void lay_belts(const Regions& inside, const Mask& thin, const LayersInReach& layers, double line, Um band,
                Kinds& kinds) {
   const Grid& grid = kinds.inside.grid();
@@ -227,10 +229,11 @@ void give_what_lies_between_to_top(double line, Kinds& kinds) {
   kinds.top |= between, kinds.solid -= between;
 }
 
-/// A patch of solid that is no larger than the top of its layer, and lies beside no other fill, is top: what of a top
-/// is covered by something that stands on it, letters or a boss. One surface has fewer ends of lines than two that fit
-/// into each other, and none of them shows around what stands there.
-void give_patches_to_top(Kinds& kinds) {
+/// A patch of solid that is no larger than the top of its layer is top: what of a top is covered by something that
+/// stands on it, letters or a boss, and what closes the slope beside it. One surface has fewer ends of lines than two
+/// that fit into each other, and its lines need not be narrower or wider along their border. Not so a strip between
+/// the top and other fill: its lines run along it.
+void give_patches_to_top(double line, Kinds& kinds) {
   if (!kinds.top.any() || !kinds.solid.any()) return;
   const Grid& grid = kinds.solid.grid();
   Mask other(grid);
@@ -241,7 +244,8 @@ void give_patches_to_top(Kinds& kinds) {
   for (Region& patch : geometry::regions_from_rings(kinds.solid.outlines())) {
     if (area_mm2(patch) > top_mm2) continue;
     const Mask reach = Mask(grid.window(weft::box_of(patch.outer), 3 * grid.cell), {&patch, 1}).grown(1);
-    if (reach.meets(kinds.top) && !reach.meets(other)) patches.push_back(std::move(patch));
+    if (reach.meets(kinds.top) && (!reach.meets(other) || !is_strip(patch, rounded(line))))
+      patches.push_back(std::move(patch));
   }
   if (patches.empty()) return;
   const Mask given = Mask(grid, patches).grown(1) & kinds.solid;
@@ -274,7 +278,6 @@ Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, cons
   }
   give_strips_to_top(split.seen_above, line, kinds);
   give_what_lies_between_to_top(line, kinds);
-  give_patches_to_top(kinds);
   if (settings.bridges && index > 0) {
     const ShellLayer& below = object.layers[index - 1];
     const SparseStyle style = sparse_style(infill, {.index = index - 1,
@@ -286,13 +289,13 @@ Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, cons
                                                     .turned_rad = object.turned_rad});
     find_internal_bridges(settings, hanging, style, sparse_below, kinds);
   }
-  const Um height = object.layers[index].height;
-  if (kinds.sparse)
-    lay_belts(
-        *object.layers[index].inside, *split.thin & *kinds.sparse, split.layers, line,
-        flow::spacing(length_or(settings.skin_line_width, object.nozzle, flow::automatic_width(object.nozzle, height)),
-                      height, object.overlap_factor),
-        kinds);
+  give_patches_to_top(line, kinds);
+  if (kinds.sparse) {
+    const Um height = object.layers[index].height,
+             laid = length_or(settings.skin_line_width, object.nozzle, flow::automatic_width(object.nozzle, height));
+    lay_belts(*object.layers[index].inside, *split.thin & *kinds.sparse, split.layers, laid,
+              flow::spacing(laid, height, object.overlap_factor), kinds);
+  }
   if (kinds.sparse && !kinds.sparse->any()) kinds.sparse.reset();
   return kinds;
 }

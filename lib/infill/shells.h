@@ -43,7 +43,7 @@ struct BridgeArea {
 /// inside.
 struct PartAreas {
   std::uint32_t part = 0;
-  Regions top;    ///< solid, seen from above
+  Regions top;    ///< solid, seen from above, and patches that are one surface with that
   Regions solid;  ///< other solid: bottoms, under tops, beside slopes
   Regions sparse;
   Regions combined;  ///< sparse, printed here for `combined_layers` layers at once

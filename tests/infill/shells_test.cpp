@@ -271,6 +271,46 @@ TEST_CASE("shells: walls that begin on a ledge stand on solid, which is wider th
   CHECK(solid_um(5) == 0);
 }
 
+TEST_CASE("shells: a patch beside a top is part of it, also where sparse infill is at its other side", "[infill]") {
+  const Um covered = GENERATE(8000, 2000);  // beside the top, by one layer; the narrow one has lines along it
+  constexpr Um size = 30000, wall = 450, top = 10000;
+  std::vector<Regions> outlines(10, {rectangle(0, 0, size, size)});
+  outlines.push_back({rectangle(0, 0, size - top, size)});
+  outlines.insert(outlines.end(), 10, {rectangle(0, 0, size - top - covered, size)});
+  ShellSettings shells = skin(4, 4, 0, 0);
+  shells.skin_line_width = 450;
+  const auto areas = Object(std::move(outlines), wall).areas(shells);
+  const auto is_top = [&](Um x) {
+    return std::any_of(areas[9].begin(), areas[9].end(), [x](const PartAreas& a) {
+      return holds(a.top, {x, size / 2});
+    });
+  };
+  CAPTURE(covered);
+  REQUIRE(sum(areas[9], &PartAreas::sparse) > 200);
+  CHECK(is_top(size - top / 2));
+  CHECK(solid_at(areas[9], {size - top - covered / 2, size / 2}));
+  CHECK(is_top(size - top - covered / 2) == (covered > 2000));
+  CHECK(!solid_at(areas[9], {5000, size / 2}));
+}
+
+TEST_CASE("shells: walls that cross a bar between the belts of its slopes stand on solid", "[infill]") {
+  constexpr Um wall = 1350;
+  std::vector<Regions> outlines(10, {rectangle(0, 0, 5700, 40000)});
+  for (Um in = 320; in <= 1280; in += 320)  // a notch begins, and the sides lean inwards
+    outlines.push_back({rectangle(in, 0, 5700 - in, 19200), rectangle(in, 20800, 5700 - in, 40000)});
+  outlines.insert(outlines.end(), 10, outlines.back());
+  ShellSettings shells = skin(4, 4, 0, 0);
+  shells.skin_line_width = 450;
+  const auto areas = Object(std::move(outlines), wall).areas(shells);
+  REQUIRE(areas[9].front().belts.size() > 1);
+  for (const Um x : {wall + 200, 2850, 5700 - wall - 200})
+    for (const Um y : {19200 - wall + 300, 20800 + wall - 300}) {
+      CAPTURE(x, y);
+      CHECK(solid_at(areas[9], {x, y}));
+    }
+  CHECK(!solid_at(areas[9], {2850, 10000}));
+}
+
 TEST_CASE(
     "shells: no air lies within the skin of sparse infill, and walls stand beside what carries them by less than "
     "a line",

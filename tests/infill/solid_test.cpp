@@ -93,7 +93,7 @@ TEST_CASE("solid: with ends_within lines of a round area keep their ends in it",
   for (const Bead& bead : filled(disc, {.band = band, .angle_rad = 0, .connect = false, .ends_within = true}))
     for (const Junction& j : {bead.path.front(), bead.path.back()})
       most = std::max(most, std::hypot(j.at.x, j.at.y) + j.width / 2.0 - radius);
-  CHECK(most < 30);
+  CHECK(most < 45);  // a tenth of a line: beside an edge a line is no narrower for short than it can be laid
 }
 
 TEST_CASE("solid: lines lie side by side without gap and without overlap", "[infill][law]") {
@@ -145,11 +145,30 @@ TEST_CASE("solid: lines beside an edge cover what is between them and it, whatev
         if (!in) beyond += n > 0;
       }
     CAPTURE(offset, all, outside);
-    // where a line steps aside it lies over a corner of its neighbour
-    CHECK(bare <= all / 100);
-    CHECK(twice <= all / 100);
-    CHECK(beyond <= all / 200);
+    // where a line steps aside it lies over a corner of its neighbour; beside a slant its width follows in part
+    const int slants = region.holes.empty() ? 2 : 0;
+    CHECK(bare <= (2 + slants) * all / 200);
+    CHECK(twice <= (2 + slants) * all / 200);
+    CHECK(beyond <= (2 + slants) * all / 400);
   }
+}
+
+TEST_CASE("solid: a line is much wider or narrower than others only where it stays so", "[infill]") {
+  constexpr Um band = 430;
+  const auto widths = [](const Region& region) {
+    std::pair<Um, Um> all{max_coord, 0};
+    for (const Bead& bead : filled(region, {.band = band, .angle_rad = 0, .connect = false}))
+      for (const Junction& j : bead.path)
+        all.first = std::min(all.first, j.width), all.second = std::max(all.second, j.width);
+    return all;
+  };
+  const double slope = GENERATE(0.2, 0.3);  // of an edge that each line runs along for 2.2 and 1.4 mm
+  CAPTURE(slope);
+  const auto beside_slant = widths({{{0, 0}, {12000, rounded(slope * 12000)}, {12000, 9000}, {0, 9000}}, {}});
+  CHECK(beside_slant.first >= 0.8 * band);
+  CHECK(beside_slant.second <= 1.2 * band);
+  const auto beside_hole = widths(with_hole(rectangle(0, 0, 12000, 20 * band), 3000, 10 * band + 120, 9000, 15 * band));
+  CHECK(beside_hole.second == Approx(band + 120).margin(2));
 }
 
 TEST_CASE("solid: every line is printed after its neighbour below", "[infill][law]") {
@@ -334,7 +353,7 @@ TEST_CASE("solid: a strand along a narrow strip of a bridge is a bridge", "[infi
 TEST_CASE("solid: lines reach over the edge by the overlap and no further", "[infill][law]") {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     const Region region = star(seed, 9000, 13);
-    const Beads beads = filled(region, {.band = 400, .angle_rad = degrees(45), .overlap_um = 50});
+    const Beads beads = filled(region, {.band = 400, .angle_rad = degrees(45), .overlap = {50}});
     for (const Bead& bead : beads)
       for (const Junction& j : bead.path) {
         // an overlap of 50 µm across a shallow edge is up to 125 along the line; turns may bend a quarter of a line
@@ -359,7 +378,7 @@ TEST_CASE("solid: slivers that lie between other areas are no beads", "[infill]"
 }
 
 TEST_CASE("solid: what is shorter than a line is wide is no bead, however narrow it is", "[infill]") {
-  const SolidStyle style{.band = 400, .angle_rad = 0, .overlap_um = 60};
+  const SolidStyle style{.band = 400, .angle_rad = 0, .overlap = {60}};
   for (const Um width : {110, 150, 300, 400}) {
     CHECK(filled(rectangle(0, 0, 300, width), style).empty());
     CHECK(filled(rectangle(0, 0, 600, width), style).size() == 1);
@@ -367,7 +386,7 @@ TEST_CASE("solid: what is shorter than a line is wide is no bead, however narrow
 }
 
 TEST_CASE("solid: nothing, specks and needles are borne", "[infill]") {
-  const SolidStyle style{.band = 430, .angle_rad = degrees(45), .overlap_um = 45};
+  const SolidStyle style{.band = 430, .angle_rad = degrees(45), .overlap = {45}};
   CHECK(filled({}, style).empty());
   CHECK(filled({{{0, 0}, {1000, 0}}, {}}, style).empty());
   filled(rectangle(0, 0, 1, 1), style);
