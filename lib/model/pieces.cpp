@@ -194,7 +194,6 @@ class Course {
 
 /// The vertices between which pieces are worth most, none of which is off by more than `most`; none at all if pieces
 /// would be too short.
-/// @param worth_of_a_move µm³
 std::vector<std::size_t> worth_most(const Course& course, double worth_of_a_move, double most) {
   constexpr double never = 1e18;
   const double per_worth = 1 / worth_of_a_move;
@@ -386,9 +385,8 @@ class Ends {
 
 }  // namespace
 
-std::vector<Stop> ends_of_pieces(const VertexPath& path, double off) {
+std::vector<Stop> ends_of_pieces(const VertexPath& path, double worth_of_a_move) {
   if (path.size() == 2) return {{0, 0}, {1, 0}};
-  const double worth_of_a_move = off * off * tolerances::shortest_piece;
   if (none_is_saved(path, worth_of_a_move)) {
     std::vector<Stop> own;
     for (std::size_t i = 0; i < path.size(); ++i) own.push_back({i, 0});

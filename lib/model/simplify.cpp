@@ -205,20 +205,16 @@ class Projection {
       whole_;  // of the path's pieces, and of those between the vertices
 };
 
-/// The vertex that stands out most from its neighbours: a closed path begins there, and the first one stays. Of those
-/// that the lattice cannot tell apart it is the first.
+/// The vertex that stands out most from its neighbours: a closed path begins there, and the first one stays.
 std::size_t corner_of(const VertexPath& path) {
   const std::size_t n = path.size();
-  const auto before = [&](std::size_t i) { return path[i > 0 ? i - 1 : n - 1]; };
-  const auto behind = [&](std::size_t i) { return path[i + 1 < n ? i + 1 : 0]; };
+  std::size_t best = 0;
   double most = 0;
-  for (std::size_t i = 0; i < n; ++i)
-    if (lies_off(before(i), path[i], behind(i), most)) most = Chord(before(i), behind(i)).error(path[i]);
-  constexpr double rounding = 3;  // of the corner and of the chord, in units of what is the same
-  const double as_much = std::max(0.0, std::sqrt(most) - rounding);
-  for (std::size_t i = 0; i < n; ++i)
-    if (lies_off(before(i), path[i], behind(i), as_much * as_much)) return i;
-  return 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const PathVertex &a = path[i > 0 ? i - 1 : n - 1], &b = path[i + 1 < n ? i + 1 : 0];
+    if (lies_off(a, path[i], b, most * (1 + 1e-6))) most = Chord(a, b).error(path[i]), best = i;
+  }
+  return best;
 }
 
 /// The vertices of a path, in the middle of what their pieces stand for, of bands that lay what lies there. With
@@ -333,7 +329,7 @@ void cut_ramps(VertexPath& path, bool closed) {
   path = std::move(out);
 }
 
-std::vector<std::size_t> simplify(VertexPath& path, bool closed, double off) {
+std::vector<std::size_t> simplify(VertexPath& path, bool closed, double worth_of_a_move) {
   std::vector<std::size_t> own(path.size());
   std::iota(own.begin(), own.end(), std::size_t{0});
   if (path.size() < (closed ? 4U : 3U)) return own;
@@ -347,7 +343,7 @@ std::vector<std::size_t> simplify(VertexPath& path, bool closed, double off) {
   VertexPath told;
   told.reserve(telling.size());
   for (const std::size_t i : telling) told.push_back(path[i]);
-  const auto ends = ends_of_pieces(told, off);
+  const auto ends = ends_of_pieces(told, worth_of_a_move);
   if (ends.size() < path.size() && ends.size() >= (closed ? 4U : 2U)) {
     const Cut cut = cut_at(path, telling, ends);
     path = projected(cut.path, cut.at, closed);

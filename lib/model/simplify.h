@@ -24,6 +24,9 @@ inline double length_of(const PathVertex& a, const PathVertex& b) {
   const double x = b.x - a.x, y = b.y - a.y;
   return std::sqrt(x * x + y * y);
 }
+/// A bead whose edges lie tolerances::path off along half of tolerances::shortest_piece, the shortest ramp, µm³.
+inline constexpr double worth_of_a_bead_move = 0.5 * tolerances::path * tolerances::path * tolerances::shortest_piece;
+
 /// Whether the width is the same all along the path.
 bool is_even(const VertexPath& path);
 
@@ -33,8 +36,8 @@ bool is_even(const VertexPath& path);
 /// of a closed path. Returns, for each vertex, which one of the path as it was it is, or lies behind; a closed path may
 /// begin at another one than before. Cost: O(n log n) where the path turns evenly. Source: L² projection on hat
 /// functions.
-/// @param off how far a piece's edges may lie off along tolerances::shortest_piece to save a move, µm
-std::vector<std::size_t> simplify(VertexPath& path, bool closed, double off = tolerances::path);
+/// @param worth_of_a_move what a piece may be off, squared and along it, to save one, µm³ (pieces.h)
+std::vector<std::size_t> simplify(VertexPath& path, bool closed, double worth_of_a_move = worth_of_a_bead_move);
 
 /// Firmware extrudes evenly along a move: into how many pieces one of that length (µm) is cut along which the band
 /// changes by so much (µm), so that in none it changes by more than tolerances::band_step. Pieces are at least

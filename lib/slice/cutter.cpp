@@ -3,6 +3,7 @@
 #include "core/tolerances.h"
 #include "geometry/boolean.h"
 #include "geometry/offset.h"
+#include "geometry/simplify.h"
 #include "geometry/spatial_index.h"
 #include "model/simplify.h"
 #include "slice/slice.h"
@@ -73,27 +74,27 @@ Cutter::Cutter(const Mesh& mesh, std::vector<Plane> planes) : mesh_(&mesh), plan
 
 namespace {
 
-/// A ring told by as few chords as `resolution` allows. They lie in the middle of what they stand for: holes get no
-/// smaller, and walls on both sides of a chord stand off the model by half as much as one between its corners.
-Ring in_few_chords(Ring ring, Um resolution) {
+/// A ring told by as few chords as `resolution` allows: a corner is worth an outline that lies so far off along
+/// tolerances::shortest_piece. Chords lie in the middle of what they stand for, so that they stand off less than those
+/// between corners of the model would, holes get no smaller and pins no thinner.
+Ring in_few_chords(const Ring& ring, Um resolution) {
   if (ring.size() <= 3 || resolution <= 0) return ring;
-  // The same in all layers of a prism, wherever their rings begin, and wherever it stands.
-  std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
-  const Point origin = ring.front();
+  constexpr Um lattice = 1;  // where edges within a face are cut there are corners that tell nothing
+  const Ring corners = geometry::coarsened(ring, lattice);
+  const Point origin = corners.front();  // the same wherever the ring begins and stands: layers of a prism are alike
   VertexPath path;
-  path.reserve(ring.size());
-  for (const Point p : ring) {
-    const Point from_there = p - origin;
-    path.push_back({static_cast<double>(from_there.x), static_cast<double>(from_there.y), 0});
-  }
-  simplify(path, true, resolution);
+  path.reserve(corners.size());
+  for (const Point p : corners)
+    path.push_back({static_cast<double>(p.x - origin.x), static_cast<double>(p.y - origin.y), 0});
+  const double off = resolution;
+  simplify(path, true, off * off * tolerances::shortest_piece);
   Ring out;
   out.reserve(path.size());
   for (const PathVertex& v : path) {
     const Point p{origin.x + rounded(v.x), origin.y + rounded(v.y)};
     if (out.empty() || out.back() != p) out.push_back(p);
   }
-  return out.size() >= 3 ? out : ring;
+  return out.size() >= 3 ? out : corners;
 }
 
 /// What rings enclose: those that run clockwise are holes in the others, and no more than that where they reach beyond
@@ -211,7 +212,7 @@ Cut Cutter::cut(std::size_t i, const LayerSettings& settings) const {
   StopNowAndThen stop(64);
   for (auto& ring : chains.rings) {
     stop.step();
-    ring = in_few_chords(std::move(ring), settings.resolution);
+    ring = in_few_chords(ring, settings.resolution);
   }
   const Um radius = settings.slice_closing_radius;
   bool met = radius > 0 && near_each_other(chains.rings, 2 * radius);

@@ -12,7 +12,7 @@ using namespace weft;
 
 namespace {
 
-constexpr double worth_um3 = 20'000;  // of a move: a line 10 µm off at both edges along 0.2 mm
+constexpr double worth_um3 = 10'000;  // of a move: a line 10 µm off at both edges along half of 0.2 mm
 
 double distance(const PathVertex& a, const PathVertex& b) {
   return std::hypot(b.x - a.x, b.y - a.y);

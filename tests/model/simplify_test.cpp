@@ -117,7 +117,7 @@ TEST_CASE("simplify: no path turns by more than 60° beside a piece shorter than
 }
 
 TEST_CASE("simplify: a bow becomes as many pieces as are worth their moves, and no more") {
-  // For an even bow of radius r in n pieces of length l: n + n l (l² / 8 r)² 4 / 45 / A is least; A is 20,000 µm³.
+  // For an even bow of radius r in n pieces of length l: n + n l (l² / 8 r)² 4 / 45 / A is least; A is 10,000 µm³.
   for (const double radius : {500.0, 2'000.0, 10'000.0}) {
     VertexPath bow;
     for (int i = 0; i <= 3'600; ++i) {
@@ -126,7 +126,7 @@ TEST_CASE("simplify: a bow becomes as many pieces as are worth their moves, and 
     }
     const auto cost = [&](double n) {
       const double l = std::numbers::pi * radius / n, stands_off = l * l / 8 / radius;
-      return n + n * l * stands_off * stands_off * 4 / 45 / 20'000;
+      return n + n * l * stands_off * stands_off * 4 / 45 / 10'000;
     };
     double best = 1;
     while (cost(best + 1) < cost(best)) ++best;

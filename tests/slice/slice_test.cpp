@@ -377,6 +377,41 @@ TEST_CASE("slice: simplification keeps the outline within the resolution") {
   CHECK(simple[50].layer.regions[0].outer.size() * 3 < fine[50].layer.regions[0].outer.size());
 }
 
+TEST_CASE("slice: chords of a round outline lie in the middle of it") {
+  const LayerSettings settings;
+  for (const double radius : {1'000.0, 5'000.0, 20'000.0}) {
+    CAPTURE(radius);
+    Mesh mesh;
+    const Ring round = polygon(radius, 720, 0.3, false);
+    add_upright(mesh, round, 1'000);
+    const Regions cut = cut_all(mesh, settings)[0].layer.regions;
+    REQUIRE(cut.size() == 1);
+    CHECK(cut[0].outer.size() * 6 < round.size());
+    CHECK(area_mm2(cut[0]) == Approx(area_mm2({round, {}})).epsilon(0.001));  // between its corners 0.3 to 2.5 % less
+    const geometry::SegmentIndex index(cut);
+    for (const Point p : round) CHECK(index.nearest(p)->distance_um <= settings.resolution);
+  }
+}
+
+TEST_CASE("slice: layers of a prism are alike, wherever edges within its sides are cut") {
+  for (const int corners : {64, 96, 128, 200})
+    for (const double turned : {0.0, 0.3, 0.7}) {
+      CAPTURE(corners, turned);
+      Mesh mesh;
+      add_upright(mesh, polygon(5'000, corners, turned, false), 3'000);
+      const auto cuts = cut_all(mesh);
+      const Ring& first = cuts[0].layer.regions[0].outer;
+      double apart = 0;
+      for (const auto& cut : cuts)
+        for (const Point p : cut.layer.regions[0].outer) {
+          double nearest = 1e9;
+          for (const Point q : first) nearest = std::min(nearest, distance(p, q));
+          apart = std::max(apart, nearest);
+        }
+      CHECK(apart < 30);  // along the outline, of chords that are 0.5 mm long
+    }
+}
+
 TEST_CASE("slice: layers of real parts hold the volume of their meshes", "[law][corpus]") {
   for (const char* name :
        {"models/benchy.stl", "models/MINI-x-carriage.stl", "models/MINI-minda-holder.stl", "models/fandisk.stl"}) {
