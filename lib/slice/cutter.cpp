@@ -81,7 +81,7 @@ Ring in_few_chords(const Ring& ring, Um resolution) {
   if (ring.size() <= 3 || resolution <= 0) return ring;
   constexpr Um lattice = 1;  // where edges within a face are cut there are corners that tell nothing
   const Ring corners = geometry::coarsened(ring, lattice);
-  const Point origin = corners.front();  // the same wherever the ring begins and stands: layers of a prism are alike
+  const Point origin = corners.front();  // the same wherever the ring begins, and wherever it stands
   VertexPath path;
   path.reserve(corners.size());
   for (const Point p : corners)

@@ -393,25 +393,6 @@ TEST_CASE("slice: chords of a round outline lie in the middle of it") {
   }
 }
 
-TEST_CASE("slice: layers of a prism are alike, wherever edges within its sides are cut") {
-  for (const int corners : {64, 96, 128, 200})
-    for (const double turned : {0.0, 0.3, 0.7}) {
-      CAPTURE(corners, turned);
-      Mesh mesh;
-      add_upright(mesh, polygon(5'000, corners, turned, false), 3'000);
-      const auto cuts = cut_all(mesh);
-      const Ring& first = cuts[0].layer.regions[0].outer;
-      double apart = 0;
-      for (const auto& cut : cuts)
-        for (const Point p : cut.layer.regions[0].outer) {
-          double nearest = 1e9;
-          for (const Point q : first) nearest = std::min(nearest, distance(p, q));
-          apart = std::max(apart, nearest);
-        }
-      CHECK(apart < 30);  // along the outline, of chords that are 0.5 mm long
-    }
-}
-
 TEST_CASE("slice: layers of real parts hold the volume of their meshes", "[law][corpus]") {
   for (const char* name :
        {"models/benchy.stl", "models/MINI-x-carriage.stl", "models/MINI-minda-holder.stl", "models/fandisk.stl"}) {
