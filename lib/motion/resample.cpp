@@ -15,7 +15,7 @@ Coarseness coarseness(Role role) {
   if (row_of(role).kind == RoleKind::support) return {static_cast<double>(tolerances::arc) / tolerances::path, 1};
   if (role != Role::solid_infill && role != Role::overhang_skin && row_of(role).kind != RoleKind::fill) return {};
   return {static_cast<double>(tolerances::path_inside) / tolerances::path,
-          static_cast<double>(tolerances::band_inside) / tolerances::band_step};
+          static_cast<double>(tolerances::band_inside) / tolerances::band_step, 2};
 }
 
 void thin_out(std::vector<Junction>& path, Coarseness times) {
@@ -24,7 +24,7 @@ void thin_out(std::vector<Junction>& path, Coarseness times) {
   vertices.reserve(path.size());
   for (const Junction& j : path)
     vertices.push_back({j.at.x / times.path, j.at.y / times.path, j.width * static_cast<double>(j.flow) / times.band});
-  const auto before = simplify(vertices, false);
+  const auto before = simplify(vertices, false, times.worth * worth_of_a_bead_move);
   if (before.size() == path.size()) return;
   const bool even_flow =
       std::all_of(path.begin(), path.end(), [&](const Junction& j) { return j.flow == path[0].flow; });

@@ -387,6 +387,8 @@ TEST_CASE("slice: chords of a round outline lie in the middle of it") {
     const Regions cut = cut_all(mesh, settings)[0].layer.regions;
     REQUIRE(cut.size() == 1);
     CHECK(cut[0].outer.size() * 6 < round.size());
+    std::reverse(mesh.triangles.begin(), mesh.triangles.end());
+    CHECK(cut_all(mesh, settings)[0].layer.regions == cut);                   // wherever the ring begins
     CHECK(area_mm2(cut[0]) == Approx(area_mm2({round, {}})).epsilon(0.001));  // between its corners 0.3 to 2.5 % less
     const geometry::SegmentIndex index(cut);
     for (const Point p : round) CHECK(index.nearest(p)->distance_um <= settings.resolution);
