@@ -45,13 +45,31 @@ Regions nudged_out(const Regions& regions, Um by) {
 
 namespace {
 
+/// Each by a little more than the one before it, so that none of them lies on another.
+/// @param rings  that run the other way round
+void nudge_apart(std::span<Ring> rings) {
+  constexpr Um kinds = 3, apart = 2;
+  Um by = 0;
+  for (Ring& ring : rings) {
+    ring = nudged_out(ring, -(by++ % kinds * apart));
+    drop_collinear(ring);
+  }
+}
+
 /// @param wider  the other way round: what they wind around once or more often is wound around no more
-Regions less(const Region& region, const Regions& others, std::span<const Ring> wider) {
+/// @param hair   by which they are: nothing where that is to be exact
+Regions less(const Region& region, const Regions& others, std::span<const Ring> wider, Um hair) {
   std::vector<Ring> rings = rings_of({region});
+  const std::size_t own = rings.size();
   const Box box = box_of(region.outer);
   for (const Ring& ring : wider)
     if (box.overlaps(box_of(ring))) rings.push_back(ring);
   auto left = wound(rings, WindingRule::positive, box.centre());
+  if (!left && hair > 0) {
+    nudge_apart(std::span(rings).subspan(own));
+    std::erase_if(rings, [](const Ring& ring) { return ring.size() < 3; });
+    left = wound(rings, WindingRule::positive, box.centre());
+  }
   if (!left) return subtract({region}, others);
   // Trimmed outlines may go round something the other way, but outside of what they were trimmed to.
   std::erase_if(*left, [&](const Region& piece) { return !box.contains(piece.outer.front()); });
@@ -71,12 +89,18 @@ Regions beyond(const Regions& regions, const Regions& others, Um hair) {
   }
   Regions out;
   for (const Region& region : regions)
-    for (Region& left : less(region, wider, rings)) out.push_back(std::move(left));
+    for (Region& left : less(region, wider, rings, hair)) out.push_back(std::move(left));
   return out;
 }
 
 Regions beyond(const Region& region, const Regions& others, Um hair) {
   return beyond(Regions{region}, others, hair);
+}
+
+Regions covered(const Region& region, const Regions& others, Um hair) {
+  if (others.empty()) return {};
+  const Regions bare = beyond(region, others, hair);
+  return bare.empty() ? Regions{region} : beyond(region, bare, hair);
 }
 
 }  // namespace weft::geometry

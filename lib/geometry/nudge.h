@@ -15,4 +15,7 @@ Regions beyond(const Region& region, const Regions& others, Um hair);
 /// The same of several that do not overlap.
 Regions beyond(const Regions& regions, const Regions& others, Um hair);
 
+/// What of a region others cover, to a hair; all of it as it was where that is all. Pre: as of `beyond`
+Regions covered(const Region& region, const Regions& others, Um hair);
+
 }  // namespace weft::geometry

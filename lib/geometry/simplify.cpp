@@ -2,11 +2,15 @@
 #include "geometry/simplify.h"
 
 #include "core/stop.h"
+#include "geometry/boolean.h"
 #include "geometry/convex.h"
-#include "geometry/spatial_index.h"
+#include "geometry/ring_chains.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace weft::geometry {
 namespace {
@@ -159,17 +163,24 @@ Regions simplified(const Regions& regions, Um bound) {
   const auto convex = [](const Region& region) { return region.holes.empty() && runs_round_convex(region.outer); };
   if (std::all_of(regions.begin(), regions.end(), convex)) return out;  // chords lie within what was apart
   // Each round gives a ring its points back; when all have theirs, nothing crosses.
-  for (bool crossed = true; crossed;) {
+  const auto shortened = [&] {
+    std::vector<std::pair<const Ring*, Ring*>> pairs;  // as they were, and as they are
+    for (std::size_t r = 0; r < out.size(); ++r) {
+      pairs.emplace_back(&regions[r].outer, &out[r].outer);
+      for (std::size_t h = 0; h < out[r].holes.size(); ++h) pairs.emplace_back(&regions[r].holes[h], &out[r].holes[h]);
+    }
+    return pairs;
+  }();
+  const auto is_short = [](const auto& ring) { return ring.first->size() != ring.second->size(); };
+  for (bool crossed = std::any_of(shortened.begin(), shortened.end(), is_short); crossed;) {
     crossed = false;
-    const SegmentIndex index(out);
-    for (const auto& [i, j] : index.crossing_pairs())
-      for (const auto& origin : {index.origin(i), index.origin(j)}) {
-        const Region& was = regions[origin.region];
-        Region& is = out[origin.region];
-        Ring& ring = origin.ring == 0 ? is.outer : is.holes[origin.ring - 1];
-        const Ring& original = origin.ring == 0 ? was.outer : was.holes[origin.ring - 1];
-        if (ring.size() == original.size()) continue;
-        ring = original;
+    const auto rings = rings_of(out);
+    const RingChains chains(rings);
+    for (const auto& [i, j] : chains.crossing_pairs())
+      for (const std::uint32_t edge : {i, j}) {
+        const auto& ring = shortened[chains.ring_of(edge)];
+        if (!is_short(ring)) continue;
+        *ring.second = *ring.first;
         crossed = true;
       }
   }

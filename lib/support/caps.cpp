@@ -58,8 +58,7 @@ class Capper {
   SupportLayer cap_of(std::size_t k, const Capped& one, const Regions& taken) const {
     const Stack::Level lies{stack_.levels[k].z + one.height, one.height};
     SupportLayer out{lies.z, lies.height, {}, {}, {}, {}, false, {}};
-    const Regions contact = geometry::simplified(demand_[one.layer].wanted, coarse_outline);
-    Regions shape = contact;
+    Regions shape = geometry::simplified(demand_[one.layer].wanted, coarse_outline);
     thicken(shape, shape, line_);
     Regions others = taken;
     for (std::size_t j = k + 1; j < levels_.size() && levels_[j].z - levels_[j].height < lies.z; ++j)
@@ -70,12 +69,20 @@ class Capper {
     append(roof, geometry::trimmed(base.under_roof, near));
     if (room_.settings().support_roof_enable) append(roof, geometry::trimmed(base.joists.area, near));
     const Regions barred = geometry::trimmed(others, near);
-    Regions free = room_.free_part(shape, lies, contact);
+    Regions free = room_.free_part(shape, lies, shape);
     if (!barred.empty()) free = geometry::beyond(free, barred, beside_by);
-    const auto on = [&](const Regions& under) {
-      if (under.empty()) return Regions{};
-      const Regions off = geometry::beyond(free, under, beside_by);
-      return opened(off.empty() ? free : geometry::beyond(free, off, beside_by), line_ * 4 / 10);
+    // What lies on one thing as a whole lies on no other.
+    const auto on = [&](const Regions& all_under) {
+      Regions lying, beside;
+      for (Region& region : free) {
+        const auto under = geometry::trimmed(all_under, box_of(region.outer).grown(4 * beside_by));
+        const Regions covered = geometry::covered(region, under, beside_by);
+        const bool whole = covered.size() == 1 && covered.front() == region;
+        append(lying, covered);
+        if (!whole) beside.push_back(std::move(region));
+      }
+      free = std::move(beside);
+      return opened(lying, line_ * 4 / 10);
     };
     out.roof = on(roof);
     out.branches = on(geometry::trimmed(base.branches, near));

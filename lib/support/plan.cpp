@@ -185,10 +185,15 @@ void note_reached(const Object& object, const Stack& stack, const Demand& demand
     append(all, caps.of[i]);
     const Near near = near_to(demand[i].wanted, all);
     out.contact_mm2 = near.contact_mm2;
-    // It is a judgement of reach: beads' finer corners do not matter to it.
-    constexpr Um coarse = 80;
+    // It is a judgement of reach: finer corners do not matter to it.
+    constexpr Um coarse = 100;
     const auto around = [](const Regions& areas) {
-      return grown(geometry::simplified(areas, coarse), reached, coarse);
+      Regions rough;
+      for (const Region& region : areas) {
+        Region& to = rough.emplace_back(Region{geometry::coarsened(region.outer, coarse), {}});
+        for (const Ring& hole : region.holes) to.holes.push_back(geometry::coarsened(hole, coarse));
+      }
+      return grown(rough, reached, coarse);
     };
     Regions left, wide = around(near.whole);
     if (!near.partly.empty()) {

@@ -56,10 +56,8 @@ Regions falls_down(const Room& room, const Stack::Level& level, const Regions& b
     };
     Regions base = geometry::trimmed(below, near), free = beyond(base);
     if (!free.empty() && room.settings().support_type == SupportType::everywhere) {
-      const Regions part = part_below(room, level, near);
-      if (!part.empty())
-        if (const Regions on_part = geometry::intersect({piece}, part); !on_part.empty())
-          append(base, on_part), free = beyond(base);  // it stands on what lies below it, and not on walls beside
+      const Regions on_part = geometry::covered(piece, part_below(room, level, near), beside_by);
+      if (!on_part.empty()) append(base, on_part), free = beyond(base);  // it stands on that, not on walls beside
     }
     append(out, free);
   }

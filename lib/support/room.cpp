@@ -149,9 +149,16 @@ Regions Room::kept_out(const Stack::Level& level, const Place& place, const Regi
 
 Regions Room::barred(const Stack::Level& level, const Place& place, const Regions& contacts,
                      const Regions* above) const {
-  const Regions part = part_near(level.bottom(), level.z, place, beside_ + 3 * outline_bound);
+  const bool is_contact = std::all_of(place.area.begin(), place.area.end(), [&](const Region& region) {
+    return std::find(contacts.begin(), contacts.end(), region) != contacts.end();
+  });
+  const Regions part = part_near(level.bottom(), level.z, place, (is_contact ? close_ : beside_) + 3 * outline_bound);
   Regions barred = kept_out(level, place, part);
   if (part.empty()) return barred;
+  if (is_contact) {
+    append(barred, kept_off(part, close_));
+    return barred;
+  }
   Regions nearer;  // where the part is come nearer than elsewhere
   const auto keep_off = [&](Um distance) {
     const Regions off = kept_off(part, distance);

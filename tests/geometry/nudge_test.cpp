@@ -30,6 +30,17 @@ TEST_CASE("geometry: what lies beyond others that are a hair wider is what a swe
       CHECK(area_mm2(exclusive_or(left, swept)) < 0.03);
       CHECK(area_mm2(subtract(left, {region})) < 0.03);
       CHECK(area_mm2(subtract(subtract({region}, others), left)) < 4e-6 * hair * 400'000);
+      const Regions on = covered(region, near, hair);
+      CHECK(area_mm2(exclusive_or(on, intersect({region}, others))) < 8e-6 * hair * 400'000);
     }
   }
+}
+
+TEST_CASE("geometry: what others cover all of stays as it was, and of what they do not nothing is left") {
+  const Region region{{{0, 0}, {900, 0}, {1000, 1000}, {0, 1000}}, {}};
+  const auto box = [](Um from, Um to) { return Region{{{from, -9}, {to, -9}, {to, 1009}, {from, 1009}}, {}}; };
+  CHECK(covered(region, {box(-9, 500), box(499, 1009)}, 3) == Regions{region});
+  CHECK(covered(region, {region}, 3) == Regions{region});
+  CHECK(covered(region, {box(2000, 3000)}, 3).empty());
+  CHECK(covered(region, {}, 3).empty());
 }
