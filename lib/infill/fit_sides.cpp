@@ -54,7 +54,7 @@ SideFit::SideFit(const Outline& outline, const LineSet& lines, std::span<const I
   for (std::uint32_t e = 0; e < n; ++e) {
     stop.step();
     Turned a = outline.points()[e], b = outline.points()[outline.next(e)];
-    if (!along(a, b) || a.x == b.x) continue;
+    if (!along(a, b) || a.x == b.x || outline.is_loose(e)) continue;
     const bool ceiling = b.x < a.x;  // the inside is to the left
     if (ceiling) std::swap(a, b);
     const double slope = (b.y - a.y) / (b.x - a.x);

@@ -28,7 +28,8 @@ struct FitWidths {
 
 /// Where edges run along the lines of a fill, closer than a neighbour would lie, a line ends at the edge: it covers
 /// what is between them, less or more than its own half. So a fill neither lies in a wall along it nor leaves a gap
-/// there, although its lines stand on one grid. Edges across the lines are none of this: there lines end or turn.
+/// there, although its lines stand on one grid. Edges across the lines are none of this: there lines end or turn. Nor
+/// are loose ones.
 class SideFit {
  public:
   /// Pre: the intervals are the outline's on these lines, as `Outline::cut` gives them; outer rings run

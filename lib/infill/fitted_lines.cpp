@@ -41,12 +41,17 @@ LineSet fitted_lines(const Outline& outline, double band) {
     const Turned a = points[i], b = points[outline.next(i)];
     left = std::min(left, a.x), right = std::max(right, a.x);
     std::vector<Level>& side = b.x > a.x ? floors : ceilings;  // the inside is to the left
-    if (SideFit::along(a, b)) side.push_back({std::abs(b.x - a.x), (a.y + b.y) / 2});
+    if (SideFit::along(a, b) && !outline.is_loose(i)) side.push_back({std::abs(b.x - a.x), (a.y + b.y) / 2});
   }
   const Level floor = longest_level(floors, near * band), ceiling = longest_level(ceilings, near * band);
   double low = outline.least_y(), high = outline.greatest_y();
-  if (std::min(floor.length, ceiling.length) >= most_of * (right - left) && ceiling.y - floor.y > band / 2)
+  const double long_enough = most_of * (right - left);
+  if (std::min(floor.length, ceiling.length) >= long_enough && ceiling.y - floor.y > band / 2)
     low = floor.y, high = ceiling.y;
+  else if (outline.has_loose_edges() && floor.length >= long_enough)
+    low = floor.y, high = low + band;
+  else if (outline.has_loose_edges() && ceiling.length >= long_enough)
+    high = ceiling.y, low = high - band;
   const double count = std::max(1.0, std::round((high - low) / band)), spacing = (high - low) / count,
                below = std::round((low - outline.least_y()) / spacing),
                above = std::round((outline.greatest_y() - high) / spacing);

@@ -355,11 +355,15 @@ FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const 
       fill_all(area.regions, area.ledge ? styles.solid : styles.bridge, std::nullopt, areas.part,
                [&](const auto&...) { return area.angle_rad; });
     if (infill.infill_sparse_density > 0) fill_sparse_areas(infill, input, styles.sparse, areas, layer.beads);
+    SolidStyle solid = styles.solid, top = styles.top;
+    std::optional<geometry::SegmentIndex> sparse;  // lines beside it are as even as any
+    if (!areas.sparse.empty() && !(areas.solid.empty() && areas.top.empty()))
+      sparse.emplace(areas.sparse), solid.loose = top.loose = &*sparse;
     const std::size_t from = layer.beads.size();
     for (const BeltLine& line : areas.belts) lay(line, styles.solid, areas.part, layer.beads);
     spread_out(flow::spread(input.height, input.overlap_factor), from, layer.beads);
-    fill_skin(areas.solid, styles.solid, styles.solid_winds, areas.part, solid_angle, is_on_bridge);
-    fill_skin(areas.top, styles.top, styles.top_winds, areas.part, own_angle, [](const Region&) { return false; });
+    fill_skin(areas.solid, solid, styles.solid_winds, areas.part, solid_angle, is_on_bridge);
+    fill_skin(areas.top, top, styles.top_winds, areas.part, own_angle, [](const Region&) { return false; });
     if (shells.ironing_enabled)
       iron(shells, input, areas, styles.ironing, sequence, layer.beads,
            [&](const Region& region) { return own_angle(styles.top, region) + radians(90); });

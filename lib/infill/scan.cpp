@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace weft::infill {
 
@@ -84,6 +85,18 @@ std::vector<Interval> Outline::cut(const LineSet& lines) const {
     for (auto c = from; to - c >= 2; c += 2) intervals.push_back({k, c[0].x, c[1].x, c[0].edge, c[1].edge});
   }
   return intervals;
+}
+
+void Outline::loosen(const geometry::SegmentIndex& edges, const Frame& frame) {
+  constexpr double on_it_um = 3;  // areas that were cut apart share their border to the lattice
+  std::vector<bool> loose(points_.size());
+  bool any = false;
+  for (std::uint32_t i = 0; i < points_.size(); ++i) {
+    const Turned a = points_[i], b = points_[next(i)];
+    loose[i] = edges.nearest(frame.back({std::midpoint(a.x, b.x), std::midpoint(a.y, b.y)}), on_it_um).has_value();
+    any = any || loose[i];
+  }
+  if (any) loose_ = std::move(loose);
 }
 
 }  // namespace weft::infill

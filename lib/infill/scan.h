@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "core/polygon.h"
+#include "geometry/spatial_index.h"
 
 #include <cstdint>
 #include <span>
@@ -62,6 +63,13 @@ class Outline {
   /// Cost: O(n + crossings), and a sort of each line's crossings.
   std::vector<Interval> cut(const LineSet& lines) const;
 
+  /// Edges that lie on one of those are loose: what is beyond is filled anyhow, and lines need not fit themselves to
+  /// it.
+  /// @param frame that of the outline
+  void loosen(const geometry::SegmentIndex& edges, const Frame& frame);
+  bool is_loose(std::uint32_t edge) const { return !loose_.empty() && loose_[edge]; }
+  bool has_loose_edges() const { return !loose_.empty(); }
+
  private:
   void add(const Ring& ring, const Frame& frame);
   std::uint32_t begin_of(std::uint32_t ring) const { return ring == 0 ? 0 : ends_[ring - 1]; }
@@ -69,6 +77,7 @@ class Outline {
   std::vector<Turned> points_;
   std::vector<std::uint32_t> ring_;  // of a point
   std::vector<std::uint32_t> ends_;  // of a ring
+  std::vector<bool> loose_;          // edges; empty: none
   double least_y_ = 1e300, greatest_y_ = -1e300;
 };
 

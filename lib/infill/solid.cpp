@@ -101,6 +101,7 @@ class Filler {
  private:
   void lay() {
     if (!(outline_.greatest_y() > outline_.least_y())) return;
+    if (style_.loose != nullptr) outline_.loosen(*style_.loose, frame_);
     lines_ = fitted_lines(outline_, style_.band);
     width_ = style_.fixed_strand ? style_.band : std::max(1, rounded(lines_.spacing));
     all_ = outline_.cut(lines_);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "core/polygon.h"
+#include "geometry/spatial_index.h"
 #include "infill/overlap.h"
 #include "model/bead.h"
 
@@ -20,6 +21,7 @@ struct SolidStyle {
   bool ends_within = false;  ///< ends of lines that do not turn keep half a line off the edge, as turns do
   bool gaps = true;          ///< strips narrower than a line and a half are filled
   bool ordered = true;       ///< lines are printed one after the other, also where another order is shorter
+  const geometry::SegmentIndex* loose = nullptr;  ///< edges that lines need not fit themselves to; null: none
   std::uint32_t part = 0, sequence = 0;
 };
 

@@ -171,6 +171,33 @@ TEST_CASE("solid: a line is much wider or narrower than others only where it sta
   CHECK(beside_hole.second == Approx(band + 120).margin(2));
 }
 
+TEST_CASE("solid: lines begin at the wall, and are even beside an edge that is loose", "[infill]") {
+  constexpr Um band = 430, length = 12000;
+  const Um high = GENERATE(7 * band + 100, 7 * band + 200, 7 * band + 350);
+  const bool below = GENERATE(true, false);  // the loose edge is the lower one
+  const double lean = GENERATE(0.0, 0.7);
+  CAPTURE(high, below, lean);
+  const auto at = [lean](double x, double y) {
+    return Point{rounded(x * std::cos(lean) - y * std::sin(lean)), rounded(x * std::sin(lean) + y * std::cos(lean))};
+  };
+  Region area{{at(0, 0), at(length, 0), at(length, high), at(0, high + 700)}, {}};
+  if (below) area.outer = {at(0, -700), at(length, 0), at(length, high), at(0, high)};
+  // what lies beyond, which has a corner more there
+  const geometry::SegmentIndex loose(std::vector<geometry::Segment>{
+      {area.outer[below ? 0 : 2], area.outer[below ? 1 : 3]}, {at(0, 20000), at(length, 20000)}});
+  const Beads beads =
+      filled(area, {.band = band, .angle_rad = lean, .connect = false, .ends_within = true, .loose = &loose});
+  REQUIRE(beads.size() >= 7);
+  double nearest = length;  // of the lines' sides to the wall's
+  for (const Bead& bead : beads)
+    for (const Junction& j : bead.path) {
+      CHECK(std::abs(j.width - band) <= 1);
+      const double y = j.at.y * std::cos(lean) - j.at.x * std::sin(lean);
+      nearest = std::min(nearest, (below ? high - y : y) - j.width / 2.0);
+    }
+  CHECK(std::abs(nearest) < 4);
+}
+
 TEST_CASE("solid: every line is printed after its neighbour below", "[infill][law]") {
   const Region frame =
       with_hole(with_hole(rectangle(0, 0, 20000, 15000), 4000, 5000, 9000, 9000), 12000, 2000, 16000, 13000);
