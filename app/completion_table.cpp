@@ -71,7 +71,10 @@ CompletionTable completion_table() {
   for (const auto& verb : verbs)
     out.verbs.push_back({std::string(verb.name), std::string(verb.purpose), words_of(verb.options())});
   out.common = words_of(common_options());
-  for (const auto& entry : catalogue()) out.settings.push_back(words_of(entry));
+  for (const auto& entry : catalogue()) {
+    out.settings.push_back(words_of(entry));
+    if (out.sections.empty() || out.sections.back() != entry.section) out.sections.emplace_back(entry.section);
+  }
   return out;
 }
 

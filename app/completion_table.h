@@ -36,6 +36,7 @@ struct CompletionTable {
   std::vector<VerbWords> verbs;
   std::vector<OptionWords> common;    ///< of every verb
   std::vector<OptionWords> settings;  ///< each setting as an option
+  std::vector<std::string> sections;  ///< of settings, which `weft settings` takes as names, too
 };
 CompletionTable completion_table();
 

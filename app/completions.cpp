@@ -98,7 +98,7 @@ _weft() {
   fi
   case $verb in
     '') IFS=' '; COMPREPLY=($(compgen -W '@VERBS@' -- "$cur"));;
-    settings) IFS=' '; COMPREPLY=($(compgen -W "${_weft_keys//=/}" -- "$cur"));;
+    settings) IFS=' '; COMPREPLY=($(compgen -W "@SECTIONS@ ${_weft_keys//=/}" -- "$cur"));;
     *) COMPREPLY=($(compgen -f -- "$cur"));;
   esac
 }
@@ -138,6 +138,7 @@ _weft_settings() {
   keys=(@KEYS@)
   compadd -S '' -a keys
 }
+_weft_named() { compadd @SECTIONS@ @NAMES@ }
 _weft() {
   local -a verbs common own settings
   verbs=(
@@ -152,7 +153,9 @@ _weft() {
   fi
   case $words[2] in
 @OWN@  esac
-  _arguments -s $common $own $settings '*:file:_files'
+  local named=_files
+  [[ $words[2] == settings ]] && named=_weft_named
+  _arguments -s $common $own $settings "*:name:$named"
 }
 _weft "$@"
 )zsh";
@@ -187,10 +190,11 @@ std::string fish_row(const OptionWords& option, std::string_view condition) {
   return out + fmt::format(" -d {}\n", shell_word(option.meaning));
 }
 
-std::string keys_of(const CompletionTable& table) {
+/// The keys of all settings, each with what stands behind it.
+std::string keys_of(const CompletionTable& table, std::string_view end = "=") {
   std::string out;
   for (const auto& setting : table.settings)
-    out += fmt::format("{}{}=", out.empty() ? "" : " ", replaced(setting.names.front().substr(2), "-", "_"));
+    out += fmt::format("{}{}{}", out.empty() ? "" : " ", replaced(setting.names.front().substr(2), "-", "_"), end);
   return out;
 }
 
@@ -204,6 +208,7 @@ std::string bash_completion(const CompletionTable& table) {
   }
   std::string out(bash_frame);
   out = replaced(out, "@KEYS@", keys_of(table));
+  out = replaced(out, "@SECTIONS@", joined(table.sections, " "));
   out = replaced(out, "@CASES@", bash_cases(table));
   out = replaced(out, "@OWN@", own);
   out = replaced(out, "@COMMON@", joined_names(table.common));
@@ -220,6 +225,8 @@ std::string zsh_completion(const CompletionTable& table) {
   }
   std::string out(zsh_frame);
   out = replaced(out, "@KEYS@", keys_of(table));
+  out = replaced(out, "@SECTIONS@", joined(table.sections, " "));
+  out = replaced(out, "@NAMES@", keys_of(table, ""));
   out = replaced(out, "@OWN@", own);
   out = replaced(out, "@COMMON@", zsh_rows(table.common, "    "));
   out = replaced(out, "@SETTINGS@", zsh_rows(table.settings, "    "));
@@ -240,6 +247,8 @@ std::string fish_completion(const CompletionTable& table) {
   for (const auto& option : table.settings) out += fish_row(option, {});
   for (const auto& verb : table.verbs)
     for (const auto& option : verb.options) out += fish_row(option, "__fish_seen_subcommand_from " + verb.name);
+  out += fmt::format("complete -c weft -n '__fish_seen_subcommand_from settings' -f -a '{} {}'\n",
+                     joined(table.sections, " "), keys_of(table, ""));
   return out;
 }
 

@@ -45,6 +45,8 @@ Reader::Machine reader_machine(const MachineSettings& machine) {
 }
 
 constexpr double by_hand_mm = 0.6;  // width of what custom G-code lays, about
+// Slicers write lengths and heights to 3 decimals: what two of them tell is known to so much.
+constexpr double length_rounding_mm = 2e-3;
 
 double disc_area_mm2(Um diameter) {
   return std::numbers::pi * to_mm(diameter) * to_mm(diameter) / 4;
@@ -307,7 +309,8 @@ void Auditor::judge_head(const Motion& m) {
   if (!m.z_known) return;
   if (const int layer = reader_.context().layer(); layer != head_layer_) head_layer_ = layer, highest_bead_mm_ = 0;
   highest_bead_mm_ = std::max(highest_bead_mm_, bead_height_mm());
-  const auto met = head_->meets(m.path, m.z_from, m.z_to, std::max(volumes_.tolerance_mm, highest_bead_mm_));
+  const double passes_mm = std::max(volumes_.tolerance_mm, highest_bead_mm_ + length_rounding_mm);
+  const auto met = head_->meets(m.path, m.z_from, m.z_to, passes_mm);
   if (!met || met->depth_mm <= violation_.excess.mm) return;
   violation_ = {.kind = Finding::Kind::head, .move = m.kind, .excess = {}, .z_mm = m.z_to};
   violation_.excess.mm = met->depth_mm, violation_.excess.at = met->nozzle;
@@ -338,8 +341,8 @@ double Auditor::half_bead_mm(const Motion& m) {
   const double height_mm = bead_height_mm();
   if (height_mm <= 0) return width_mm / 2;
   if (width_mm > 0) return band_mm(width_mm, height_mm) / 2;
-  // E is written to 5 decimals and lengths to 3: on very short moves rounding alone would fake a wide bead.
-  constexpr double e_rounding_mm = 1e-5, length_rounding_mm = 2e-3, widest_mm = 10;
+  // E is written to 5 decimals: on very short moves rounding alone would fake a wide bead.
+  constexpr double e_rounding_mm = 1e-5, widest_mm = 10;
   const double volume_mm3 = m.volumetric ? m.e_mm : (m.e_mm - e_rounding_mm) * filament_area_mm2_;
   return std::clamp(volume_mm3 / ((length_mm(m.path) + length_rounding_mm) * height_mm), 0.0, widest_mm) / 2;
 }

@@ -175,7 +175,7 @@ void fill_winding(const Region& region, InfillPattern pattern, const SolidStyle&
                  .density = 1,
                  .band = style.band,
                  .angle_rad = style.angle_rad,
-                 .overlap_um = style.overlap_um,
+                 .overlap = style.overlap,
                  .connect = style.connect,
                  .z = input.z,
                  .origin = style.origin,
@@ -260,7 +260,7 @@ Styles styles_of(const InfillSettings& infill, const ShellSettings& shells, cons
   out.solid = {.role = Role::solid_infill,
                .band = band(length_or(shells.skin_line_width, input.nozzle, automatic)),
                .angle_rad = 0,
-               .overlap_um = overlap,
+               .overlap = {overlap},
                .connect = infill.infill_connect_lines,
                .fixed_strand = false,
                .flow = 1,
@@ -270,7 +270,7 @@ Styles styles_of(const InfillSettings& infill, const ShellSettings& shells, cons
                .sequence = 0};
   out.top = out.bridge = out.ironing = out.solid;
   out.ironing.role = Role::ironing, out.ironing.band = shells.ironing_line_spacing;
-  out.ironing.overlap_um = 0, out.ironing.gaps = false, out.ironing.flow = shells.ironing_flow / 100;
+  out.ironing.overlap = {}, out.ironing.gaps = false, out.ironing.flow = shells.ironing_flow / 100;
   out.top.role = Role::top_skin, out.top.band = band(length_or(shells.top_skin_line_width, input.nozzle, input.nozzle));
   apply(shells.bottom_pattern, out.solid);
   apply(shells.top_pattern, out.top);
@@ -280,12 +280,13 @@ Styles styles_of(const InfillSettings& infill, const ShellSettings& shells, cons
   out.sparse = sparse_of(infill, input, 1, input.index);
   // the round end of a line stays within the outermost wall
   const auto kept_within = [&, depth = depth_of_walls(input)](Um widest) {
-    return std::min(overlap, depth - widest / 2.0);
+    const double most = depth - widest / 2.0;
+    return Overlap{std::min(overlap, most), most};
   };
   for (SolidStyle* style : {&out.solid, &out.top})
-    style->overlap_um = kept_within(flow::line_width(style->band, input.height));
-  out.bridge.overlap_um = kept_within(input.nozzle);
-  out.sparse.overlap_um = kept_within(width_of_sparse(infill, input.nozzle, input.height));
+    style->overlap = kept_within(flow::line_width(style->band, input.height));
+  out.bridge.overlap = kept_within(input.nozzle);
+  out.sparse.overlap = kept_within(width_of_sparse(infill, input.nozzle, input.height));
   return out;
 }
 
@@ -301,9 +302,9 @@ void fill_sparse_areas(const InfillSettings& infill, const FillInput& input, Spa
   };
   fill_all(areas.sparse);
   if (areas.combined.empty()) return;
-  const double overlap_um = style.overlap_um;
+  const Overlap overlap = style.overlap;
   style = sparse_of(infill, input, areas.combined_layers, areas.combined_turn);
-  style.overlap_um = overlap_um;
+  style.overlap = overlap;
   fill_all(areas.combined);
 }
 

@@ -186,6 +186,7 @@ Split split_of(const ShellSettings& settings, const InfillSettings& infill, cons
 
 /// Narrow solid beside sparse infill is as wide as its lines; what is too short for one is sparse.
 /// @param thin of what is sparse: what belts may close
+/// @param line width of the lines that are laid: what carries walls between two belts is no more than some of them
 void lay_belts(const Regions& inside, const Mask& thin, const LayersInReach& layers, double line, Um band,
                Kinds& kinds) {
   const Grid& grid = kinds.inside.grid();
@@ -286,13 +287,12 @@ Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, cons
                                                     .turned_rad = object.turned_rad});
     find_internal_bridges(settings, hanging, style, sparse_below, kinds);
   }
-  const Um height = object.layers[index].height;
-  if (kinds.sparse)
-    lay_belts(
-        *object.layers[index].inside, *split.thin & *kinds.sparse, split.layers, line,
-        flow::spacing(length_or(settings.skin_line_width, object.nozzle, flow::automatic_width(object.nozzle, height)),
-                      height, object.overlap_factor),
-        kinds);
+  if (kinds.sparse) {
+    const Um height = object.layers[index].height,
+             laid = length_or(settings.skin_line_width, object.nozzle, flow::automatic_width(object.nozzle, height));
+    lay_belts(*object.layers[index].inside, *split.thin & *kinds.sparse, split.layers, laid,
+              flow::spacing(laid, height, object.overlap_factor), kinds);
+  }
   if (kinds.sparse && !kinds.sparse->any()) kinds.sparse.reset();
   return kinds;
 }

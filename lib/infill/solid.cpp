@@ -168,8 +168,8 @@ class Filler {
     const Turned a = outline_.points()[edge], b = outline_.points()[outline_.next(edge)];
     return std::max(std::abs(b.y - a.y) / std::hypot(b.x - a.x, b.y - a.y), 0.4);
   }
-  /// How far a line is prolonged to reach `overlap` beyond its edge.
-  double over(std::uint32_t edge) const { return is_along(edge) ? 0 : style_.overlap_um / sine_to(edge); }
+  /// How far a line is prolonged beyond its edge.
+  double over(std::uint32_t edge) const { return is_along(edge) ? 0 : style_.overlap.along(sine_to(edge)); }
   /// How much less far it reaches where it does not turn.
   double kept_within(std::uint32_t i, bool right) const {
     if (!style_.ends_within) return 0;
@@ -425,7 +425,7 @@ class Filler {
     double total = 0;
     for (std::size_t i = 1; i < path.size(); ++i)
       total += std::hypot(path[i].at.x - path[i - 1].at.x, path[i].at.y - path[i - 1].at.y);
-    if (total - 2 * style_.overlap_um < shortest_bead * style_.band) return;
+    if (total - 2 * style_.overlap.um < shortest_bead * style_.band) return;
     Bead bead;
     bead.role = role, bead.part = style_.part, bead.sequence = style_.sequence;
     bead.path.reserve(path.size());

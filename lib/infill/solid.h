@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "core/polygon.h"
+#include "infill/overlap.h"
 #include "model/bead.h"
 
 namespace weft::infill {
@@ -10,7 +11,7 @@ struct SolidStyle {
   Role role = Role::solid_infill;
   Um band = 0;                ///< of a line; adapted a little so that whole lines fill the width
   double angle_rad = 0;       ///< direction of the lines, against X
-  double overlap_um = 0;      ///< how far ends of lines, and turns there, reach over the edge; sides do not
+  Overlap overlap{};          ///< of ends of lines, and of turns there; sides do not reach over the edge
   bool connect = true;        ///< neighbouring lines are one bead where they can
   bool fixed_strand = false;  ///< keep `band` as the width of each line (bridges)
   double flow = 1;

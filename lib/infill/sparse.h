@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "core/polygon.h"
+#include "infill/overlap.h"
 #include "model/bead.h"
 #include "settings/groups/infill.h"
 
@@ -16,7 +17,7 @@ struct SparseStyle {
   double density = 0.2;  ///< share of the area, 0 < density < 1
   Um band = 0;
   double angle_rad = 0;
-  double overlap_um = 0;  ///< how far lines reach over the edge
+  Overlap overlap{};
   bool connect = true;
   Um z = 0;
   Point origin{};  ///< patterns are anchored here, so that layers stand on each other

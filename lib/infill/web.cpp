@@ -263,7 +263,7 @@ void Web::emit(double most, Um band, double wanted, Beads& beads) {
 }
 
 double Web::free_pull(std::uint32_t end) const {
-  return on_edge(end) ? -style_.overlap_um / std::max(ends_[end].sine, shallowest) : 0;
+  return on_edge(end) ? -style_.overlap.along(std::max(ends_[end].sine, shallowest)) : 0;
 }
 
 /// The line, walked from that end, as it is after both ends were shortened or prolonged.

@@ -130,7 +130,7 @@ void Web::part(std::uint32_t a) {
 
 bool Web::try_join(std::uint32_t a, std::uint32_t b, double longest) {
   if (a == b || set_of(a / 2) == set_of(b / 2)) return false;
-  const double inset = band_ / 2.0 - style_.overlap_um;
+  const double inset = band_ / 2.0 - style_.overlap.um;
   const double before_a = pull_[a], before_b = pull_[b];
   std::optional<std::vector<Place>> arc = arc_between(a, b, inset, longest);
   const auto room = [&](std::uint32_t e) { return pull_[e] + std::max(pull_[e ^ 1U], 0.0) < length(e / 2); };
@@ -177,7 +177,7 @@ std::optional<std::vector<Place>> Web::arc_beside(std::uint32_t a, std::uint32_t
 /// it is too long
 std::optional<std::vector<Place>> Web::arc_between(std::uint32_t a, std::uint32_t b, double inset, double longest) {
   if (ends_[a].sine < shallowest || ends_[b].sine < shallowest) return arc_beside(a, b, inset, longest);
-  pull_[a] = inset / ends_[a].sine, pull_[b] = inset / ends_[b].sine;
+  for (const std::uint32_t e : {a, b}) pull_[e] = std::max(inset / ends_[e].sine, -style_.overlap.most_um);
   if (pull_[a] >= length(a / 2) || pull_[b] >= length(b / 2)) return std::nullopt;
   std::vector<Place> arc;
   double way = 0;
@@ -222,7 +222,7 @@ double Web::inside_of(Place p, std::uint32_t first, std::uint32_t last) const {
 
 /// Ends that are joined to none are bent along the edge, to where the next line ends.
 void Web::anchor(double length) {
-  const double inset = band_ / 2.0 - style_.overlap_um;
+  const double inset = band_ / 2.0 - style_.overlap.um;
   for (const auto& [first, last] : rings_) {
     const std::size_t count = last - first;
     if (count < 2) continue;

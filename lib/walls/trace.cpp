@@ -42,6 +42,8 @@ Piece pair_piece(const Skeleton& s, const Laying& laying, std::uint32_t h, std::
   if (const auto bend = bend_of(s, laying, h, (a[i] + a[i + 1] + b[i] + b[i + 1]) / 4); bend && inner)
     p.bend = Vertex{*bend, (p.start.width + p.end.width) / 2};
   if (out > 1 || out_end > 1) return p;
+  // Ribs stand across what is even: what a chord lacks of an arc around a corner is none of its width.
+  if (std::abs(a[i] - b[i]) < nothing_um && std::abs(a[i + 1] - b[i + 1]) < nothing_um) return p;
   const Span& span = laying.spans[h / 2];
   if (span.core || span.mouth || span.narrows) {
     const double area = quad_area(start.at(a[i]), end.at(b[i]), end.at(b[i + 1]), start.at(a[i + 1]));

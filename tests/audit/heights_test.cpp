@@ -178,6 +178,24 @@ TEST_CASE("heights: of a thousand files each spoiled in one height every one is 
   CHECK(lower == 500);
 }
 
+TEST_CASE("heights: a bead's height below the layer's top the nozzle is still in its layer, deeper it is not") {
+  Bench bench;
+  // The layer's top is met as a number of single precision: some are a hair above what was written, some below.
+  std::size_t layers = 0;
+  for (double top = 0.4; top < 6.1; top += 0.2, ++layers) {
+    const TwoBlocks good({40, 40}, {150, 150}, 10, top);
+    const auto begun = [&](double below) {  // a ramp that begins so far below, in the wall's corner
+      return examine_text(
+          bench.machine, bench.material, bench.settings,
+          good.text() + fmt::format("G0 X145 Y145\nG0 Z{:.3f}\nG1 X149 Z{:.3f} E.1\n", top - below, top), with_head());
+    };
+    INFO("top " << top);
+    CHECK(begun(0.2).clean());
+    CHECK(begun(0.25).count_of(Finding::Kind::head) > 0);
+  }
+  CHECK(layers == 29);
+}
+
 TEST_CASE("heights: what stands too near is refused, for the head, for the bar, and in the end G-code") {
   Bench bench;
   const auto examined = [&](const std::string& text, const PlateSettings& plate) {

@@ -56,6 +56,7 @@ TEST_CASE("completions: bash offers verbs, the options of each, values, settings
   CHECK_THAT(offered_by_bash("weft slice --log-format j", scratch), Contains("\njson\n"));
   CHECK_THAT(offered_by_bash("weft slice pa", scratch), Contains("\npart.stl\n"));
   CHECK_THAT(offered_by_bash("weft settings layer_hei", scratch), Contains("\nlayer_height\n"));
+  CHECK_THAT(offered_by_bash("weft settings sup", scratch), Contains("\nsupport\n"));
   ::setenv("WEFT_PROFILES", (scratch.path() / "mine").c_str(), 1);
   CHECK_THAT(offered_by_bash("weft slice -p printers/the", scratch), Contains("\nprinters/the-window\n"));
   ::unsetenv("WEFT_PROFILES");
@@ -66,9 +67,10 @@ TEST_CASE("completions: zsh and fish read theirs without complaint") {
       "zsh",
       "zsh -f -n words && zsh -f -c 'fpath=($PWD $fpath); cp words _weft; autoload -Uz compinit; compinit -u -D; "
       "[[ $_comps[weft] == _weft ]]'");
-  check_syntax("fish",
-               "fish --no-config --no-execute words && fish --no-config -c 'source words; complete -C \"weft sli\"' | "
-               "grep -q slice");
+  check_syntax(
+      "fish",
+      "fish --no-config --no-execute words && fish --no-config -c 'source words; complete -C \"weft sli\"' | "
+      "grep -q slice && fish --no-config -c 'source words; complete -C \"weft settings sup\"' | grep -qx support");
 }
 
 TEST_CASE("completions: another word than a shell's is wrong use") {

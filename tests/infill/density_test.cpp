@@ -145,7 +145,7 @@ TEST_CASE("density: a wedge of densities is laid as it is asked for, by every wa
                                .density = part.level,
                                .band = 420,
                                .angle_rad = degrees(45),
-                               .overlap_um = 45,
+                               .overlap = {45},
                                .z = z,
                                .origin = {30'000, 20'000},
                                .reach = 30'000,
@@ -239,7 +239,7 @@ TEST_CASE("density: lines of a level run on through what is denser, and those be
   const Region denser = rectangle(20'000, 0, 60'000, 40'000), densest = rectangle(37'300, 9'100, 51'100, 30'700);
   const std::vector<infill::DenseLevel> levels{{0.1, {region}}, {0.2, {denser}}, {0.4, {densest}}};
   const infill::SparseStyle style{
-      .density = 0.2, .band = 420, .angle_rad = degrees(45), .overlap_um = 100, .reach = 60'000};
+      .density = 0.2, .band = 420, .angle_rad = degrees(45), .overlap = {100}, .reach = 60'000};
   for (const auto pattern : {InfillPattern::grid, InfillPattern::triangles, InfillPattern::cubic}) {
     CAPTURE(static_cast<int>(pattern));
     auto own = style;

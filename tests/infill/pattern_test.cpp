@@ -86,7 +86,7 @@ TEST_CASE("pattern: curves cross neither each other nor themselves", "[infill]")
                                           .density = 0.2,
                                           .band = 420,
                                           .angle_rad = degrees(45),
-                                          .overlap_um = 45,
+                                          .overlap = {45},
                                           .z = z,
                                           .reach = 15'000});
       CAPTURE(static_cast<int>(pattern), z);
@@ -102,7 +102,7 @@ TEST_CASE("pattern: curves cross neither each other nor themselves", "[infill]")
                                       .density = 0.2,
                                       .band = 420,
                                       .angle_rad = degrees(45),
-                                      .overlap_um = 45,
+                                      .overlap = {45},
                                       .z = z,
                                       .reach = 15'000})) <= most);
     }
@@ -112,7 +112,7 @@ TEST_CASE("pattern: lines that bend where they meet cross nowhere, and hold the 
   const Region square = with_hole(rectangle(-25'000, -25'000, 25'000, 25'000), -5'000, -4'000, 6'000, 7'000);
   const auto crossings_bent = [&](InfillPattern pattern, Um z) {
     SparseStyle style{
-        .pattern = pattern, .density = 0.2, .band = 420, .angle_rad = degrees(45), .overlap_um = 45, .z = z};
+        .pattern = pattern, .density = 0.2, .band = 420, .angle_rad = degrees(45), .overlap = {45}, .z = z};
     const int before = crossings(filled(square, style));
     style.bend = true;
     const Beads beads = filled(square, style);
@@ -179,7 +179,7 @@ TEST_CASE("pattern: lines are joined to one path where they can be", "[infill]")
     for (const double density : {0.1, 0.2, 0.4}) {
       CAPTURE(static_cast<int>(pattern), density);
       CHECK(filled(square,
-                   {.pattern = pattern, .density = density, .band = 420, .angle_rad = degrees(45), .overlap_um = 45})
+                   {.pattern = pattern, .density = density, .band = 420, .angle_rad = degrees(45), .overlap = {45}})
                 .size() <= 2);
     }
 }
@@ -206,7 +206,7 @@ TEST_CASE("pattern: where a layer cannot have the density the layers of a period
 
 TEST_CASE("pattern: an end without a joint is bent along the wall as far as it is asked to", "[infill]") {
   const Region square = rectangle(-20'000, -20'000, 20'000, 20'000);
-  SparseStyle style{.pattern = InfillPattern::lines, .density = 0.1, .band = 420, .overlap_um = 45, .anchor_max = 0};
+  SparseStyle style{.pattern = InfillPattern::lines, .density = 0.1, .band = 420, .overlap = {45}, .anchor_max = 0};
   const Beads bare = filled(square, style);
   style.anchor_um = 1500;
   const Beads bent = filled(square, style);
@@ -276,7 +276,7 @@ TEST_CASE("pattern: lines side by side keep the density, and lie a band apart", 
   const Region square = rectangle(0, 0, 40'000, 40'000);
   for (const InfillPattern pattern : {InfillPattern::lines, InfillPattern::gyroid, InfillPattern::concentric}) {
     SparseStyle style{
-        .pattern = pattern, .density = 0.2, .band = 420, .angle_rad = degrees(45), .overlap_um = 45, .z = 1'000};
+        .pattern = pattern, .density = 0.2, .band = 420, .angle_rad = degrees(45), .overlap = {45}, .z = 1'000};
     style.origin = {20'000, 20'000};
     const Beads once = filled(square, style);
     style.multiplier = 3;

@@ -271,6 +271,24 @@ TEST_CASE("shells: walls that begin on a ledge stand on solid, which is wider th
   CHECK(solid_um(5) == 0);
 }
 
+TEST_CASE("shells: walls that cross a bar between the belts of its slopes stand on solid", "[infill]") {
+  constexpr Um wall = 1350;
+  std::vector<Regions> outlines(10, {rectangle(0, 0, 5700, 40000)});
+  for (Um in = 320; in <= 1280; in += 320)  // a notch begins, and the sides lean inwards
+    outlines.push_back({rectangle(in, 0, 5700 - in, 19200), rectangle(in, 20800, 5700 - in, 40000)});
+  outlines.insert(outlines.end(), 10, outlines.back());
+  ShellSettings shells = skin(4, 4, 0, 0);
+  shells.skin_line_width = 450;
+  const auto areas = Object(std::move(outlines), wall).areas(shells);
+  REQUIRE(areas[9].front().belts.size() > 1);
+  for (const Um x : {wall + 200, 2850, 5700 - wall - 200})
+    for (const Um y : {19200 - wall + 300, 20800 + wall - 300}) {
+      CAPTURE(x, y);
+      CHECK(solid_at(areas[9], {x, y}));
+    }
+  CHECK(!solid_at(areas[9], {2850, 10000}));
+}
+
 TEST_CASE(
     "shells: no air lies within the skin of sparse infill, and walls stand beside what carries them by less than "
     "a line",

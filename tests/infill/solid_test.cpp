@@ -334,7 +334,7 @@ TEST_CASE("solid: a strand along a narrow strip of a bridge is a bridge", "[infi
 TEST_CASE("solid: lines reach over the edge by the overlap and no further", "[infill][law]") {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     const Region region = star(seed, 9000, 13);
-    const Beads beads = filled(region, {.band = 400, .angle_rad = degrees(45), .overlap_um = 50});
+    const Beads beads = filled(region, {.band = 400, .angle_rad = degrees(45), .overlap = {50}});
     for (const Bead& bead : beads)
       for (const Junction& j : bead.path) {
         // an overlap of 50 µm across a shallow edge is up to 125 along the line; turns may bend a quarter of a line
@@ -359,7 +359,7 @@ TEST_CASE("solid: slivers that lie between other areas are no beads", "[infill]"
 }
 
 TEST_CASE("solid: what is shorter than a line is wide is no bead, however narrow it is", "[infill]") {
-  const SolidStyle style{.band = 400, .angle_rad = 0, .overlap_um = 60};
+  const SolidStyle style{.band = 400, .angle_rad = 0, .overlap = {60}};
   for (const Um width : {110, 150, 300, 400}) {
     CHECK(filled(rectangle(0, 0, 300, width), style).empty());
     CHECK(filled(rectangle(0, 0, 600, width), style).size() == 1);
@@ -367,7 +367,7 @@ TEST_CASE("solid: what is shorter than a line is wide is no bead, however narrow
 }
 
 TEST_CASE("solid: nothing, specks and needles are borne", "[infill]") {
-  const SolidStyle style{.band = 430, .angle_rad = degrees(45), .overlap_um = 45};
+  const SolidStyle style{.band = 430, .angle_rad = degrees(45), .overlap = {45}};
   CHECK(filled({}, style).empty());
   CHECK(filled({{{0, 0}, {1000, 0}}, {}}, style).empty());
   filled(rectangle(0, 0, 1, 1), style);

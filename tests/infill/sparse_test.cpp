@@ -2,6 +2,7 @@
 #include "infill/sparse.h"
 
 #include "areas.h"
+#include "geometry/offset.h"
 #include "picture.h"
 
 #include <algorithm>
@@ -40,7 +41,7 @@ TEST_CASE("sparse: the volume is the density's share of the area", "[infill][law
                                         .density = density,
                                         .band = 420,
                                         .angle_rad = degrees(45),
-                                        .overlap_um = 45,
+                                        .overlap = {45},
                                         .connect = connect,
                                         .z = z,
                                         .reach = 50000});
@@ -64,6 +65,28 @@ TEST_CASE("sparse: lines stay inside, and reach the edge", "[infill][law]") {
         CHECK(near);
       }
     }
+  }
+}
+
+TEST_CASE("sparse: no line comes further out than the walls are deep, in whatever corner", "[infill][law]") {
+  const InfillPattern pattern = GENERATE(from_range(all_patterns()));
+  const bool connect = GENERATE(true, false);
+  constexpr Um um = 200, most_um = 300, arcs_um = 5;
+  for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+    const Region region = star(seed, 15000, 15);
+    const Regions walls = geometry::offset({region}, {.by = most_um + arcs_um, .corner = geometry::Corner::round});
+    const Beads beads = filled(region, {.pattern = pattern,
+                                        .density = 0.25,
+                                        .band = 420,
+                                        .angle_rad = degrees(45),
+                                        .overlap = {um, most_um},
+                                        .connect = connect,
+                                        .z = 3000});
+    for (const Bead& bead : beads)
+      for (const Junction& j : bead.path) {
+        CAPTURE(seed, static_cast<int>(pattern), connect, j.at.x, j.at.y);
+        CHECK(holds(walls, j.at));
+      }
   }
 }
 
@@ -139,7 +162,7 @@ TEST_CASE("sparse: layers stand on each other", "[infill][law]") {
 
 TEST_CASE("sparse: nothing, specks and needles are borne", "[infill]") {
   const InfillPattern pattern = GENERATE(from_range(all_patterns()));
-  const SparseStyle style{.pattern = pattern, .density = 0.2, .band = 420, .overlap_um = 40};
+  const SparseStyle style{.pattern = pattern, .density = 0.2, .band = 420, .overlap = {40}};
   CHECK(filled({}, style).empty());
   filled(rectangle(0, 0, 1, 1), style);
   filled({{{0, 0}, {50000, 1}, {0, 2}}, {}}, style);
