@@ -17,11 +17,55 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 namespace weft::pipeline {
 namespace {
+
+/// Tells of places whether they are further from outlines than that. Those of outlines that run beside them are mostly
+/// near to the edge that the place before was near to, or to one soon after it.
+class Further {
+ public:
+  Further(const Regions& than, Um by) : regions_(than), by_(by) {
+    for (const Ring& ring : geometry::rings_of(than))
+      for (std::size_t i = 0; i < ring.size(); ++i) edges_.push_back({ring[i], ring[i + 1 < ring.size() ? i + 1 : 0]});
+  }
+  bool any_of(const Region& region) {
+    const auto any = [this](const Ring& ring) {
+      return std::any_of(ring.begin(), ring.end(), [this](Point p) { return lies(p); });
+    };
+    return any(region.outer) || std::any_of(region.holes.begin(), region.holes.end(), any);
+  }
+
+ private:
+  bool lies(Point p) {
+    constexpr std::size_t soon = 128;  // then an index of them all costs less
+    for (std::size_t k = 0; k < std::min(soon, edges_.size()); ++k) {
+      const std::size_t i = (last_ + k) % edges_.size();
+      if (geometry::foot_of(p, edges_[i]).distance_um > by_) continue;
+      last_ = i;
+      return false;
+    }
+    if (!all_) all_.emplace(regions_);
+    const auto nearest = all_->nearest(p, by_);
+    if (nearest) last_ = nearest->segment;
+    return !nearest;
+  }
+
+  const Regions& regions_;
+  double by_;
+  std::vector<geometry::Segment> edges_;
+  std::size_t last_ = 0;
+  std::optional<geometry::SegmentIndex> all_;
+};
+
+/// Whether any corner of a region is further than that from what lies within.
+bool reaches_further(const Region& region, const Regions& within, Um by) {
+  return Further(within, by).any_of(region);
+}
 
 struct PatternRow {
   SupportPattern pattern;
@@ -171,15 +215,6 @@ class Filler {
   }
 
   double share() const { return (layer_.first ? s_.support_initial_layer_density : s_.support_infill_rate) / 100; }
-  /// Whether any corner is further than that from what lies within.
-  static bool reaches_further(const Region& region, const Regions& within, Um by) {
-    const geometry::SegmentIndex edge(within);
-    const auto far = [&](Point p) { return !edge.nearest(p, by); };
-    return std::any_of(region.outer.begin(), region.outer.end(), far) ||
-           std::any_of(region.holes.begin(), region.holes.end(),
-                       [&](const Ring& hole) { return std::any_of(hole.begin(), hole.end(), far); });
-  }
-
   /// Hollow, or nearly: loops, two around thick ones, and what support_tree_infill_rate puts inside.
   void branches() {
     const double double_mm = to_mm(s_.support_tree_branch_diameter_double_wall);

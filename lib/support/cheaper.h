@@ -2,6 +2,7 @@
 #pragma once
 #include "support/field.h"
 #include "support/room.h"
+#include "tasks/spare.h"
 
 #include <optional>
 #include <vector>
@@ -16,6 +17,7 @@ struct Split {
 
 /// Of each patch of contacts what takes less plastic. Neither is planned for that: columns are looked at every two
 /// millimetres, branches as lines; and thin strips that are not high are known to take columns.
-Split cheaper(const Room& room, const Stack& stack, const std::vector<Regions>& contacts);
+/// @param spare  a large patch of strips takes as long as all others
+Split cheaper(const Room& room, const Stack& stack, const std::vector<Regions>& contacts, tasks::Spare& spare);
 
 }  // namespace weft::support

@@ -18,7 +18,7 @@ class NearAll {
  public:
   explicit NearAll(const Regions& edge) : edge_(edge) {}
 
-  bool of(const Ring& ring, double limit_um) const {
+  bool of(const Ring& ring, double limit_um) {
     auto from = distance_to(ring.back(), limit_um);
     Point a = ring.back();
     for (const Point b : ring) {
@@ -30,11 +30,22 @@ class NearAll {
   }
 
  private:
-  std::optional<double> distance_to(Point p, double limit_um) const {
+  /// How far the edge is from p; or how far that is of it which lies beside the place that was asked for before, where
+  /// it is near enough to tell.
+  std::optional<double> distance_to(Point p, double limit_um) {
+    constexpr std::size_t soon = 4;
+    const auto edges = edge_.segments();
+    double least_um = limit_um / 2;
+    std::optional<std::size_t> near;
+    for (std::size_t i = last_; i < std::min(last_ + soon, edges.size()); ++i)
+      if (const double um = geometry::foot_of(p, edges[i]).distance_um; um < least_um) least_um = um, near = i;
+    if (near) return last_ = *near, least_um;
     const auto found = edge_.nearest(p, limit_um);
-    return found ? std::optional(found->distance_um) : std::nullopt;
+    if (!found) return std::nullopt;
+    last_ = found->segment;
+    return found->distance_um;
   }
-  bool between(Point a, double from, Point b, double to, double limit_um) const {
+  bool between(Point a, double from, Point b, double to, double limit_um) {
     constexpr double shortest_um = 20;
     const double length = distance(a, b);
     if (from + to + length <= 2 * limit_um) return true;
@@ -45,6 +56,7 @@ class NearAll {
   }
 
   geometry::SegmentIndex edge_;
+  std::size_t last_ = 0;
 };
 
 }  // namespace
@@ -57,7 +69,7 @@ bool any_may_be_further(const Regions& regions, const Regions& than, Um by) {
   };
   if (std::any_of(regions.begin(), regions.end(), [&](const Region& region) { return limit_um(region) <= 0; }))
     return true;
-  const NearAll near(than);
+  NearAll near(than);
   return std::any_of(regions.begin(), regions.end(), [&](const Region& region) {
     const auto is_near = [&, limit = limit_um(region)](const Ring& ring) { return near.of(ring, limit); };
     return !is_near(region.outer) || !std::all_of(region.holes.begin(), region.holes.end(), is_near);

@@ -243,7 +243,7 @@ bool all_empty(const std::vector<Regions>& by_level) {
 }
 
 /// By what is asked for.
-Split split_of(const Room& room, const Stack& stack, const std::vector<Regions>& contacts) {
+Split split_of(const Room& room, const Stack& stack, const std::vector<Regions>& contacts, tasks::Spare& spare) {
   const std::vector<Regions> nothing(contacts.size());
   if (all_empty(contacts)) return {nothing, nothing, std::nullopt};
   switch (room.settings().support_structure) {
@@ -254,7 +254,7 @@ Split split_of(const Room& room, const Stack& stack, const std::vector<Regions>&
     case SupportStructure::hybrid:
       break;
   }
-  return cheaper(room, stack, contacts);
+  return cheaper(room, stack, contacts, spare);
 }
 
 Standing stand(const Room& room, const Stack& stack, const std::vector<Regions>& contacts,
@@ -262,7 +262,7 @@ Standing stand(const Room& room, const Stack& stack, const std::vector<Regions>&
   const std::size_t count = contacts.size();
   Standing out;
   auto [towers, others] = for_towers(room.settings(), contacts);
-  Split split = split_of(room, stack, others);
+  Split split = split_of(room, stack, others, spare);
   if (all_empty(split.for_branches)) {
     out.under_columns = contacts;
     out.columns = columns(room, stack, contacts, given, spare);
@@ -387,7 +387,7 @@ Plan plan(const SupportSettings& settings, const Object& object, const Demand& d
   std::move(caps.layers.begin(), caps.layers.end(), std::back_inserter(out.layers));
   std::stable_sort(out.layers.begin(), out.layers.end(),
                    [](const SupportLayer& a, const SupportLayer& b) { return a.z < b.z; });
-  out.trapped = trapped_shares(room, out.layers, out.figures.on_part_mm2);
+  spare.beside([&] { out.trapped = trapped_shares(room, out.layers, out.figures.on_part_mm2); });
   return out;
 }
 

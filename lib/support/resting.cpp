@@ -66,17 +66,22 @@ Regions falls_down(const Room& room, const Stack::Level& level, const Regions& b
 
 }  // namespace
 
-void rest_on(const Room& room, const Stack::Level& level, const Regions& below, Regions& here) {
+Regions rest_on(const Room& room, const Stack::Level& level, const Regions& below, Regions& here) {
   const Um thin = line_width(room.settings(), room.object().nozzle) * 4 / 10;
-  Regions left;
+  Regions left, lost;
   for (Region& region : here) {
     const Regions free = falls_down(room, level, below, hanging(region, below));
-    if (free.empty())
+    if (free.empty()) {
       left.push_back(std::move(region));
-    else  // nothing rests on a hair that stays beside what goes
-      append(left, without_thin(geometry::beyond(region, free, beside_by), thin));
+      continue;
+    }
+    // Nothing rests on a hair that stays beside what goes.
+    const Regions rests = without_thin(geometry::beyond(region, free, beside_by), thin);
+    append(left, rests);
+    if (rests.empty()) lost.push_back(std::move(region));
   }
   here = std::move(left);
+  return lost;
 }
 
 }  // namespace weft::support

@@ -11,6 +11,7 @@ Regions part_below(const Room& room, const Stack::Level& level, const Box& near)
 Um reach_of(const Room& room, const Stack::Level& level);
 
 /// Takes away what of a level rests neither on what is below it nor on the part.
-void rest_on(const Room& room, const Stack::Level& level, const Regions& below, Regions& here);
+/// @return the regions of which nothing is left
+Regions rest_on(const Room& room, const Stack::Level& level, const Regions& below, Regions& here);
 
 }  // namespace weft::support
