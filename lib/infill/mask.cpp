@@ -32,22 +32,6 @@ void for_each_word(int from, int to, F&& f) {
   }
 }
 
-/// A row, one cell to higher and lower columns.
-void grow_along_by_one(std::span<Word> row) {
-  Word before = 0;
-  for (std::size_t i = 0; i + 1 < row.size(); ++i) {
-    const Word here = row[i];
-    row[i] = here | here << 1 | before >> 63 | here >> 1 | row[i + 1] << 63;
-    before = here;
-  }
-  const Word here = row.back();
-  row.back() = here | here << 1 | before >> 63 | here >> 1;
-}
-
-void or_into(Word* to, std::span<const Word> from) {
-  for (std::size_t i = 0; i < from.size(); ++i) to[i] |= from[i];
-}
-
 /// Turns the bits where an area begins or ends into the bits between them.
 void fill_between_flips(Word* row, std::size_t words) {
   Word inside = 0;
@@ -326,23 +310,44 @@ Mask Mask::grown(int cells) const {
 }
 
 Mask Mask::grown_round(double cells) const {
-  const int reach = static_cast<int>(cells);
-  if (reach <= 0) return *this;
-  stop_if_asked();
+  if (cells < 1) return *this;
   Mask out(grid_);
   const Rows set = rows_set();
-  const int last = grid_.rows - 1;
-  std::vector<Word> along(words_);
-  for (int r = static_cast<int>(set.from), end = static_cast<int>(set.to); r < end; ++r) {
-    std::copy_n(row(r), words_, along.begin());
-    int grown = 0;
-    for (int away = reach; away >= 0; --away) {  // from the disc's ends to its middle: each row at least as long
-      const int half = static_cast<int>(std::sqrt(cells * cells - away * away));
-      for (; grown < half; ++grown) grow_along_by_one(along);
-      if (r >= away) or_into(out.row(r - away), along);
-      if (away > 0 && r + away <= last) or_into(out.row(r + away), along);
-    }
+  if (set.empty()) return out;
+  stop_if_asked();
+  const auto reach = static_cast<std::size_t>(cells);
+  // Rows behind words that take what grows out of them, and none set before and behind them all: so each step is one
+  // pass over all words, whatever row they are in.
+  const std::size_t stride = words_ + (2 * reach + 63) / 64, rows = set.to - set.from, up = reach * stride;
+  const std::size_t size = rows * stride + 2 * up;  // of what comes out
+  const auto words = [](std::size_t count) { return std::make_unique_for_overwrite<Word[]>(count); };
+  auto along = words(size + 2 * up), next = words(size + 2 * up), round = words(size);
+  for (Word* const to : {along.get(), next.get()}) std::fill_n(to, 2 * up, 0), std::fill_n(to + size, 2 * up, 0);
+  std::fill_n(round.get(), size, 0);
+  for (std::size_t r = 0; r < rows; ++r) {
+    Word* const to = along.get() + 2 * up + r * stride;
+    std::copy_n(bits_.data() + (set.from + r) * words_, words_, to);
+    std::fill_n(to + words_, stride - words_, 0);
   }
+  std::size_t grown = 0;
+  for (std::size_t away = reach + 1; away-- > 0;) {  // from the disc's ends to its middle: each row at least as long
+    const auto a = static_cast<double>(away);
+    for (const auto half = static_cast<std::size_t>(std::sqrt(cells * cells - a * a)); grown < half; ++grown) {
+      const Word* const from = along.get() + 2 * up;
+      Word* const to = next.get() + 2 * up;
+      for (std::size_t i = 0; i < rows * stride; ++i) {
+        const Word* const w = from + i;
+        to[i] = w[0] | w[0] << 1 | w[-1] >> 63 | w[0] >> 1 | w[1] << 63;
+      }
+      std::swap(along, next);
+    }
+    const Word *const below = along.get() + up - away * stride, *const above = along.get() + up + away * stride;
+    for (std::size_t i = 0; i < size; ++i) round[i] |= below[i] | above[i];
+  }
+  const std::size_t from = set.from - std::min(set.from, reach),
+                    to = std::min(set.to + reach, static_cast<std::size_t>(grid_.rows));
+  for (std::size_t r = from; r < to; ++r)
+    std::copy_n(round.get() + (r + reach - set.from) * stride, words_, out.row(static_cast<int>(r)));
   out.clear_beyond_columns();
   return out;
 }
