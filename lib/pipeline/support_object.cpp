@@ -12,6 +12,7 @@
 #include "pipeline/fill_support.h"
 #include "pipeline/key_bytes.h"
 #include "pipeline/nozzles.h"
+#include "pipeline/room_around.h"
 #include "pipeline/stopwatch.h"
 #include "pipeline/tell_marks.h"
 #include "slice/shadow.h"
@@ -33,9 +34,11 @@ Regions moved_ring(const Ring& ring, Point by) {
   return weft::moved(Regions{{ring, {}}}, by);
 }
 
-/// The print surface less half a bead, as seen from an object whose copies stand at these offsets.
+/// The print surface less half a bead, and what a skirt around support takes, as seen from an object whose copies stand
+/// at these offsets.
 Regions surface_for(const Settings& settings, const Object& object, Um half_bead) {
-  const Regions surface = geometry::offset({{print_surface(settings.machine), {}}}, {.by = -half_bead});
+  const Regions surface =
+      geometry::offset({{print_surface(settings.machine), {}}}, {.by = -half_bead - skirt_of(settings)});
   Regions out;
   for (std::size_t i = 0; i < object.copies.size(); ++i) {
     const Regions here = weft::moved(surface, -object.copies[i]);

@@ -78,6 +78,21 @@ TEST_CASE("support: what hangs by its gap above the bed lies on it, and is not t
   CHECK(told(job, "support_left").empty());
 }
 
+TEST_CASE("support: beside the bed's border it leaves room for the skirt that lies around it", "[support]") {
+  // A post with a shelf towards the border, which is where a skirt around the part itself just fits.
+  const ModelOfBoxes model({{10, 0, 0, 20, 20, 24}, {0, 0, 20, 20, 20, 24}});
+  Job job = job_of(model);
+  job.placement.centre = {17'000, 100'000};
+  job.settings.support.support_enable = true;
+  job.settings.support.support_structure = GENERATE(SupportStructure::hybrid, SupportStructure::tree);
+  REQUIRE(job.settings.adhesion.skirt_line_count > 0);
+  Report report;
+  REQUIRE(run(job, {}, report));
+  CHECK(report.audit.verdict == "pass");
+  CHECK(report.support.needed_mm2 > 100);
+  CHECK(report.support.left_mm2 < 0.05 * report.support.needed_mm2);
+}
+
 TEST_CASE("support: what of a support mesh has no room is told, and what has is not") {
   const ModelOfBoxes model(gallows(1));
   struct Row {
