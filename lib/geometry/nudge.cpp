@@ -48,10 +48,11 @@ namespace {
 /// Each by a little more than the one before it, so that none of them lies on another.
 /// @param rings  that run the other way round
 void nudge_apart(std::span<Ring> rings) {
-  constexpr Um kinds = 3, apart = 2;
-  Um by = 0;
+  constexpr Um apart = 2;
+  constexpr int kinds = 3;  // in turn
+  int kind = 0;
   for (Ring& ring : rings) {
-    ring = nudged_out(ring, -(by++ % kinds * apart));
+    ring = nudged_out(ring, -apart * (kind++ % kinds));
     drop_collinear(ring);
   }
 }

@@ -8,6 +8,13 @@
 #include <cmath>
 
 namespace weft::motion {
+namespace {
+
+/// Lines of infill are laid over each other's ends and nobody sees them: a move is worth as much as along a whole
+/// shortest piece.
+constexpr double worth_inside = 2;
+
+}  // namespace
 
 Coarseness coarseness(Role role) {
   // Much of support is small rounds, at whose corners the nozzle slows down: with as many as an offset makes it does
@@ -15,7 +22,7 @@ Coarseness coarseness(Role role) {
   if (row_of(role).kind == RoleKind::support) return {static_cast<double>(tolerances::arc) / tolerances::path, 1};
   if (role != Role::solid_infill && role != Role::overhang_skin && row_of(role).kind != RoleKind::fill) return {};
   return {static_cast<double>(tolerances::path_inside) / tolerances::path,
-          static_cast<double>(tolerances::band_inside) / tolerances::band_step, 2};
+          static_cast<double>(tolerances::band_inside) / tolerances::band_step, worth_inside};
 }
 
 void thin_out(std::vector<Junction>& path, Coarseness times) {

@@ -11,7 +11,7 @@ namespace weft::motion {
 /// How many times as large as for walls tolerances are.
 struct Coarseness {
   double path = 1, band = 1;
-  double worth = 1;  ///< of a move, beside what `path` makes of it
+  double worth = 1;  ///< of a move, over what `path` makes of it
 };
 /// For beads of a role: lines of infill are told coarsely, rounds of support finely.
 Coarseness coarseness(Role role);

@@ -126,20 +126,13 @@ Regions solid_of(std::vector<Ring> rings, bool cut_through, SlicingMode mode, bo
   return geometry::unite(solid);  // what stood in a hole is within its region now
 }
 
-double distance_to(Point p, const geometry::Segment& s) {
-  const double x = s.b.x - s.a.x, y = s.b.y - s.a.y, square = x * x + y * y;
-  if (square == 0) return distance(p, s.a);
-  const double along = ((p.x - s.a.x) * x + (p.y - s.a.y) * y) / square;
-  return distance(p, lerp(s.a, s.b, std::clamp(along, 0.0, 1.0)));
-}
-
 /// Whether `is(ring)` of any outline within `near` of a place.
 template <class Is>
 bool any_near(const geometry::SegmentIndex& rings, Point at, Um near, std::vector<std::uint32_t>& found, Is is) {
   found.clear();
   rings.near({{at.x - near, at.y - near}, {at.x + near, at.y + near}}, found);
   return std::any_of(found.begin(), found.end(), [&](std::uint32_t s) {
-    return distance_to(at, rings.segments()[s]) <= near && is(rings.origin(s).region);
+    return geometry::foot_of(at, rings.segments()[s]).distance_um <= near && is(rings.origin(s).region);
   });
 }
 

@@ -63,7 +63,7 @@ class Cutter {
     return {triangles_.data() + starts_[i], starts_[i + 1] - starts_[i]};
   }
 
-  /// The outlines of layer i, simplified up to `resolution`, united as `slicing_mode` says; bodies no further apart
+  /// The outlines of layer i, in chords up to `resolution` off, united as `slicing_mode` says; bodies no further apart
   /// than twice `slice_closing_radius` are one. Post:   regions as for Booleans (geometry/boolean.h). Holes in the mesh
   /// are closed; no outline is left out. Cost:   O(n) for n triangles cut, about 80 ns each, unless outlines touch
   /// (then they are united by a sweep). Thread: any number at once.

@@ -87,7 +87,8 @@ inline constexpr Rows layer_schema{
             "Line width of everything in the first layer; auto is that of the other layers; a share is of "
             "nozzle_diameter."),
     setting("resolution", Scope::object, &LayerSettings::resolution, Unit::mm, 0_mm, 1_mm,
-            "How far a simplified outline may stand off the model's."),
+            "How far an outline may stand off the model along 0.2 mm, less along more, to have a corner less; 0: each "
+            "corner of the model stays."),
     setting("slicing_mode", Scope::object, &LayerSettings::slicing_mode,
             "What of a cut is solid: regular, what any shell encloses; even_odd, what an odd number of outlines "
             "encloses, for models made of shells within shells; close_holes, holes too."),
