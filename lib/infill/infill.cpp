@@ -336,6 +336,11 @@ FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const 
     return (style.turned ? turn : 0) +
            (shells.skin_angle ? radians(*shells.skin_angle) : angle_along_walls(region).value_or(radians(45)));
   };
+  // What is seen is laid in long lines: each end is a turn, beside a wall. Below it directions alternate.
+  const auto top_angle = [&](const SolidStyle& style, const Region& region) {
+    const double angle = own_angle(style, region);
+    return style.turned && !shells.skin_angle ? angle_of_long_lines(region, angle).value_or(angle) : angle;
+  };
   const auto solid_angle = [&](const SolidStyle& style, const Region& region) {
     const auto across =
         shells.skin_angle || !style.turned ? std::nullopt : angle_across_bridges(region, input.bridges_below);
@@ -363,10 +368,10 @@ FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const 
     for (const BeltLine& line : areas.belts) lay(line, styles.solid, areas.part, layer.beads);
     spread_out(flow::spread(input.height, input.overlap_factor), from, layer.beads);
     fill_skin(areas.solid, solid, styles.solid_winds, areas.part, solid_angle, is_on_bridge);
-    fill_skin(areas.top, top, styles.top_winds, areas.part, own_angle, [](const Region&) { return false; });
+    fill_skin(areas.top, top, styles.top_winds, areas.part, top_angle, [](const Region&) { return false; });
     if (shells.ironing_enabled)
       iron(shells, input, areas, styles.ironing, sequence, layer.beads,
-           [&](const Region& region) { return own_angle(styles.top, region) + radians(90); });
+           [&](const Region& region) { return top_angle(styles.top, region) + radians(90); });
   }
   return layer;
 }
