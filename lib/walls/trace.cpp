@@ -76,7 +76,6 @@ Piece pair_piece(const Skeleton& s, const Laying& laying, std::uint32_t h, std::
 /// @param last  of the first corner: where the wall turns
 void go_past(const Skeleton& s, const Laying& laying, std::uint32_t last, std::size_t i, const Slots& slots,
              std::vector<std::uint8_t>& left_out) {
-  constexpr double nearer_um = 5;  // what simplifying may do, too
   const auto in_corner = [&](std::uint32_t h) {
     return static_cast<std::size_t>(laying.spans[h / 2].pairs) > i && stands_in_a_corner(s, h);
   };
@@ -89,7 +88,7 @@ void go_past(const Skeleton& s, const Laying& laying, std::uint32_t last, std::s
   const Place a = pair_piece(s, laying, from, i).start.at, b = pair_piece(s, laying, to, i).end.at;
   for (const std::uint32_t h : {from, to}) {
     const Place corner = s.halves[h].foot, end = h == from ? a : b;
-    if (std::abs(cross(a, b, corner)) < (distance(end, corner) - nearer_um) * distance(a, b)) return;
+    if (std::abs(cross(a, b, corner)) < (distance(end, corner) - same_um) * distance(a, b)) return;
   }
   for (std::uint32_t h = from; h != last; h = s.halves[h].next) left_out[slots.of(h, i)] = 1;
   for (std::uint32_t h = to; h != Skeleton::twin(last); h = s.halves[h].previous) left_out[slots.of(h, i)] = 1;
