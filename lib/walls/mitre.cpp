@@ -11,7 +11,6 @@ namespace {
 
 constexpr double least_cos = 0.5;  // of half a turn of 120°: around a sharper corner walls would reach far out
 constexpr double within = 0.9;     // of the free width around the axis: so far from it is nothing but part
-constexpr double one_place_um = 0.1, one_place = 0.02;  // feet in one place: so near, or at so much of the axis' way
 
 double dot(Place a, Place b) {
   return a.x * b.x + a.y * b.y;
@@ -22,11 +21,7 @@ class Fan {
  public:
   Fan(const Skeleton& s, const Laying& laying) : s_(s), laying_(laying) {}
 
-  /// Whether the ribs of a half stand in one place, as nearly as the axis is known.
-  bool has(std::uint32_t h) const {
-    const double along = distance(s_.halves[h].foot, s_.halves[s_.halves[h].next].foot);
-    return along <= std::max(one_place_um, one_place * s_.length(h / 2));
-  }
+  bool has(std::uint32_t h) const { return stands_in_a_corner(s_, h); }
 
   /// From its first half on. False where walls are as they are: without a bead between those of both sides, or of other
   /// numbers before and behind the corner.

@@ -32,6 +32,16 @@ struct Piece {
   std::optional<Vertex> bend{};
 };
 
+/// The beads of all halves, numbered.
+struct Slots {
+  std::vector<std::uint32_t> first;
+  explicit Slots(const Laying& laying, std::size_t halves) : first(halves + 1, 0) {
+    for (std::size_t h = 0; h < halves; ++h)
+      first[h + 1] = first[h] + static_cast<std::uint32_t>(laying.spans[h / 2].pairs);
+  }
+  std::size_t of(std::uint32_t half, std::size_t bead) const { return first[half] + bead; }
+};
+
 Piece pair_piece(const Skeleton& s, const Laying& laying, std::uint32_t h, std::size_t i) {
   const double *a = laying.start(h), *b = laying.end(h);
   const auto start = s.start_rib(h), end = s.end_rib(h);
@@ -58,6 +68,47 @@ Piece pair_piece(const Skeleton& s, const Laying& laying, std::uint32_t h, std::
     }
   }
   return p;
+}
+
+/// Where a rib thinner than a wall begins, the wall would go round the corner on either side of it and dip into the rib
+/// between them: the nozzle all but stops there. It goes straight past, over none of the halves of both corners, if it
+/// does not come nearer to the corners so.
+/// @param last  of the first corner: where the wall turns
+void go_past(const Skeleton& s, const Laying& laying, std::uint32_t last, std::size_t i, const Slots& slots,
+             std::vector<std::uint8_t>& left_out) {
+  const auto in_corner = [&](std::uint32_t h) {
+    return static_cast<std::size_t>(laying.spans[h / 2].pairs) > i && stands_in_a_corner(s, h);
+  };
+  std::uint32_t from = last, to = Skeleton::twin(last);
+  if (!in_corner(from) || !in_corner(to)) return;
+  const double rib = distance(s.halves[from].foot, s.halves[to].foot);
+  if (rib > laying.start(from)[i + 1] - laying.start(from)[i]) return;
+  while (in_corner(s.halves[from].previous)) from = s.halves[from].previous;
+  while (in_corner(s.halves[to].next)) to = s.halves[to].next;
+  const Place a = pair_piece(s, laying, from, i).start.at, b = pair_piece(s, laying, to, i).end.at;
+  for (const std::uint32_t h : {from, to}) {
+    const Place corner = s.halves[h].foot, end = h == from ? a : b;
+    if (std::abs(cross(a, b, corner)) < (distance(end, corner) - same_um) * distance(a, b)) return;
+  }
+  for (std::uint32_t h = from; h != last; h = s.halves[h].next) left_out[slots.of(h, i)] = 1;
+  for (std::uint32_t h = to; h != Skeleton::twin(last); h = s.halves[h].previous) left_out[slots.of(h, i)] = 1;
+  left_out[slots.of(last, i)] = left_out[slots.of(Skeleton::twin(last), i)] = 1;
+}
+
+/// Of each bead of each half, whether it is left out: where walls go straight past ribs.
+std::vector<std::uint8_t> left_out_of(const Skeleton& s, const Laying& laying, const Slots& slots) {
+  std::vector<std::uint8_t> out(slots.first.back(), 0);
+  for (std::uint32_t h = 0; h < s.halves.size(); ++h) {
+    if (!laying.spans[h / 2].mouth) continue;
+    // Walls that turn back at the end of a half, and at which all others do.
+    for (int i = laying.spans[h / 2].pairs; i-- > 0;) {
+      std::uint32_t g = s.halves[h].next;
+      while (laying.spans[g / 2].pairs <= i) g = s.halves[Skeleton::twin(g)].next;
+      if (g != Skeleton::twin(h)) break;
+      go_past(s, laying, h, static_cast<std::size_t>(i), slots, out);
+    }
+  }
+  return out;
 }
 
 bool same(const Vertex& a, const Vertex& b) {
@@ -184,25 +235,26 @@ void cut_end(std::vector<Vertex>& path, double by) {
 std::vector<Line> trace_pairs(const Skeleton& s, const Laying& laying) {
   std::vector<Line> out;
   const auto halves = static_cast<std::uint32_t>(s.halves.size());
-  std::vector<std::uint32_t> first(halves + 1, 0);
-  for (std::uint32_t h = 0; h < halves; ++h)
-    first[h + 1] = first[h] + static_cast<std::uint32_t>(laying.spans[h / 2].pairs);
-  std::vector<std::uint8_t> seen(first[halves], 0);
+  const Slots slots(laying, halves);
+  std::vector<std::uint8_t> seen(slots.first[halves], 0);
+  const auto left_out = left_out_of(s, laying, slots);
   StopNowAndThen stop(64);
   for (std::uint32_t begin = 0; begin < halves; ++begin)
     for (int i = 0; i < laying.spans[begin / 2].pairs; ++i) {
       stop.step();
       const auto k = static_cast<std::uint32_t>(i);
-      if (seen[first[begin] + k]) continue;
+      if (seen[slots.of(begin, k)]) continue;
       Loop loop;
       loop.chains.emplace_back();
       std::uint32_t h = begin;
       bool turned_last = false;
       do {
-        seen[first[h] + k] = 1;
+        seen[slots.of(h, k)] = 1;
         const Piece piece = pair_piece(s, laying, h, k);
-        append(loop.chains.back().path, piece.start, piece.bend.value_or(piece.end));
-        if (piece.bend) lead_on(loop.chains.back().path, piece.end);
+        if (!left_out[slots.of(h, k)]) {
+          append(loop.chains.back().path, piece.start, piece.bend.value_or(piece.end));
+          if (piece.bend) lead_on(loop.chains.back().path, piece.end);
+        }
         std::uint32_t g = s.halves[h].next;
         while (laying.spans[g / 2].pairs <= i) g = s.halves[Skeleton::twin(g)].next;
         turned_last = false;

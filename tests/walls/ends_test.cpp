@@ -179,6 +179,30 @@ TEST_CASE("walls: an arm of two beads ends at the walls of a thicker arm that it
       }
 }
 
+TEST_CASE("walls: the outer wall goes straight past a rib thinner than itself", "[walls]") {
+  // It dipped into the rib by 70 µm, and the nozzle all but stopped there.
+  const Um rib = GENERATE(300, 370, 440);
+  const bool closed = GENERATE(true, false);  // thick enough for three walls and infill, or two beads
+  CAPTURE(rib, closed);
+  const Um depth = closed ? 6000 : 900, half = rib / 2;
+  const Region region{
+      {{-9000, 0}, {-half, 0}, {-half, -2000}, {half, -2000}, {half, 0}, {9000, 0}, {9000, depth}, {-9000, depth}}, {}};
+  const auto walls = filled({region});
+  int past = 0;
+  for (const Bead& bead : walls.beads) {
+    if (bead.inset != 0 || !bead.closed) continue;
+    for (std::size_t i = 0; i < bead.path.size(); ++i) {
+      const Point a = bead.path[i].at, b = bead.path[(i + 1) % bead.path.size()].at;
+      if (std::max(a.y, b.y) > 400 || std::min(a.x, b.x) > 8000 || std::max(a.x, b.x) < -8000) continue;
+      CHECK(std::abs(a.y - b.y) <= 2);
+      past += (a.x < 0) != (b.x < 0);
+    }
+  }
+  CHECK(past == 1);
+  // The dip filled nothing that the rib's own bead does not: 0.025 and 0.013 of it were bare with it.
+  CHECK(bare_share(region, walls, {{-1000, -1500}, {1000, 500}}, 11) < (rib == 300 ? 0.023 : 1e-3));
+}
+
 TEST_CASE("walls: a bead goes straight on to an end that is not quite square", "[walls]") {
   for (const Um slant : {0, 60, 150}) {
     // A bar of 1.3 mm: two walls and one bead between them, whose ends do not turn aside.
