@@ -151,7 +151,7 @@ struct Chain {
 /// How much to take from the end of a path so that a turn there, half as wide again, ends `beyond` before the end.
 double turning_room(const std::vector<Vertex>& path, double beyond) {
   double done = 0;
-  for (std::size_t i = path.size() - 1; i > 0; --i) {
+  for (std::size_t i = path.size(); i-- > 1;) {  // none of a path that is empty
     const Vertex &a = path[i], &b = path[i - 1];
     const double length = distance(a.at, b.at);
     const double missing = a.width / 2 + beyond - done;  // falls to 0 where there is room
@@ -258,7 +258,7 @@ std::vector<Line> trace_pairs(const Skeleton& s, const Laying& laying) {
         std::uint32_t g = s.halves[h].next;
         while (laying.spans[g / 2].pairs <= i) g = s.halves[Skeleton::twin(g)].next;
         turned_last = false;
-        if (g == Skeleton::twin(h)) {
+        if (g == Skeleton::twin(h) && !left_out[slots.of(h, k)]) {
           const Piece back = pair_piece(s, laying, g, k);
           if (distance(back.start.at, piece.end.at) > 4) {
             // Along the axis the ends of the ribs lie off the node itself.
@@ -281,12 +281,15 @@ std::vector<Line> trace_pairs(const Skeleton& s, const Laying& laying) {
         }
       } else if (chains.size() > 1) {  // the first chain goes on in the last
         auto &last = chains.back().path, &start = chains.front().path;
-        append(last, start[0], start[1]);
-        last.insert(last.end(), start.begin() + 2, start.end());
+        if (start.size() >= 2) {  // else it goes straight past a rib all along
+          append(last, start[0], start[1]);
+          last.insert(last.end(), start.begin() + 2, start.end());
+        }
         chains.back().after = chains.front().after;
         chains.erase(chains.begin());
         if (chains.size() == 1) set_back(chains.front());
       }
+      std::erase_if(chains, [](const Chain& c) { return c.path.size() < 2; });
       Line line = joined(loop, i);
       if (line.path.size() >= 2) out.push_back(std::move(line));
     }
