@@ -102,16 +102,16 @@ class Guess {
   Um line_;
 };
 
-/// What is held is strips thinner than a tip, on the whole, as under slopes. Each strip would need a row of tips of its
-/// own, as those beside it do not carry it, and each tip as much as one that holds ten times more: where columns take
-/// less than a row of tips does, branches need not be reckoned. High up they may well be less.
+/// What is held is strips too narrow for a roof on branches, on the whole, as under slopes. Each strip would need a row
+/// of tips of its own, as those beside it do not carry it, and each tip as much as one that holds ten times more: where
+/// columns take less than a row of tips does, branches need not be reckoned. High up they may well be less.
 /// @param columns_mm3  what columns take, if it had to be reckoned
 bool for_columns_alone(const SupportSettings& settings, const Guess& guess, const Patch& patch,
                        std::optional<double>& columns_mm3) {
-  constexpr double tips_mm3_by_mm = 1.35;  // of a strip's outline: fitted to thin strips high up
+  constexpr double tips_mm3_by_mm = 0.95;  // of a strip's outline: the least of those that share branches low down
   double mm2 = 0, round_mm = 0;
   for (const auto& [k, regions] : patch.contacts) mm2 += area_mm2(regions), round_mm += geometry::outline_mm(regions);
-  if (2 * mm2 >= round_mm * to_mm(branch_style(settings).tip)) return false;
+  if (2 * mm2 >= round_mm * to_mm(narrowest_roof(branch_style(settings)))) return false;
   columns_mm3 = guess.columns_mm3(patch);
   return *columns_mm3 < tips_mm3_by_mm * round_mm;
 }

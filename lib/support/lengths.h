@@ -92,6 +92,11 @@ inline double under_roof_share(const SupportSettings& s) {
   return std::min(s.support_interface_density, std::max(100.0 / 3, s.support_infill_rate)) / 100;
 }
 
+/// What is narrower is held by tips themselves: it lies on no more than one.
+inline Um narrowest_roof(const BranchStyle& style) {
+  return style.tip * 3 / 2;
+}
+
 /// How far from the next branch a place under such a roof may lie. No two neighbours are then further from each other
 /// than twice that, and those of a lattice of triangles 1.6 times.
 inline Um roof_covers(const BranchStyle& style, Um nozzle) {

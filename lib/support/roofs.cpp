@@ -84,7 +84,7 @@ std::vector<Roofs::Floor> Roofs::floors(Um least, std::vector<std::size_t>& floo
 
 /// What is beside the contacts of each level, themselves included, and what of that is wide.
 std::vector<Roofs::Beside> Roofs::beside_contacts(Use use) const {
-  const Um least = branch_style(s_).tip * 3 / 2;
+  const Um least = narrowest_roof(branch_style(s_));
   std::vector<std::size_t> floor_of;
   const auto all = use == Use::reckoned ? floors(least, floor_of) : std::vector<Floor>{};
   return tasks::parallel_map(contacts_.size(), [&](std::size_t k) {
