@@ -143,11 +143,12 @@ std::optional<double> angle_of_long_lines(const Region& region, double angle_rad
 }
 
 bool is_strip(const Region& region, Um band) {
-  constexpr double widest = 3.5;       // bands: of more rings the innermost are dabs where the strip bends
-  constexpr double least_long = 6.25;  // edge² / 4 areas: of a strip four times as long as wide
-  const double edge = edge_um(region), area = 1e6 * area_mm2(region);
-  if (2 * area > widest * band * edge || edge * edge < 4 * least_long * area) return false;
-  return geometry::offset({region}, {.by = -rounded(widest / 2 * band)}).empty();
+  constexpr double widest = 3.5;  // bands: of more rings the innermost are dabs where the strip bends
+  // Times as long as wide in its widest place: rings in a triangle end in a dab, too, however long its edge is.
+  constexpr double longer = 4;
+  const double edge = edge_um(region), most = std::min(widest * band, edge / 2 / (longer + 1)) / 2;
+  if (1e6 * area_mm2(region) > most * edge) return false;
+  return geometry::offset({region}, {.by = -rounded(most)}).empty();
 }
 
 }  // namespace weft::infill

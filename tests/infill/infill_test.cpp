@@ -368,9 +368,10 @@ TEST_CASE("infill: strips that bend are filled along their edge, as whoever can 
   };
   CHECK(along(ring(10000, 11200)));
   CHECK(along(ring(10000, 10800)));
-  CHECK_FALSE(along(ring(10000, 13500)));            // it is crossed
-  CHECK_FALSE(along(ring(1, 1200)));                 // a patch
-  CHECK_FALSE(along(rectangle(0, 0, 30000, 1200)));  // straight lines along it do
+  CHECK_FALSE(along(ring(10000, 13500)));                    // it is crossed
+  CHECK_FALSE(along(ring(1, 1200)));                         // a patch
+  CHECK_FALSE(along({{{0, 0}, {2400, 0}, {0, 1200}}, {}}));  // too, with as much edge as a strip
+  CHECK_FALSE(along(rectangle(0, 0, 30000, 1200)));          // straight lines along it do
   ShellSettings asked;
   asked.skin_angle = 10;
   CHECK_FALSE(along(ring(10000, 11200), asked));
