@@ -24,6 +24,17 @@ class alignas(16) EightBoxes {
     min_x_.fill(nowhere), min_y_.fill(nowhere);
     max_x_.fill(-nowhere), max_y_.fill(-nowhere);
   }
+  /// Of eight edges that follow each other, by where their ends are.
+  EightBoxes(const std::array<Um, count + 1>& x, const std::array<Um, count + 1>& y) {
+    for (std::size_t k = 0; k < count; ++k) {
+      min_x_[k] = std::min(x[k], x[k + 1]), max_x_[k] = std::max(x[k], x[k + 1]);
+      min_y_[k] = std::min(y[k], y[k + 1]), max_y_[k] = std::max(y[k], y[k + 1]);
+    }
+  }
+  /// The first ones only.
+  void keep(std::size_t first) {
+    for (std::size_t k = first; k < count; ++k) min_x_[k] = nowhere;
+  }
   void set(std::size_t k, const Box& box) {
     min_x_[k] = box.min.x, min_y_[k] = box.min.y, max_x_[k] = box.max.x, max_y_[k] = box.max.y;
   }

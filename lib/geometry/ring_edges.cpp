@@ -4,6 +4,7 @@
 #include "core/stop.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <utility>
 
@@ -14,16 +15,13 @@ constexpr std::size_t many = 256;  // rings: they are not all looked at for each
 
 /// Whether two edges that join lie on each other.
 bool fold(Point a, Point joint, Point b) {
-  return orient(a, joint, b) == 0 && dot(joint - a, b - joint) < 0;
+  return dot(joint - a, b - joint) < 0 && orient(a, joint, b) == 0;
 }
 
 constexpr unsigned to_right = 1, to_left = 2, up = 4, down = 8;
 
 }  // namespace
 
-unsigned RingEdges::way_of(Point step) {
-  return (step.x > 0 ? to_right : 0) | (step.x < 0 ? to_left : 0) | (step.y > 0 ? up : 0) | (step.y < 0 ? down : 0);
-}
 /// Along an axis: edges that follow each other so have no point in common but where they join, unless two fold.
 bool RingEdges::goes_one_way(unsigned ways) {
   return (ways & (to_right | to_left)) != (to_right | to_left) || (ways & (up | down)) != (up | down);
@@ -61,11 +59,8 @@ void RingEdges::add(std::uint32_t ring) {
     Group& group = groups_.emplace_back();
     group.first = static_cast<std::uint32_t>(blocks_.size());
     for (; first < end && group.count < EightBoxes::count; first += EightBoxes::count) {
-      add_block(ring, first, std::min(first + EightBoxes::count, end));
-      const Block& block = blocks_.back();
-      const Point* const at = points_.data() + first + ring;
-      Box box{at[0], at[0]};
-      for (std::uint32_t k = 1; k <= block.count; ++k) box.add(at[k]);
+      const Box box =
+          add_block(points_.data() + first + ring, first, std::min<std::uint32_t>(EightBoxes::count, end - first));
       group.blocks.set(group.count++, box);
       group.box.add(box);
     }
@@ -74,16 +69,28 @@ void RingEdges::add(std::uint32_t ring) {
   around_.push_back(around);
 }
 
-void RingEdges::add_block(std::uint32_t ring, std::uint32_t first, std::uint32_t end) {
-  Block& block = blocks_.emplace_back();
-  block.first = first, block.count = end - first;
-  for (std::uint32_t k = 0; k < block.count; ++k) {
-    const Segment own = edge_of(ring, first + k);
-    block.edges.set(k, own.box());
-    const unsigned way = way_of(own.b - own.a);
-    has_points_ |= way == 0;
-    block.ways |= way;
+/// @return the box of all
+Box RingEdges::add_block(const Point* at, std::uint32_t first, std::uint32_t count) {
+  constexpr std::size_t n = EightBoxes::count;
+  std::array<Um, n + 1> x, y;
+  for (std::size_t k = 0; k < count; ++k) x[k] = at[k].x, y[k] = at[k].y;
+  for (std::size_t k = count; k <= n; ++k) x[k] = at[count].x, y[k] = at[count].y;  // edges without length
+  Block& block = blocks_.emplace_back(x, y);
+  block.first = first, block.count = count;
+  Um right = 0, left = 0, upwards = 0, downwards = 0, points = 0;  // where they go: by the signs of these
+  for (std::size_t k = 0; k < n; ++k) {
+    const Um step_x = x[k + 1] - x[k], step_y = y[k + 1] - y[k];
+    right |= -step_x, left |= step_x, upwards |= -step_y, downwards |= step_y;
+    points += (step_x | step_y) == 0 ? 1 : 0;
   }
+  block.ways =
+      (right < 0 ? to_right : 0) | (left < 0 ? to_left : 0) | (upwards < 0 ? up : 0) | (downwards < 0 ? down : 0);
+  has_points_ |= points > static_cast<Um>(n - count);
+  block.edges.keep(count);
+  Box box{{x[n], y[n]}, {x[n], y[n]}};
+  for (std::size_t k = 0; k < n; ++k) box.min.x = std::min(box.min.x, x[k]), box.max.x = std::max(box.max.x, x[k]);
+  for (std::size_t k = 0; k < n; ++k) box.min.y = std::min(box.min.y, y[k]), box.max.y = std::max(box.max.y, y[k]);
+  return box;
 }
 
 std::uint32_t RingEdges::ring_of(std::uint32_t edge) const {

@@ -5,6 +5,7 @@
 #include "geometry/eight_boxes.h"
 #include "geometry/spatial_index.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -49,20 +50,21 @@ class RingEdges {
 
  private:
   struct Block {
+    using Places = std::array<Um, EightBoxes::count + 1>;
+    Block(const Places& x, const Places& y) : edges(x, y) {}
     EightBoxes edges;
     std::uint32_t first = 0, count = 0;  ///< its edges
-    unsigned ways = 0;                   ///< where they go: bits of `way_of`
+    unsigned ways = 0;                   ///< where they go, as bits
   };
   struct Group {
     EightBoxes blocks;
     Box box;
     std::uint32_t first = 0, count = 0;  ///< its blocks
   };
-  static unsigned way_of(Point step);
   static bool goes_one_way(unsigned ways);
   static bool keeps_quadrant(unsigned ways);
   void add(std::uint32_t ring);
-  void add_block(std::uint32_t ring, std::uint32_t first, std::uint32_t end);
+  Box add_block(const Point* at, std::uint32_t first, std::uint32_t count);
   Segment edge_of(std::uint32_t ring, std::uint32_t i) const {
     const Point* at = points_.data() + i + ring;
     return {at[0], at[1]};
