@@ -4,7 +4,7 @@
 #include "core/stop.h"
 #include "geometry/heaps.h"
 #include "geometry/nesting.h"
-#include "geometry/ring_chains.h"
+#include "geometry/ring_edges.h"
 #include "geometry/simplify.h"
 #include "geometry/sweep.h"
 
@@ -142,7 +142,7 @@ Results swept(std::span<const Operation> operations, WindingRule rule, const Fin
 }
 
 /// The rings, with a corner at each crossing (to the nearest micron) on both edges that cross there.
-FineRings split(std::span<const Ring> rings, const RingChains& chains,
+FineRings split(std::span<const Ring> rings, const RingEdges& edges,
                 const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs, Point origin) {
   struct Corner {
     std::uint32_t edge;
@@ -151,7 +151,7 @@ FineRings split(std::span<const Ring> rings, const RingChains& chains,
   };
   std::vector<Corner> corners;
   for (const auto& [i, j] : pairs) {
-    const Segment s = chains.edge(i), t = chains.edge(j);
+    const Segment s = edges.edge(i), t = edges.edge(j);
     const auto share = [](const Segment& of, const Segment& by) {
       const auto a = static_cast<double>(orient(by.a, by.b, of.a)), b = static_cast<double>(orient(by.a, by.b, of.b));
       return a / (a - b);
@@ -195,11 +195,11 @@ Regions tidied(std::vector<Ring> rings, Point origin) {
   // what that turned over is united away. Nearly always once is enough.
   constexpr int most_rounds = 4;
   for (int round = 0;; ++round) {
-    const RingChains chains(rings);
-    const auto pairs = chains.crossing_pairs();
-    if (pairs.empty() || round == most_rounds) return nested_by_orientation(rings, chains);
+    const RingEdges edges(rings);
+    const auto pairs = edges.crossing_pairs();
+    if (pairs.empty() || round == most_rounds) return nested_by_orientation(rings, edges);
     constexpr Operation unite[] = {Operation::unite};
-    rings = std::move(swept(unite, WindingRule::positive, split(rings, chains, pairs, origin), {}, origin).front());
+    rings = std::move(swept(unite, WindingRule::positive, split(rings, edges, pairs, origin), {}, origin).front());
   }
 }
 std::vector<Regions> run(std::span<const Operation> operations, WindingRule rule, const FineRings& subject,

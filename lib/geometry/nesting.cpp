@@ -35,10 +35,10 @@ struct Place {
 
 /// What is around ring r, asked of everything to its left. Any point of a ring tells, as long as no other ring touches
 /// it there.
-void look_around(std::size_t r, const Ring& ring, const RingChains& chains,
+void look_around(std::size_t r, const Ring& ring, const RingEdges& edges,
                  std::vector<SegmentIndex::RingWinding>& windings, Place& place) {
   for (const Point p : ring) {
-    chains.windings(p, windings);
+    edges.windings(p, windings);
     const auto touching = [&](const auto& w) { return w.on && w.ring != r; };
     if (std::none_of(windings.begin(), windings.end(), touching)) break;
   }
@@ -52,7 +52,7 @@ void look_around(std::size_t r, const Ring& ring, const RingChains& chains,
 /// What is around each ring, found from its neighbour to the left, which is looked at before it: either both lie in the
 /// same rings, or the neighbour is around it. A look at everything to the left would take rings^1.5 steps.
 /// Pre: no two rings touch, none touches itself.
-void ask_neighbours(std::span<const Ring> rings, const RingChains& chains, std::vector<Place>& places) {
+void ask_neighbours(std::span<const Ring> rings, const RingEdges& edges, std::vector<Place>& places) {
   std::vector<std::pair<Point, std::uint32_t>> leftmost;
   leftmost.reserve(rings.size());
   for (std::uint32_t r = 0; r < rings.size(); ++r)
@@ -62,16 +62,16 @@ void ask_neighbours(std::span<const Ring> rings, const RingChains& chains, std::
   StopNowAndThen stop(16);
   for (const auto& [p, r] : leftmost) {
     stop.step();
-    const auto met = chains.first_left_of(p);
-    if (met == RingChains::none) continue;
-    const auto left = met == RingChains::unsure ? r : chains.ring_of(met);
+    const auto met = edges.first_left_of(p);
+    if (met == RingEdges::none) continue;
+    const auto left = met == RingEdges::unsure ? r : edges.ring_of(met);
     if (left == r || places[left].sliver()) {
-      look_around(r, rings[r], chains, windings, places[r]);
+      look_around(r, rings[r], edges, windings, places[r]);
       continue;
     }
     places[r].around = places[left].around;
     places[r].outside = places[left].outside;
-    const Segment edge = chains.edge(met);
+    const Segment edge = edges.edge(met);
     const bool counter_clockwise = places[left].double_area > 0;
     if ((edge.a.y > edge.b.y) != counter_clockwise) continue;  // p is on its outer side
     places[r].around.push_back(left);
@@ -80,17 +80,17 @@ void ask_neighbours(std::span<const Ring> rings, const RingChains& chains, std::
 }
 
 /// @param by_neighbours  each place is told from its neighbour's: rings must not touch each other nor themselves
-std::vector<Place> places_of(std::span<const Ring> rings, const RingChains& chains, bool by_neighbours) {
+std::vector<Place> places_of(std::span<const Ring> rings, const RingEdges& edges, bool by_neighbours) {
   std::vector<Place> places(rings.size());
   for (std::size_t r = 0; r < rings.size(); ++r) places[r].double_area = double_area(rings[r]);
   if (by_neighbours) {
-    ask_neighbours(rings, chains, places);
+    ask_neighbours(rings, edges, places);
     return places;
   }
   std::vector<SegmentIndex::RingWinding> windings;
   for (std::size_t r = 0; r < rings.size(); ++r) {
     stop_if_asked();
-    if (!places[r].sliver()) look_around(r, rings[r], chains, windings, places[r]);
+    if (!places[r].sliver()) look_around(r, rings[r], edges, windings, places[r]);
   }
   return places;
 }
@@ -122,8 +122,8 @@ Regions assembled(std::span<const Ring> rings, const std::vector<Place>& places)
 }
 }  // namespace
 
-Regions nested(std::span<const Ring> rings, const RingChains& chains, WindingRule rule) {
-  auto places = places_of(rings, chains, !chains.scattered());
+Regions nested(std::span<const Ring> rings, const RingEdges& edges, WindingRule rule) {
+  auto places = places_of(rings, edges, !edges.scattered());
   for (auto& place : places) {
     if (place.sliver()) continue;
     const int inside = place.outside + (place.double_area > 0 ? 1 : -1);
@@ -133,11 +133,11 @@ Regions nested(std::span<const Ring> rings, const RingChains& chains, WindingRul
   return assembled(rings, places);
 }
 
-Regions nested_by_orientation(std::span<const Ring> rings, const RingChains& chains) {
+Regions nested_by_orientation(std::span<const Ring> rings, const RingEdges& edges) {
   // Asking for simplicity pays from 32 convex rings of 8 corners on, and from about 400 of 32 corners (measured); at
   // 256 neither way loses 0.1 ms.
   constexpr std::size_t many = 256;
-  auto places = places_of(rings, chains, rings.size() > many && !chains.scattered() && chains.simple());
+  auto places = places_of(rings, edges, rings.size() > many && !edges.scattered() && edges.simple());
   for (auto& place : places)
     if (!place.sliver()) place.kind = place.double_area > 0 ? Place::Kind::outer : Place::Kind::hole;
   return assembled(rings, places);

@@ -4,7 +4,7 @@
 #include "core/stop.h"
 #include "geometry/boolean.h"
 #include "geometry/convex.h"
-#include "geometry/ring_chains.h"
+#include "geometry/ring_edges.h"
 
 #include <algorithm>
 #include <cmath>
@@ -175,10 +175,10 @@ Regions simplified(const Regions& regions, Um bound) {
   for (bool crossed = std::any_of(shortened.begin(), shortened.end(), is_short); crossed;) {
     crossed = false;
     const auto rings = rings_of(out);
-    const RingChains chains(rings);
-    for (const auto& [i, j] : chains.crossing_pairs())
+    const RingEdges edges(rings);
+    for (const auto& [i, j] : edges.crossing_pairs())
       for (const std::uint32_t edge : {i, j}) {
-        const auto& ring = shortened[chains.ring_of(edge)];
+        const auto& ring = shortened[edges.ring_of(edge)];
         if (!is_short(ring)) continue;
         *ring.second = *ring.first;
         crossed = true;

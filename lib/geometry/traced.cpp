@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/traced.h"
 
-#include "geometry/ring_chains.h"
+#include "geometry/ring_edges.h"
 #include "geometry/simplify.h"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ class Outlines {
  public:
   /// Pre: `rings` are those of a, then, from `first_of_b` on, those of b.
   Outlines(std::vector<Ring> rings, std::size_t first_of_b)
-      : rings_(std::move(rings)), first_of_b_(first_of_b), chains_(rings_) {
+      : rings_(std::move(rings)), first_of_b_(first_of_b), edges_(rings_) {
     clean_ = find_crossings() && find_order() && find_sides();
   }
   bool clean() const { return clean_; }
@@ -50,15 +50,15 @@ class Outlines {
 
  private:
   bool of_b(std::uint32_t ring) const { return ring >= first_of_b_; }
-  std::uint32_t ring_of(std::uint32_t segment) const { return chains_.ring_of(segment); }
+  std::uint32_t ring_of(std::uint32_t segment) const { return edges_.ring_of(segment); }
 
   bool find_crossings() {
-    const auto pairs = chains_.clean_crossings();
+    const auto pairs = edges_.clean_crossings();
     if (!pairs) return false;
     crossed_.assign(rings_.size(), 0);
     for (const auto& [i, j] : *pairs) {  // i < j, so i is a's where they are of different sets
       if (of_b(ring_of(i)) || !of_b(ring_of(j))) return false;
-      const Segment s = chains_.edge(i), t = chains_.edge(j);
+      const Segment s = edges_.edge(i), t = edges_.edge(j);
       const double along = crossed_at(s.a, s.b, t.a, t.b);
       crossings_.push_back(
           {lerp(s.a, s.b, along), orient(t.a, t.b, s.b) > 0, {{{i, along}, {j, crossed_at(t.a, t.b, s.a, s.b)}}}});
@@ -97,7 +97,7 @@ class Outlines {
     inside_other_.assign(rings_.size(), 0);
     std::vector<SegmentIndex::RingWinding> windings;
     for (std::uint32_t r = 0; r < rings_.size(); ++r) {
-      chains_.windings(rings_[r].front(), windings);
+      edges_.windings(rings_[r].front(), windings);
       int own = 0, other = 0;
       for (const auto& w : windings)
         if (w.ring != r) (of_b(w.ring) == of_b(r) ? own : other) += w.winding;
@@ -110,7 +110,7 @@ class Outlines {
 
   /// Vertices between two places of a ring, as it runs.
   void add_between(const Crossing::Place& from, const Crossing::Place& to, Ring& out) const {
-    const std::uint32_t r = ring_of(from.segment), first = chains_.first_of(r);
+    const std::uint32_t r = ring_of(from.segment), first = edges_.first_of(r);
     const auto n = static_cast<std::uint32_t>(rings_[r].size());
     std::uint32_t i = from.segment - first;
     if (from.segment == to.segment && from.along < to.along) return;
@@ -151,7 +151,7 @@ class Outlines {
 
   std::vector<Ring> rings_;
   std::size_t first_of_b_;
-  RingChains chains_;
+  RingEdges edges_;
   std::vector<Crossing> crossings_;
   std::array<std::vector<std::uint32_t>, 2> next_, before_;  // crossing of each, along a and along b
   std::vector<char> crossed_, inside_other_;                 // of each ring

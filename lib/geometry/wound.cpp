@@ -3,7 +3,7 @@
 
 #include "geometry/clipper_door.h"
 #include "geometry/nesting.h"
-#include "geometry/ring_chains.h"
+#include "geometry/ring_edges.h"
 #include "geometry/simplify.h"
 #include "geometry/traced.h"
 
@@ -28,8 +28,8 @@ struct Pass {
 /// Rings cut at their crossings into pieces: piece i goes from pass i to the next one of its ring.
 class Pieces {
  public:
-  Pieces(std::span<const Ring> rings, const RingChains& chains, std::span<const Crossing> crossings)
-      : rings_(rings), chains_(chains) {
+  Pieces(std::span<const Ring> rings, const RingEdges& edges, std::span<const Crossing> crossings)
+      : rings_(rings), edges_(edges) {
     find_passes(crossings);
     clean_ = find_windings() && fits();
   }
@@ -55,7 +55,7 @@ class Pieces {
   }
 
  private:
-  std::uint32_t ring_of(std::uint32_t segment) const { return chains_.ring_of(segment); }
+  std::uint32_t ring_of(std::uint32_t segment) const { return edges_.ring_of(segment); }
   std::uint32_t next(std::uint32_t pass) const {
     const std::uint32_t r = ring_of(passes_[pass].segment);
     return pass + 1 < from_[r + 1] ? pass + 1 : from_[r];
@@ -65,7 +65,7 @@ class Pieces {
   void find_passes(std::span<const Crossing> crossings) {
     passes_.reserve(2 * crossings.size());
     for (const auto& [i, j] : crossings) {
-      const Segment s = chains_.edge(i), t = chains_.edge(j);
+      const Segment s = edges_.edge(i), t = edges_.edge(j);
       const double along = crossed_at(s.a, s.b, t.a, t.b);
       const Point at = lerp(s.a, s.b, along);
       const auto k = static_cast<std::uint32_t>(passes_.size());
@@ -104,7 +104,7 @@ class Pieces {
       const Ring& ring = rings_[r];
       const std::size_t n = ring.size();
       const auto leftmost = static_cast<std::size_t>(std::min_element(ring.begin(), ring.end()) - ring.begin());
-      chains_.windings(ring[leftmost], windings);
+      edges_.windings(ring[leftmost], windings);
       int around = 0;  // a hair further left
       for (const auto& w : windings)
         if (w.ring != r) around += w.winding;
@@ -112,7 +112,7 @@ class Pieces {
                                      ring[leftmost + 1 < n ? leftmost + 1 : 0]) > 0;
       const int left = around + (turns_left ? 1 : 0);
       left_of_begin_.push_back(left);
-      if (!spread(r, chains_.first_of(r) + static_cast<std::uint32_t>(leftmost), left)) return false;
+      if (!spread(r, edges_.first_of(r) + static_cast<std::uint32_t>(leftmost), left)) return false;
     }
     return true;
   }
@@ -146,7 +146,7 @@ class Pieces {
   /// Vertices of a piece but for its ends, as it runs.
   void add_piece(std::uint32_t pass, Ring& out) const {
     const Pass &from = passes_[pass], &to = passes_[next(pass)];
-    const std::uint32_t r = ring_of(from.segment), first = chains_.first_of(r);
+    const std::uint32_t r = ring_of(from.segment), first = edges_.first_of(r);
     const auto n = static_cast<std::uint32_t>(rings_[r].size());
     if (from.segment == to.segment && next(pass) > pass) return;
     std::uint32_t i = from.segment - first;
@@ -167,7 +167,7 @@ class Pieces {
   }
 
   std::span<const Ring> rings_;
-  const RingChains& chains_;
+  const RingEdges& edges_;
   std::vector<Pass> passes_;
   std::vector<std::uint32_t> from_;  // of each ring, its first pass; and one more
   std::vector<int> left_;            // of each piece
@@ -179,12 +179,12 @@ class Pieces {
 
 std::optional<Regions> wound(std::span<const Ring> rings, WindingRule rule, Point origin) {
   if (auto alone = convex_alone(rings)) return alone;
-  const RingChains chains(rings);
-  const auto crossings = chains.clean_crossings();
+  const RingEdges edges(rings);
+  const auto crossings = edges.clean_crossings();
   if (!crossings) return std::nullopt;
-  if (crossings->empty()) return nested(rings, chains, rule);
+  if (crossings->empty()) return nested(rings, edges, rule);
   if (rings.size() > most_rings_followed || rule == WindingRule::even_odd) return std::nullopt;
-  const Pieces pieces(rings, chains, *crossings);
+  const Pieces pieces(rings, edges, *crossings);
   if (!pieces.clean() || (rule == WindingRule::nonzero && pieces.any_negative())) return std::nullopt;
   return clipper::tidied(pieces.outlines(), origin);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "geometry/ring_chains.h"
+#include "geometry/ring_edges.h"
 
 #include "shapes.h"
 
@@ -26,38 +26,38 @@ std::vector<Ring> some_rings(shapes::Dice& dice, int count, Um step) {
 }
 
 void check_as_index(const std::vector<Ring>& rings, shapes::Dice& dice) {
-  const RingChains chains(rings);
+  const RingEdges edges(rings);
   const SegmentIndex index(rings);
   std::uint32_t i = 0;
   for (std::uint32_t r = 0; r < rings.size(); ++r)
     for (std::uint32_t k = 0; k < rings[r].size(); ++k, ++i) {
-      CHECK(chains.ring_of(i) == r);
-      CHECK(chains.edge(i) == index.segments()[i]);
+      CHECK(edges.ring_of(i) == r);
+      CHECK(edges.edge(i) == index.segments()[i]);
     }
-  CHECK(chains.first_of(rings.size()) == i);
-  CHECK(chains.crossing_pairs() == index.crossing_pairs());
-  CHECK(chains.clean_crossings() == index.clean_crossings());
-  CHECK(chains.simple() == index.simple());
+  CHECK(edges.first_of(rings.size()) == i);
+  CHECK(edges.crossing_pairs() == index.crossing_pairs());
+  CHECK(edges.clean_crossings() == index.clean_crossings());
+  CHECK(edges.simple() == index.simple());
   const auto told = [](std::vector<SegmentIndex::RingWinding> found) {
     std::erase_if(found, [](const auto& w) { return w.winding == 0 && !w.on; });
     std::vector<std::tuple<std::uint32_t, int, bool>> out;
     for (const auto& w : found) out.emplace_back(w.ring, w.winding, w.on);
     return out;
   };
-  std::vector<SegmentIndex::RingWinding> by_chains, by_index;
+  std::vector<SegmentIndex::RingWinding> by_edges, by_index;
   for (int q = 0; q < 40; ++q) {
     const Ring& ring = rings[static_cast<std::size_t>(q) % rings.size()];
     const Point p = q % 2 == 0 ? ring[static_cast<std::size_t>(dice.between(0, static_cast<int>(ring.size()) - 1))]
                                : Point{dice.between(-9000, 9000), dice.between(-9000, 9000)};
-    chains.windings(p, by_chains), index.windings(p, by_index);
-    CHECK(told(by_chains) == told(by_index));
-    if (index.box().contains(p)) CHECK(chains.first_left_of(p) == index.first_left_of(p));
+    edges.windings(p, by_edges), index.windings(p, by_index);
+    CHECK(told(by_edges) == told(by_index));
+    if (index.box().contains(p)) CHECK(edges.first_left_of(p) == index.first_left_of(p));
   }
 }
 
 }  // namespace
 
-TEST_CASE("geometry: chains tell of rings what an index of their edges tells", "[law]") {
+TEST_CASE("geometry: rings looked at edge by edge tell what an index of their edges tells", "[law]") {
   shapes::Dice dice(61);
   for (int round = 0; round < 60; ++round) {
     check_as_index(some_rings(dice, dice.between(1, 8), 1), dice);
@@ -65,7 +65,7 @@ TEST_CASE("geometry: chains tell of rings what an index of their edges tells", "
   }
 }
 
-TEST_CASE("geometry: of very many rings, and of edges that all come near each other, a grid tells what chains would") {
+TEST_CASE("geometry: of very many rings, and of edges that all come near each other, a grid tells the same") {
   shapes::Dice dice(62);
   std::vector<Ring> many, long_ones;
   for (int i = 0; i < 400; ++i) {
@@ -77,20 +77,20 @@ TEST_CASE("geometry: of very many rings, and of edges that all come near each ot
   check_as_index(long_ones, dice);
 }
 
-TEST_CASE("geometry: two chains that share both ends cross where one leans over the other") {
+TEST_CASE("geometry: what goes one way twice crosses where one leans over the other") {
   const std::vector<Ring> leaf{{{0, 0}, {600, 200}, {1000, 1000}, {400, 800}}};
   const std::vector<Ring> knot{{{0, 0}, {600, 200}, {1000, 1000}, {800, 300}}};
-  CHECK(RingChains(leaf).simple());
-  CHECK(RingChains(knot).crossing_pairs() == SegmentIndex(knot).crossing_pairs());
+  CHECK(RingEdges(leaf).simple());
+  CHECK(RingEdges(knot).crossing_pairs() == SegmentIndex(knot).crossing_pairs());
 }
 
-TEST_CASE("geometry: chains tell edges that lie on the one before, and those without length") {
+TEST_CASE("geometry: rings tell edges that lie on the one before, and those without length") {
   const std::vector<Ring> spike{{{0, 0}, {1000, 0}, {1000, 500}, {1000, 200}, {0, 200}}};
   const std::vector<Ring> spike_at_seam{{{1000, 500}, {1000, 200}, {0, 200}, {0, 0}, {1000, 0}}};
   const std::vector<Ring> point{{{0, 0}, {1000, 0}, {1000, 0}, {0, 1000}}};
   for (const auto& rings : {spike, spike_at_seam, point}) {
-    CHECK_FALSE(RingChains(rings).clean_crossings());
-    CHECK_FALSE(RingChains(rings).simple());
-    CHECK(RingChains(rings).crossing_pairs().empty());
+    CHECK_FALSE(RingEdges(rings).clean_crossings());
+    CHECK_FALSE(RingEdges(rings).simple());
+    CHECK(RingEdges(rings).crossing_pairs().empty());
   }
 }
