@@ -191,6 +191,29 @@ struct Loop {
   std::vector<Chain> chains;  ///< a turn between each and the next
 };
 
+/// Ends a loop where it began.
+/// @param turned_last  there it turns
+void finish(Loop& loop, bool turned_last) {
+  auto& chains = loop.chains;
+  if (turned_last) {
+    chains.front().before = chains.back().before;
+    chains.pop_back();
+    if (chains.size() == 1) {  // a single turn: cut in two halves' worth, both ends are set back
+      set_back(chains.front());
+    }
+  } else if (chains.size() > 1) {  // the first chain goes on in the last
+    auto &last = chains.back().path, &start = chains.front().path;
+    if (start.size() >= 2) {  // else it goes straight past a rib all along
+      append(last, start[0], start[1]);
+      last.insert(last.end(), start.begin() + 2, start.end());
+    }
+    chains.back().after = chains.front().after;
+    chains.erase(chains.begin());
+    if (chains.size() == 1) set_back(chains.front());
+  }
+  std::erase_if(chains, [](const Chain& c) { return c.path.size() < 2; });
+}
+
 Line joined(Loop& loop, int inset) {
   Line line;
   line.closed = true;
@@ -272,24 +295,7 @@ std::vector<Line> trace_pairs(const Skeleton& s, const Laying& laying) {
         }
         h = g;
       } while (h != begin);
-      auto& chains = loop.chains;
-      if (turned_last) {
-        chains.front().before = chains.back().before;
-        chains.pop_back();
-        if (chains.size() == 1) {  // a single turn: cut in two halves' worth, both ends are set back
-          set_back(chains.front());
-        }
-      } else if (chains.size() > 1) {  // the first chain goes on in the last
-        auto &last = chains.back().path, &start = chains.front().path;
-        if (start.size() >= 2) {  // else it goes straight past a rib all along
-          append(last, start[0], start[1]);
-          last.insert(last.end(), start.begin() + 2, start.end());
-        }
-        chains.back().after = chains.front().after;
-        chains.erase(chains.begin());
-        if (chains.size() == 1) set_back(chains.front());
-      }
-      std::erase_if(chains, [](const Chain& c) { return c.path.size() < 2; });
+      finish(loop, turned_last);
       Line line = joined(loop, i);
       if (line.path.size() >= 2) out.push_back(std::move(line));
     }
