@@ -73,7 +73,8 @@ void Planner::yield_below(std::uint32_t h, const Span& span, Turn turn) {
   while (turn.past < reach - same_um) {
     const Span& own = edges_[g / 2].span;
     const double high = s_.start(g).clearance, length = s_.length(g / 2);
-    if (own.pairs != span.pairs || own.middle || own.open || s_.end(g).clearance > high || length < same_um) return;
+    if (own.pairs != span.pairs || own.middle || own.open) return;
+    if (s_.end(g).clearance > high && length > one_place) return;  // what is shorter may rise by rounding
     if (turn.past + length > reach) g = split_core(g, (reach - turn.past) / length);
     const double m = std::min(1.0, slope(g / 2));
     const Turn later{turn.reach, turn.past + s_.length(g / 2)};
