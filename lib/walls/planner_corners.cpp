@@ -36,7 +36,9 @@ std::uint32_t Planner::bounds_beside(const Throat& throat, const Span& span, con
   const double room = clearance - out_.bounds[span.at_start + last - 1];
   const double touching = ((room + r) * (room + r) - t * t) / (2 * (t * slope + room + r));
   const double touched = std::min(clearance, clearance + room - 2 * touching);
-  const double wanted = (clearance - tip + touched) / 2;
+  const double beside = (clearance - tip + touched) / 2;
+  // Behind the tip that is wider in no time: an outer wall would step aside where it is straight to the eye.
+  const double wanted = below > above ? std::min(beside, above + (below - above) * std::min(1.0, t / o_.ramp)) : beside;
   if (wanted <= above && clearance >= above) return span.at_start;
   const double share = below > above + same_um ? std::clamp((wanted - above) / (below - above), 0.0, 1.0) : 0;
   const auto at = static_cast<std::uint32_t>(out_.bounds.size());
@@ -67,11 +69,12 @@ void Planner::yield_below(std::uint32_t h, const Span& span, Turn turn) {
   for_each_leaving(Skeleton::twin(h), [&](std::uint32_t x) {
     if (edges_[x / 2].core) g = x;
   });
-  const double reach = 2 * turn.reach;  // no disc of a wall touches the tip further away
+  const double reach = std::max(2 * turn.reach, o_.ramp);  // no disc of a wall touches the tip further away
   while (turn.past < reach - same_um) {
     const Span& own = edges_[g / 2].span;
     const double high = s_.start(g).clearance, length = s_.length(g / 2);
-    if (own.pairs != span.pairs || own.middle || own.open || s_.end(g).clearance > high || length < same_um) return;
+    if (own.pairs != span.pairs || own.middle || own.open) return;
+    if (s_.end(g).clearance > high && length > one_place) return;  // what is shorter may rise by rounding
     if (turn.past + length > reach) g = split_core(g, (reach - turn.past) / length);
     const double m = std::min(1.0, slope(g / 2));
     const Turn later{turn.reach, turn.past + s_.length(g / 2)};
