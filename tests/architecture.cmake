@@ -11,7 +11,8 @@ set(checked 0)
 set(libraries
   fmt=fmt:: nettle=PkgConfig::nettle tbb=TBB:: boost=Boost:: polyclipping=PkgConfig::polyclipping CGAL=CGAL:: Eigen=Eigen3::
   minizip=PkgConfig::minizip expat.h=PkgConfig::expat png.h=PkgConfig::libpng pcre2.h=PkgConfig::pcre2 zlib.h=ZLIB::ZLIB nlohmann=nlohmann_json::
-  sys=system sanitizer=system unistd.h=system fcntl.h=system glob.h=system link.h=system elf.h=system malloc.h=system spawn.h=system)
+  sys=system sanitizer=system unistd.h=system fcntl.h=system glob.h=system link.h=system elf.h=system malloc.h=system spawn.h=system
+  emmintrin.h=system)
 
 macro(fault text)
   message(SEND_ERROR "${text}")
