@@ -13,6 +13,7 @@
 #include <iterator>
 #include <optional>
 #include <span>
+#include <tuple>
 
 namespace weft::slice {
 namespace {
@@ -79,8 +80,11 @@ namespace {
 /// between corners of the model would, holes get no smaller and pins no thinner.
 Ring in_few_chords(const Ring& ring, Um resolution) {
   if (ring.size() <= 3 || resolution <= 0) return ring;
-  constexpr Um lattice = 1;  // where edges within a face are cut there are corners that tell nothing
-  const Ring corners = geometry::coarsened(ring, lattice);
+  constexpr Um lattice = 1;  // where edges within a slanted face are cut there are corners that tell nothing
+  Ring corners = geometry::coarsened(ring, lattice);
+  const auto first = std::min_element(corners.begin(), corners.end(),
+                                      [](Point a, Point b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); });
+  std::rotate(corners.begin(), first, corners.end());
   const Point origin = corners.front();  // the same wherever the ring begins, and wherever it stands
   VertexPath path;
   path.reserve(corners.size());

@@ -97,6 +97,28 @@ std::vector<Segment> segments_of(const Mesh& mesh, std::span<const std::uint32_t
   }
   return out;
 }
+
+/// Whether two triangles are upright and lie in one plane, exactly: where they meet, no height has a corner, and one
+/// that each height had elsewhere would make chords begin elsewhere in each layer.
+bool in_one_upright_plane(const Mesh& mesh, const Triangle& a, const Triangle& b) {
+  const Point3 origin = mesh.vertices[a[0]];
+  Point3 along = origin;  // seen from above, the corner furthest from the origin
+  double most = 0;
+  for (const std::uint32_t v : {a[1], a[2]}) {
+    const Point3 p = mesh.vertices[v];
+    const double x = static_cast<double>(p.x) - origin.x, y = static_cast<double>(p.y) - origin.y;
+    if (x * x + y * y > most) most = x * x + y * y, along = p;
+  }
+  const auto beside = [&](std::uint32_t v) {
+    const Point3 p = mesh.vertices[v];
+    return (std::int64_t{along.x} - origin.x) * (std::int64_t{p.y} - origin.y) -
+           (std::int64_t{along.y} - origin.y) * (std::int64_t{p.x} - origin.x);
+  };
+  for (const Triangle& t : {a, b})
+    for (const std::uint32_t v : t)
+      if (beside(v) != 0) return false;
+  return true;
+}
 }  // namespace
 
 Chains stitch(const Mesh& mesh, std::span<const std::uint32_t> triangles, Um below) {
@@ -114,13 +136,16 @@ Chains stitch(const Mesh& mesh, std::span<const std::uint32_t> triangles, Um bel
     const Point p = crossing(mesh.vertices[edge.below], mesh.vertices[edge.above], below);
     if (line.empty() || line.back() != p) line.push_back(p);
   };
+  const auto is_corner = [&](std::uint32_t before, std::uint32_t after) {
+    return !in_one_upright_plane(mesh, mesh.triangles[triangles[before]], mesh.triangles[triangles[after]]);
+  };
   Chains out;
   std::vector<std::uint8_t> done(segments.size(), 0);
   const auto follow = [&](std::uint32_t from, Polyline& line) {
     std::uint32_t last = from;
     for (std::uint32_t i = from; i != none && !done[i]; i = next[i]) {
       done[i] = 1;
-      put(line, segments[i].in);
+      if (i == from || is_corner(last, i)) put(line, segments[i].in);
       last = i;
     }
     return last;
@@ -130,8 +155,16 @@ Chains stitch(const Mesh& mesh, std::span<const std::uint32_t> triangles, Um bel
     const std::uint32_t last = follow(i, out.open.emplace_back());
     put(out.open.back(), segments[last].out);
   }
+  const auto begin_of = [&](std::uint32_t some) {  // a corner, if the ring has any
+    std::uint32_t at = some;
+    while (!is_corner(at, next[at])) {
+      at = next[at];
+      if (at == some) break;
+    }
+    return next[at];
+  };
   for (std::uint32_t i = 0; i < segments.size(); ++i)
-    if (!done[i]) follow(i, out.rings.emplace_back());
+    if (!done[i]) follow(begin_of(i), out.rings.emplace_back());
   return out;
 }
 

@@ -2,6 +2,7 @@
 #include "core/stop.h"
 #include "travel/block_chain.h"
 #include "travel/blocks.h"
+#include "travel/seam_lines.h"
 
 #include <algorithm>
 #include <map>
@@ -9,20 +10,11 @@
 namespace weft::travel {
 namespace {
 
-/// Seams of one layer, sorted by x, so that those near a wall are found without looking at all.
-std::span<const Point> near(const std::vector<Point>& sorted, const Bead& bead) {
-  constexpr Um reach = 6000;
-  Um least = max_coord, most = -max_coord;
-  for (const auto& j : bead.path) least = std::min(least, j.at.x), most = std::max(most, j.at.x);
-  const auto first = std::lower_bound(sorted.begin(), sorted.end(), Point{least - reach, -max_coord});
-  const auto last = std::upper_bound(first, sorted.end(), Point{most + reach, max_coord});
-  return {first, last};
-}
-
-/// The stack that a seam of the layer belongs to.
-std::uint32_t stack_of(const Prepared& layer, const SeamChoices& seam) {
-  return layer.input.objects[layer.blocks[seam.block].object].stack;
-}
+/// Whose a block is.
+struct BlockOwner {
+  ObjectId object = ~ObjectId{0};
+  bool support = false;
+};
 
 /// A part stands where the seam of its first outer wall is, else where its first bead begins.
 std::vector<Point> places_of(const Prepared& layer, const std::vector<Start>& seams) {
@@ -92,67 +84,48 @@ void shorten_runs(const std::vector<BlockOwner>& owners, const Linked& layer, st
 }  // namespace
 
 Linker::Linker(const TravelSettings& settings)
-    : settings_(settings), chain_(std::make_unique<BlockChain>(settings.path_order)) {}
+    : settings_(settings),
+      seams_(std::make_unique<SeamLines>(settings)),
+      chain_(std::make_unique<BlockChain>(settings.path_order)) {}
 Linker::~Linker() = default;
 
-/// Seams of a layer, each beside those of its stack below. A layer without outer walls does not end the seam lines.
-std::vector<Start> Linker::choose_seams(const Prepared& layer) {
-  std::vector<Start> starts;
-  std::vector<std::vector<Point>> chosen(below_.size());
-  for (std::size_t s = 0; s < layer.seams.size(); ++s) {
-    stop_if_asked();
-    const auto& seam = layer.seams[s];
-    const Bead& bead = beads_of(layer.input, layer.blocks[seam.block])[seam.bead];
-    const std::uint64_t seed = (std::uint64_t{layer.input.time.index} << 32) + s;
-    const auto stack = stack_of(layer, seam);
-    const auto& below = below_[stack];
-    starts.push_back(choose_seam(seams_of(settings_, layer.input, layer.blocks[seam.block]), bead, seam.corners,
-                                 {near(below.seams, bead), below.layer ? &below.layer->outline : nullptr}, seed));
-    chosen[stack].push_back(starts.back().at);
-  }
-  for (std::size_t stack = 0; stack < chosen.size(); ++stack) {
-    if (chosen[stack].empty()) continue;
-    std::sort(chosen[stack].begin(), chosen[stack].end());
-    below_[stack].seams = std::move(chosen[stack]);
-  }
-  return starts;
-}
-
 void Linker::add(const Prepared& layer) {
-  if (layer.input.time.comes_down) below_.clear();
-  for (const auto& object : layer.input.objects)
-    if (object.stack >= below_.size()) below_.resize(object.stack + std::size_t{1});
-  owners_.push_back(owners_of(layer));
-  Linked& out = linked_.emplace_back();
-  out.seams = choose_seams(layer);
-  for (const auto& object : layer.input.objects) below_[object.stack].layer = &layer;
-  out.places = places_of(layer, out.seams);
-  const bool adhesion = starts_with_adhesion(layer);
-  BlockPlaces blocks;
-  if (adhesion) blocks.before = out.places[0], out.block_order.push_back(0);
-  blocks.places.assign(out.places.begin() + (adhesion ? 1 : 0), out.places.end());
-  blocks.small = !owners_.back().empty();
-  chain_->add(std::move(blocks));
+  seams_->add(layer);
+  layers_.push_back(&layer);
 }
 
 std::vector<Linked> Linker::linked() {
+  const auto seams = seams_->chosen();
+  std::vector<Linked> linked(layers_.size());
+  std::vector<std::vector<BlockOwner>> owners;  // of each layer, by block; or none
+  for (std::size_t i = 0; i < linked.size(); ++i) {
+    Linked& out = linked[i];
+    owners.push_back(owners_of(*layers_[i]));
+    out.seams = seams[i];
+    out.places = places_of(*layers_[i], out.seams);
+    const bool adhesion = starts_with_adhesion(*layers_[i]);
+    BlockPlaces blocks;
+    if (adhesion) blocks.before = out.places[0], out.block_order.push_back(0);
+    blocks.places.assign(out.places.begin() + (adhesion ? 1 : 0), out.places.end());
+    blocks.small = !owners.back().empty();
+    chain_->add(std::move(blocks));
+  }
+  layers_.clear();
   const auto orders = chain_->orders();
   std::optional<Point> at;
-  for (std::size_t i = 0; i < linked_.size(); ++i) {
-    Linked& out = linked_[i];
+  for (std::size_t i = 0; i < linked.size(); ++i) {
+    Linked& out = linked[i];
     out.from = at;
     const auto skip = static_cast<std::uint32_t>(out.block_order.size());
     for (const std::uint32_t b : orders[i]) out.block_order.push_back(b + skip);
-    put_support_first(owners_[i], out.block_order);
-    if (settings_.path_order == PathOrder::optimized) shorten_runs(owners_[i], out, skip, out.block_order);
+    put_support_first(owners[i], out.block_order);
+    if (settings_.path_order == PathOrder::optimized) shorten_runs(owners[i], out, skip, out.block_order);
     if (out.block_order.empty()) continue;
     out.begin = out.places[out.block_order.front()];
     at = out.places[out.block_order.back()];
   }
-  for (std::size_t i = linked_.size(); i-- > 1;)
-    linked_[i - 1].next = linked_[i].begin ? linked_[i].begin : linked_[i].next;
-  owners_.clear();
-  return std::move(linked_);
+  for (std::size_t i = linked.size(); i-- > 1;) linked[i - 1].next = linked[i].begin ? linked[i].begin : linked[i].next;
+  return linked;
 }
 
 std::vector<Linked> link(const TravelSettings& settings, std::span<const Prepared> layers) {

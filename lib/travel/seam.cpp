@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "travel/seam.h"
 
-#include "travel/box_tree.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,18 +14,6 @@ namespace {
 constexpr double reach_um = 500;
 /// Turns below this are no corner, rad.
 constexpr double least_turn_rad = 0.35;
-/// A corner of full strength is worth this long a jump from the seam of the layer below, µm.
-constexpr double corner_worth_um = 3000;
-/// The same where hiding comes before lining up: a corner a twentieth better is worth 15 mm.
-constexpr double hide_first_um = 300000;
-/// Seams of the layer below farther off than this belong to something else, µm.
-constexpr double same_line_um = 6000;
-/// Where hiding comes first, a corner on the line is kept unless another is better by this much: corners that are alike
-/// must not take turns from layer to layer.
-constexpr double staying_worth = 0.15, on_line_um = 800;
-/// A seam this near to a junction begins at it, µm.
-constexpr Um snap_um = 50;
-
 struct Vec {
   double x, y;
 };
@@ -86,82 +72,6 @@ std::uint64_t mixed(std::uint64_t x) {  // splitmix64, Steele et al. 2014
 
 Start at_junction(const Bead& bead, std::size_t i) {
   return {static_cast<std::uint32_t>(i), bead.path[i].at};
-}
-
-Start random_start(const Bead& bead, std::uint64_t seed) {
-  const double total = length_mm(bead) * 1000.0;
-  double left = total * (static_cast<double>(mixed(seed) >> 11) * 0x1p-53);
-  for (std::size_t i = 0; i < bead.path.size(); ++i) {
-    const Point a = bead.path[i].at, b = bead.path[(i + 1) % bead.path.size()].at;
-    const double step = distance(a, b);
-    if (left < step) return {static_cast<std::uint32_t>(i), lerp(a, b, left / step)};
-    left -= step;
-  }
-  return at_junction(bead, 0);
-}
-
-/// The place of least cost among the corners and one other, where cost(point) is in µm and hiding well is worth way.
-template <class Cost>
-Start cheapest(const TravelSettings& settings, const Bead& bead, std::span<const Corner> corners, Start plain,
-               const Below& below, double worth_um, const Cost& cost) {
-  const auto score = [&](Point p, double strength, double exposure) {
-    const bool over_air =
-        below.outline != nullptr && settings.z_seam_overhang_weight > 0 && below.outline->part_of(p) == Comb::outside;
-    return settings.z_seam_visibility_weight * exposure - settings.z_seam_corner_weight * strength +
-           (over_air ? settings.z_seam_overhang_weight : 0.0);
-  };
-  Start best = plain;
-  double least = cost(plain.at) + worth_um * score(plain.at, 0, 0);
-  for (const auto& c : corners) {
-    const Point p = bead.path[c.junction].at;
-    const double value =
-        cost(p) + worth_um * score(p, static_cast<double>(c.strength), static_cast<double>(c.exposure));
-    if (value < least) least = value, best = at_junction(bead, c.junction);
-  }
-  return best;
-}
-
-/// Boxes of the runs of edges that the wall is made of.
-std::vector<Box> boxes_along(const Bead& bead) {
-  constexpr std::size_t edges = 16;
-  const std::size_t n = bead.path.size();
-  std::vector<Box> boxes((n + edges - 1) / edges);
-  for (std::size_t i = 0; i < n; ++i)
-    boxes[i / edges].add(bead.path[i].at), boxes[i / edges].add(bead.path[(i + 1) % n].at);
-  return boxes;
-}
-
-Start rearmost(const Bead& bead) {
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < bead.path.size(); ++i) {
-    const Point p = bead.path[i].at, q = bead.path[best].at;
-    if (p.y > q.y || (p.y == q.y && p.x > q.x)) best = i;
-  }
-  return at_junction(bead, best);
-}
-
-/// The place nearest to the start where at least a quarter of the wall's width lies on something; the start itself
-/// where that is so nowhere: what begins on nothing is dragged along.
-Start borne(const Bead& bead, Start start, const Comb& below) {
-  const auto bears = [&](const Start& s) {
-    return below.part_of(s.at) != Comb::outside ||
-           below.nearest_on_boundary(s.at, bead.path[s.segment].width / 4).has_value();
-  };
-  if (bears(start)) return start;
-  constexpr double step_um = 500;
-  std::vector<Start> places;
-  const std::size_t n = bead.path.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const Point a = bead.path[i].at, b = bead.path[i + 1 < n ? i + 1 : 0].at;
-    const auto steps = static_cast<int>(std::ceil(distance(a, b) / step_um));
-    for (int k = 0; k < steps; ++k)
-      places.push_back({static_cast<std::uint32_t>(i), lerp(a, b, static_cast<double>(k) / steps)});
-  }
-  std::stable_sort(places.begin(), places.end(), [&](const Start& a, const Start& b) {
-    return distance2(a.at, start.at) < distance2(b.at, start.at);
-  });
-  const auto found = std::find_if(places.begin(), places.end(), bears);
-  return found != places.end() ? *found : start;
 }
 
 }  // namespace
@@ -245,63 +155,47 @@ void add_exposure(const Bead& bead, bool material_left, const Comb& outline, std
   }
 }
 
-namespace {
-
-/// What choose_seam chooses, whatever lies below it.
-Start wished_seam(const TravelSettings& settings, const Bead& bead, std::span<const Corner> corners, const Below& below,
-                  std::uint64_t seed) {
-  const auto choose = [&](Start plain, double worth_um, const auto& cost) {
-    return cheapest(settings, bead, corners, plain, below, worth_um, cost);
-  };
-  if (settings.z_seam_type == SeamType::random) return random_start(bead, seed);
-  if (settings.z_seam_type == SeamType::user) {
-    const Point goal{settings.z_seam_x, settings.z_seam_y};
-    return choose(nearest_start(bead, goal, snap_um), corner_worth_um, [&](Point p) { return distance(p, goal); });
+Start rearmost_start(const Bead& bead) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < bead.path.size(); ++i) {
+    const Point p = bead.path[i].at, q = bead.path[best].at;
+    if (p.y > q.y || (p.y == q.y && p.x > q.x)) best = i;
   }
-  if (settings.z_seam_type == SeamType::back)
-    return choose(rearmost(bead), corner_worth_um, [](Point p) { return -static_cast<double>(p.y); });
-  // The line of the seams below, if this wall continues one.
-  Start plain = rearmost(bead);
-  double nearest = same_line_um;
-  const auto boxes = boxes_along(bead);
-  const auto away2 = [&](Point q) {
-    double least2 = distance2_to(boxes[0], q);
-    for (const Box& box : boxes) least2 = std::min(least2, distance2_to(box, q));
-    return least2;
-  };
-  const Box around = box_of(bead).grown(static_cast<Um>(same_line_um) + 1);
-  // The seam that is nearest to the boxes is likely the one, and tells which others need a look at the whole wall.
-  const Point* likely = nullptr;
-  double likely2 = 0;
-  for (const Point& q : below.seams)
-    if (around.contains(q))
-      if (const double d2 = away2(q); !likely || d2 < likely2) likely = &q, likely2 = d2;
-  const double bound_um = likely ? distance(nearest_start(bead, *likely, snap_um).at, *likely) : 0.0;
-  for (const Point q : below.seams) {
-    if (!around.contains(q) || std::sqrt(away2(q)) > bound_um) continue;
-    const Start s = nearest_start(bead, q, snap_um);
-    const double d = distance(s.at, q);
-    if (d < nearest) nearest = d, plain = s;
-  }
-  const bool continued = nearest < same_line_um;
-  const Point line = plain.at;
-  // Off the line a place costs its distance; where hiding comes first, corners as good as each other are told apart by
-  // it.
-  const bool hide_first = settings.z_seam_type == SeamType::sharpest_corner || !continued;
-  return choose(plain, hide_first ? hide_first_um : corner_worth_um, [&](Point p) {
-    if (!continued) return -static_cast<double>(p.y) / 1000;
-    const double off = distance(p, line);
-    return hide_first && off < on_line_um ? off - staying_worth * hide_first_um : off;
-  });
+  return at_junction(bead, best);
 }
 
-}  // namespace
+Start random_start(const Bead& bead, std::uint64_t seed) {
+  const double total = length_mm(bead) * 1000.0;
+  double left = total * (static_cast<double>(mixed(seed) >> 11) * 0x1p-53);
+  for (std::size_t i = 0; i < bead.path.size(); ++i) {
+    const Point a = bead.path[i].at, b = bead.path[(i + 1) % bead.path.size()].at;
+    const double step = distance(a, b);
+    if (left < step) return {static_cast<std::uint32_t>(i), lerp(a, b, left / step)};
+    left -= step;
+  }
+  return at_junction(bead, 0);
+}
 
-Start choose_seam(const TravelSettings& settings, const Bead& bead, std::span<const Corner> corners, const Below& below,
-                  std::uint64_t seed) {
-  const Start wished = wished_seam(settings, bead, corners, below, seed);
-  if (below.outline == nullptr || settings.z_seam_overhang_weight == 0) return wished;
-  return borne(bead, wished, *below.outline);
+Start borne_start(const Bead& bead, Start start, const Comb& below) {
+  const auto bears = [&](const Start& s) {
+    return below.part_of(s.at) != Comb::outside ||
+           below.nearest_on_boundary(s.at, bead.path[s.segment].width / 4).has_value();
+  };
+  if (bears(start)) return start;
+  constexpr double step_um = 500;
+  std::vector<Start> places;
+  const std::size_t n = bead.path.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Point a = bead.path[i].at, b = bead.path[i + 1 < n ? i + 1 : 0].at;
+    const auto steps = static_cast<int>(std::ceil(distance(a, b) / step_um));
+    for (int k = 0; k < steps; ++k)
+      places.push_back({static_cast<std::uint32_t>(i), lerp(a, b, static_cast<double>(k) / steps)});
+  }
+  std::stable_sort(places.begin(), places.end(), [&](const Start& a, const Start& b) {
+    return distance2(a.at, start.at) < distance2(b.at, start.at);
+  });
+  const auto found = std::find_if(places.begin(), places.end(), bears);
+  return found != places.end() ? *found : start;
 }
 
 }  // namespace weft::travel

@@ -43,18 +43,15 @@ Start nearest_start(const Bead& bead, Point p, Um snap);
 /// Pre: `material_left` as for corners_of.
 void add_exposure(const Bead& bead, bool material_left, const Comb& outline, std::span<Corner> corners);
 
-/// What the layer below says to a seam.
-struct Below {
-  std::span<const Point> seams;   ///< those near enough to matter
-  const Comb* outline = nullptr;  ///< where there is something to print on; null: everywhere
-};
+/// The place of a closed bead that is farthest back. Cost: O(n).
+Start rearmost_start(const Bead& bead);
 
-/// Chooses the seam of one outer wall. Where the type leaves a choice, it is the place of least
-/// S = visibility weight · exposure − corner weight · strength + overhang weight · (nothing below). Where that hangs
-/// with more than three quarters of the wall's width, it is the nearest place to it that does not, if there is one and
-/// the overhang weight is not 0.
-/// @param seed of the random seam
-Start choose_seam(const TravelSettings& settings, const Bead& bead, std::span<const Corner> corners, const Below& below,
-                  std::uint64_t seed);
+/// Anywhere on a closed bead, each place as likely as any. Cost: O(n).
+Start random_start(const Bead& bead, std::uint64_t seed);
+
+/// The place nearest to the start where at least a quarter of the wall's width lies on something; the start itself
+/// where that is so nowhere: what begins on nothing is dragged along.
+/// Cost: two questions to `below`; where it hangs O(n log n) and two for each half millimetre that is nearer.
+Start borne_start(const Bead& bead, Start start, const Comb& below);
 
 }  // namespace weft::travel

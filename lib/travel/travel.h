@@ -23,6 +23,7 @@
 namespace weft::travel {
 
 class BlockChain;
+class SeamLines;
 
 /// One copy of one object on one layer, in plate coordinates.
 struct ObjectLayer {
@@ -149,12 +150,6 @@ void prepare_ways(const TravelSettings& settings, Prepared& layer);
 /// Both.
 Prepared prepare(const TravelSettings& settings, LayerInput input);
 
-/// Whose a block is.
-struct BlockOwner {
-  ObjectId object = ~ObjectId{0};
-  bool support = false;
-};
-
 /// Chooses seams from layer to layer, and the order of the parts of all layers together. Sequential, and layers can be
 /// prepared meanwhile; cost: linear in the vertices of outer walls, and a few tours of the parts a layer.
 class Linker {
@@ -164,24 +159,16 @@ class Linker {
   Linker(const Linker&) = delete;
   Linker& operator=(const Linker&) = delete;
 
-  /// The next layer. It stays where it is until the next layer of each of its stacks has been added.
+  /// The next layer. It stays where it is until all are linked.
   void add(const Prepared& layer);
   /// What all layers have agreed on. Post: there are none.
   std::vector<Linked> linked();
 
  private:
-  std::vector<Start> choose_seams(const Prepared& layer);
-
   const TravelSettings& settings_;
+  std::unique_ptr<SeamLines> seams_;
   std::unique_ptr<BlockChain> chain_;
-  /// The last layer of a stack on the way up.
-  struct Below {
-    const Prepared* layer = nullptr;
-    std::vector<Point> seams;  ///< sorted; of the last layer that had some
-  };
-  std::vector<Below> below_;  ///< by stack
-  std::vector<Linked> linked_;
-  std::vector<std::vector<BlockOwner>> owners_;  ///< of each layer, by block; or none
+  std::vector<const Prepared*> layers_;
 };
 
 /// The same for layers that are all there.

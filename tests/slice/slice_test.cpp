@@ -395,6 +395,15 @@ TEST_CASE("slice: chords of a round outline lie in the middle of it") {
   }
 }
 
+TEST_CASE("slice: an upright part has the same outline at every height") {
+  const LayerSettings settings;
+  Mesh mesh;
+  add_upright(mesh, polygon(10'000, 200, 0.3, false), 9'000);
+  const auto cut = cut_all(mesh, settings);
+  REQUIRE(cut.size() > 20);
+  for (const Cut& layer : cut) CHECK(layer.layer.regions == cut[0].layer.regions);
+}
+
 TEST_CASE("slice: layers of real parts hold the volume of their meshes", "[law][corpus]") {
   for (const char* name :
        {"models/benchy.stl", "models/MINI-x-carriage.stl", "models/MINI-minda-holder.stl", "models/fandisk.stl"}) {

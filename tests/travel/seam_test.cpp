@@ -64,6 +64,55 @@ TEST_CASE("travel: aligned seams of a vase make a clean line", "[travel]") {
   }
 }
 
+TEST_CASE("travel: a corner that lasts wins over one that is sharper for a while", "[travel]") {
+  // A drop with a tip ahead that fades into its round in ten layers, and a blunter one to the left that stays.
+  std::vector<LayerInput> layers;
+  for (std::size_t i = 0; i < 80; ++i) {
+    Ring ring;
+    const double fades = i < 10 ? 1 - 0.1 * static_cast<double>(i) : 0;
+    for (int k = 0; k < 120; ++k) {
+      const double a = 2 * 3.14159265358979 * k / 120, side = 3.14159265358979 - a;
+      const double r = 15000 + 7000 * fades * std::max(0.0, 1 - 4 * std::min(a, 2 * 3.14159265358979 - a)) +
+                       4000 * std::max(0.0, 1 - 3 * std::abs(side));
+      ring.push_back({rounded(r * std::cos(a)), rounded(r * std::sin(a))});
+    }
+    layers.push_back(sample::layer({{ring, {}}}, i));
+  }
+  TravelSettings settings;
+  settings.z_seam_type = SeamType::aligned;
+  const auto seams = seams_of(settings, layers);
+  REQUIRE(seams.size() == 80);
+  for (const Point s : seams) CHECK((s.x < -18000 && std::abs(s.y) < 300));
+  // By themselves the first layers would begin at the sharper one, or in the bay beside it.
+  const auto first = seams_of(settings, {layers.begin(), layers.begin() + 3});
+  CHECK(first.front().x > 10000);
+}
+
+TEST_CASE("travel: what stands on a part that forks counts on both prongs", "[travel]") {
+  // A bar under two towers at its ends.
+  std::vector<LayerInput> layers;
+  for (std::size_t i = 0; i < 10; ++i) layers.push_back(sample::layer({sample::rectangle({0, 0}, {40000, 10000})}, i));
+  for (std::size_t i = 10; i < 40; ++i)
+    layers.push_back(
+        sample::layer({sample::rectangle({0, 0}, {8000, 10000}), sample::rectangle({32000, 0}, {40000, 10000})}, i));
+  TravelSettings settings;
+  settings.z_seam_type = SeamType::aligned;
+  std::vector<std::vector<Point>> seams;
+  for (const auto& p : plan(settings, {}, layers)) {
+    auto& layer = seams.emplace_back();
+    for (const auto& step : p.steps)
+      if (const auto* e = std::get_if<Extrude>(&step); e && e->role == Role::outer_wall)
+        layer.push_back(e->path.front().at);
+  }
+  // The bar's seam goes on in a tower without a step, and no tower's jumps.
+  for (std::size_t i = 1; i < seams.size(); ++i) {
+    INFO("layer " << i);
+    REQUIRE(seams[i].size() == (i < 10 ? 1U : 2U));
+    for (const Point below : seams[i - 1])
+      CHECK(std::any_of(seams[i].begin(), seams[i].end(), [&](Point p) { return distance(p, below) < 10; }));
+  }
+}
+
 TEST_CASE("travel: seams at the back, at a point, anywhere", "[travel]") {
   TravelSettings settings;
   settings.z_seam_type = SeamType::back;
