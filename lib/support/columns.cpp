@@ -4,11 +4,13 @@
 #include "core/stop.h"
 #include "geometry/boolean.h"
 #include "geometry/clip_lines.h"
+#include "geometry/nudge.h"
 #include "geometry/simplify.h"
 #include "geometry/touching.h"
 #include "geometry/trimmed.h"
 #include "support/branch_areas.h"
 #include "support/lengths.h"
+#include "support/near_edge.h"
 #include "support/patches.h"
 #include "support/resting.h"
 #include "support/steady.h"
@@ -418,8 +420,15 @@ std::vector<Regions> columns(const Room& room, const Stack& stack, const std::ve
   // What slides takes more than what stands on the slope with toes, so only where that leaves something.
   const auto leaves_some = [&](const Patch& patch, const std::vector<Regions>& levels) {
     double left_mm2 = 0;
-    for (const auto& [k, held] : patch.contacts)
-      left_mm2 += area_mm2(geometry::subtract(held, grown(levels[k], reached)));
+    for (const auto& [k, held] : patch.contacts) {
+      Regions bare;
+      for (const Region& region : held) {
+        const Regions under = geometry::trimmed(levels[k], box_of(region.outer).grown(4 * beside_by));
+        if (under.empty() || !are_reached(region, geometry::beyond(region, under, beside_by), reached))
+          bare.push_back(region);
+      }
+      if (!bare.empty()) left_mm2 += area_mm2(geometry::subtract(bare, grown(levels[k], reached)));
+    }
     return left_mm2 > s.minimum_support_area;
   };
   const auto under = [&](const Patch& patch, const std::vector<Regions>* drawn_there) {

@@ -76,4 +76,11 @@ bool any_may_be_further(const Regions& regions, const Regions& than, Um by) {
   });
 }
 
+bool are_reached(const Region& region, const Regions& beside, Um by) {
+  return area_mm2(beside) < area_mm2(region) && std::all_of(beside.begin(), beside.end(), [by](const Region& piece) {
+           const Point size = box_of(piece.outer).size();
+           return std::hypot(size.x, size.y) < by;
+         });
+}
+
 }  // namespace weft::support

@@ -12,6 +12,7 @@
 #include "support/kinds.h"
 #include "support/landing.h"
 #include "support/lengths.h"
+#include "support/near_edge.h"
 #include "support/resting.h"
 #include "support/support.h"
 #include "support/thin.h"
@@ -155,14 +156,8 @@ Near near_to(const Regions& all_wanted, const Regions& support) {
       continue;
     }
     const Regions beside = geometry::beyond(wanted, under, beside_by);
-    const double covered_mm2 = area_mm2(wanted) - area_mm2(beside);
-    out.contact_mm2 += covered_mm2;
-    // Each piece of what is partly covered touches what covers it.
-    const bool all_reached = covered_mm2 > 0 && std::all_of(beside.begin(), beside.end(), [](const Region& piece) {
-                               const Point size = box_of(piece.outer).size();
-                               return std::hypot(size.x, size.y) < reached;
-                             });
-    (all_reached ? out.whole : out.partly).push_back(wanted);
+    out.contact_mm2 += area_mm2(wanted) - area_mm2(beside);
+    (are_reached(wanted, beside, reached) ? out.whole : out.partly).push_back(wanted);
   }
   return out;
 }

@@ -94,3 +94,27 @@ TEST_CASE("geometry: rings tell edges that lie on the one before, and those with
     CHECK(RingEdges(rings).crossing_pairs().empty());
   }
 }
+
+TEST_CASE("geometry: eight boxes asked at once tell what each of them tells", "[law]") {
+  shapes::Dice dice(63);
+  const auto some_box = [&] {
+    const Point at{dice.between(-20, 20), dice.between(-20, 20)};
+    return Box{at, {at.x + dice.between(0, 9), at.y + dice.between(0, 9)}};
+  };
+  for (int round = 0; round < 2000; ++round) {
+    EightBoxes boxes;
+    std::uint32_t met = 0;
+    const Box asked = some_box();
+    for (std::uint32_t k = 0; k < EightBoxes::count; ++k) {
+      if (dice.between(0, 4) == 0) continue;  // none is there
+      const Box box = some_box();
+      boxes.set(k, box);
+      CHECK(boxes[k] == box);
+      met |= std::uint32_t{box.overlaps(asked)} << k;
+    }
+    CHECK(boxes.meeting(asked) == met);
+    CHECK(boxes.meeting_one_by_one(asked) == met);
+    CHECK(boxes.meeting({{-max_coord, -max_coord}, {max_coord, max_coord}}) ==
+          boxes.meeting_one_by_one({{-max_coord, -max_coord}, {max_coord, max_coord}}));
+  }
+}
