@@ -7,7 +7,6 @@
 #include "infill/exact_areas.h"
 #include "infill/hanging.h"
 #include "infill/mask_parts.h"
-#include "infill/strips.h"
 #include "model/flow.h"
 
 #include <algorithm>
@@ -231,21 +230,16 @@ void give_what_lies_between_to_top(double line, Kinds& kinds) {
 
 /// A patch of solid that is no larger than the top of its layer is top: what of a top is covered by something that
 /// stands on it, letters or a boss, and what closes the slope beside it. One surface has fewer ends of lines than two
-/// that fit into each other, and its lines need not be narrower or wider along their border. Not so a strip between
-/// the top and other fill: its lines run along it.
-void give_patches_to_top(double line, Kinds& kinds) {
+/// that fit into each other, and its lines need not be narrower or wider along their border.
+void give_patches_to_top(Kinds& kinds) {
   if (!kinds.top.any() || !kinds.solid.any()) return;
   const Grid& grid = kinds.solid.grid();
-  Mask other(grid);
-  if (kinds.sparse) other |= *kinds.sparse;
-  for (const Hanging& bridge : kinds.hanging) other |= bridge.area;
   const double top_mm2 = static_cast<double>(kinds.top.count()) * to_mm(grid.cell) * to_mm(grid.cell);
   Regions patches;
   for (Region& patch : geometry::regions_from_rings(kinds.solid.outlines())) {
     if (area_mm2(patch) > top_mm2) continue;
-    const Mask reach = Mask(grid.window(weft::box_of(patch.outer), 3 * grid.cell), {&patch, 1}).grown(1);
-    if (reach.meets(kinds.top) && (!reach.meets(other) || !is_strip(patch, rounded(line))))
-      patches.push_back(std::move(patch));
+    const Grid around = grid.window(weft::box_of(patch.outer), 3 * grid.cell);
+    if (Mask(around, {&patch, 1}).grown(1).meets(kinds.top)) patches.push_back(std::move(patch));
   }
   if (patches.empty()) return;
   const Mask given = Mask(grid, patches).grown(1) & kinds.solid;
@@ -289,7 +283,7 @@ Kinds kinds_of(const ShellSettings& settings, const InfillSettings& infill, cons
                                                     .turned_rad = object.turned_rad});
     find_internal_bridges(settings, hanging, style, sparse_below, kinds);
   }
-  give_patches_to_top(line, kinds);
+  give_patches_to_top(kinds);
   if (kinds.sparse) {
     const Um height = object.layers[index].height,
              laid = length_or(settings.skin_line_width, object.nozzle, flow::automatic_width(object.nozzle, height));
