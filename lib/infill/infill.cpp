@@ -94,6 +94,34 @@ double nearly_across(const Region& region, Um band, double across) {
   return across;
 }
 
+/// Which way lines of solid areas run, against X.
+class Directions {
+ public:
+  Directions(const ShellSettings& shells, const FillInput& input) : shells_(shells), input_(input) {}
+
+  double of_solid(const SolidStyle& style, const Region& region) const {
+    const auto across =
+        shells_.skin_angle || !style.turned ? std::nullopt : angle_across_bridges(region, input_.bridges_below);
+    return across ? nearly_across(region, style.band, *across) : own(style, region);
+  }
+  /// What is seen is laid in long lines: each end is a turn, beside a wall. Below it directions alternate.
+  double of_top(const SolidStyle& style, const Region& region) const {
+    const double angle = own(style, region);
+    return style.turned && !shells_.skin_angle ? angle_of_long_lines(region, angle).value_or(angle) : angle;
+  }
+
+ private:
+  double own(const SolidStyle& style, const Region& region) const {
+    if (style.turned && !shells_.skin_angle)
+      if (const auto along = angle_along_strip(region, style.band)) return *along;
+    const double turn = style.turned && input_.index % 2 == 1 ? radians(90) : 0;
+    return turn + (shells_.skin_angle ? radians(*shells_.skin_angle) : angle_along_walls(region).value_or(radians(45)));
+  }
+
+  const ShellSettings& shells_;
+  const FillInput& input_;
+};
+
 /// How far the outline is from what walls leave inside.
 double depth_of_walls(const FillInput& input) {
   if (input.wall_count == 0) return 0;
@@ -312,7 +340,7 @@ void fill_sparse_areas(const InfillSettings& infill, const FillInput& input, Spa
 
 FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const FillInput& input) {
   const Styles styles = styles_of(infill, shells, input);
-  const double turn = input.index % 2 == 1 ? radians(90) : 0;
+  const Directions directions(shells, input);
   FillLayer layer;
   std::uint32_t sequence = 0;
   const auto fill_all = [&](const Regions& regions, SolidStyle style, std::optional<InfillPattern> winds,
@@ -330,16 +358,11 @@ FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const 
       if (style.role != Role::bridge) spread_out(flow::spread(input.height, input.overlap_factor), from, layer.beads);
     }
   };
-  const auto own_angle = [&](const SolidStyle& style, const Region& region) {
-    if (style.turned && !shells.skin_angle)
-      if (const auto along = angle_along_strip(region, style.band)) return *along;
-    return (style.turned ? turn : 0) +
-           (shells.skin_angle ? radians(*shells.skin_angle) : angle_along_walls(region).value_or(radians(45)));
-  };
   const auto solid_angle = [&](const SolidStyle& style, const Region& region) {
-    const auto across =
-        shells.skin_angle || !style.turned ? std::nullopt : angle_across_bridges(region, input.bridges_below);
-    return across ? nearly_across(region, style.band, *across) : own_angle(style, region);
+    return directions.of_solid(style, region);
+  };
+  const auto top_angle = [&](const SolidStyle& style, const Region& region) {
+    return directions.of_top(style, region);
   };
   const auto is_on_bridge = [&](const Region& region) {
     return angle_across_bridges(region, input.bridges_below).has_value();
@@ -363,10 +386,10 @@ FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const 
     for (const BeltLine& line : areas.belts) lay(line, styles.solid, areas.part, layer.beads);
     spread_out(flow::spread(input.height, input.overlap_factor), from, layer.beads);
     fill_skin(areas.solid, solid, styles.solid_winds, areas.part, solid_angle, is_on_bridge);
-    fill_skin(areas.top, top, styles.top_winds, areas.part, own_angle, [](const Region&) { return false; });
+    fill_skin(areas.top, top, styles.top_winds, areas.part, top_angle, [](const Region&) { return false; });
     if (shells.ironing_enabled)
       iron(shells, input, areas, styles.ironing, sequence, layer.beads,
-           [&](const Region& region) { return own_angle(styles.top, region) + radians(90); });
+           [&](const Region& region) { return top_angle(styles.top, region) + radians(90); });
   }
   return layer;
 }

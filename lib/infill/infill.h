@@ -16,7 +16,7 @@ namespace weft::infill {
 /// What one layer is filled from, besides settings.
 struct FillInput {
   const LayerAreas& areas;
-  std::size_t index = 0;  ///< of the layer: directions alternate by it
+  std::size_t index = 0;  ///< of the layer: directions alternate by it, but those of long tops
   Um z = 0;               ///< top of the layer: patterns that change with height
   Um height = 0;
   Um nozzle = 0;                                ///< diameter

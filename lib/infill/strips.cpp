@@ -125,6 +125,23 @@ std::optional<double> angle_along_strip(const Region& region, Um band) {
   return edge.share < straight ? std::nullopt : std::optional(edge.angle_rad);
 }
 
+std::optional<double> angle_of_long_lines(const Region& region, double angle_rad) {
+  constexpr double clearly = 2;
+  double along = 0, across = 0;  // of the edge: lines that run across end on what is along
+  const double c = std::cos(angle_rad), s = std::sin(angle_rad);
+  const auto look = [&](const Ring& ring) {
+    for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+      const double dx = ring[i].x - ring[j].x, dy = ring[i].y - ring[j].y;
+      along += std::abs(c * dx + s * dy), across += std::abs(c * dy - s * dx);
+    }
+  };
+  look(region.outer);
+  for (const Ring& hole : region.holes) look(hole);
+  if (along >= clearly * across) return angle_rad;
+  if (across >= clearly * along) return angle_rad + std::numbers::pi / 2;
+  return std::nullopt;
+}
+
 bool is_strip(const Region& region, Um band) {
   constexpr double widest = 3.5;       // bands: of more rings the innermost are dabs where the strip bends
   constexpr double least_long = 6.25;  // edge² / 4 areas: of a strip four times as long as wide

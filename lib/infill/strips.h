@@ -27,6 +27,9 @@ std::optional<double> angle_along_walls(const Region& region);
 /// between each two, on every second layer.
 std::optional<double> angle_along_strip(const Region& region, Um band);
 
+/// Of lines that run that way and of those across the ones that have no more than half as many ends, where either has.
+std::optional<double> angle_of_long_lines(const Region& region, double angle_rad);
+
 /// Whether an area is a strip everywhere no wider than some lines, and long.
 bool is_strip(const Region& region, Um band);
 

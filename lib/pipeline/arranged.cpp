@@ -76,7 +76,7 @@ plate::NestBed bed_of(const Job& job, const mesh::Plate& free) {
                      free.keep_out,
                      job.placement.centre.value_or(weft::box_of(free.surface).centre()),
                      std::max(job.placement.spacing, apart > 0 ? apart + tolerances::border : 0),
-                     brim_of(job.settings),
+                     brim_of(job.settings) + wider_of(job.settings),
                      plate::Bar::none};
   if (const auto tower = tower_of(job.settings, out.surface)) out.keep_out.push_back(*tower);
   const PlateSettings& own = job.settings.plate;

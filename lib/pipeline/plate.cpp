@@ -29,7 +29,7 @@ mesh::PlacementOptions options_of(const Job& job, bool turned) {
           .drop = p.drop,
           .center = p.centre,
           .copies = p.copies,
-          .spacing = std::max(p.spacing, apart_of(job.settings))};
+          .spacing = std::max(p.spacing, apart_of(job.settings)) + 2 * wider_of(job.settings)};
 }
 
 mesh::Plate bed_of(const Job& job) {

@@ -26,6 +26,11 @@ Um width_of_skirt(const AdhesionSettings& around, const Settings& settings) {
 
 }  // namespace
 
+Um wider_of(const Settings& settings) {
+  const WallSettings& walls = settings.walls;
+  return std::max({0, walls.xy_offset, walls.xy_offset + walls.xy_offset_layer_0});
+}
+
 Um brim_of(const Settings& settings) {
   return adhesion_of(settings.adhesion).brim_width;
 }

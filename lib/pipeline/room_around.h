@@ -8,6 +8,9 @@
 /// How far beyond their outlines things need room.
 namespace weft::pipeline {
 
+/// Around each, for what its walls lie further out than the model does.
+Um wider_of(const Settings& settings);
+
 /// Around each, for its brim.
 Um brim_of(const Settings& settings);
 

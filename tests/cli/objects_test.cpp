@@ -235,6 +235,18 @@ TEST_CASE("weft slice: --arrange puts models close together, --fill as many as t
   CHECK_THAT(run.err, Contains("big.stl: there is room for 9 of 10 copies of it"));
 }
 
+TEST_CASE("weft slice: copies of a part that xy_offset widens stand apart as they are printed") {
+  const Boxes boxes;
+  for (const std::vector<std::string>& how :
+       {std::vector<std::string>{"--copies", "4"}, {"--copies", "4", "--arrange"}, {"--fill"}}) {
+    std::vector<std::string> words{"base.stl", "--spacing", "2", "-s", "xy_offset=5", "-s", "skirt_line_count=0"};
+    words.insert(words.end(), how.begin(), how.end());
+    boxes.sliced(words);  // walls would meet, or leave the bed
+    CHECK(count_of(boxes.gcode(), "EXCLUDE_OBJECT_DEFINE") >= 4);
+    boxes.check_verified();
+  }
+}
+
 TEST_CASE("weft slice: --fill leaves room for the skirt, and prints more without one") {
   const Boxes boxes;
   const std::string object = "EXCLUDE_OBJECT_DEFINE";

@@ -6,6 +6,7 @@
 #include "model/flow.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include <catch2/catch.hpp>
 
@@ -165,6 +166,27 @@ TEST_CASE("infill: lines run along a strip of up to five of them, on every layer
   };
   for (const std::size_t index : {0U, 1U}) CHECK(longest(strip, index) > 28000);
   CHECK(longest(area, 1) < 8000);  // a wider one is crossed
+}
+
+TEST_CASE("infill: lines of a long top run along it on every layer, those of others turn", "[infill]") {
+  const double angle = GENERATE(0, 0.3, 1.2);
+  const auto longest = [&](Um length, Um width, std::size_t index, const ShellSettings& shells) {
+    LayerAreas areas(1);
+    areas[0].top.push_back(turned(rectangle(0, 0, length, width), angle));
+    tests::look_at(areas[0].top);
+    double most = 0;
+    const FillInput layer{.areas = areas, .index = index, .z = 200, .height = 200, .nozzle = 400};
+    for (const Bead& bead : infill::fill({}, shells, layer).beads)
+      for (std::size_t i = 1; i < bead.path.size(); ++i)
+        most = std::max(most, distance(bead.path[i - 1].at, bead.path[i].at));
+    return most;
+  };
+  for (const std::size_t index : {0U, 1U}) CHECK(longest(30000, 7000, index, {}) > 28000);
+  CHECK(longest(30000, 20000, 0, {}) > 28000);
+  CHECK(longest(30000, 20000, 1, {}) < 21000);
+  ShellSettings asked;  // for a direction
+  asked.skin_angle = angle * 180 / std::numbers::pi;
+  CHECK(longest(30000, 7000, 1, asked) < 8000);
 }
 
 TEST_CASE("infill: behind a single wall, or none, lines with their round ends stay within the outline",
