@@ -40,8 +40,8 @@ double share_of(const Box& a, const Box& b) {
 }
 
 /// How far a line steps aside between two places, µm.
-double step_um(Point a, Point b) {
-  return std::min(distance(a, b), break_um);
+float step_um(Point a, Point b) {
+  return static_cast<float>(std::min(distance(a, b), break_um));
 }
 
 bool lines_up(SeamType type) {
@@ -51,10 +51,10 @@ bool lines_up(SeamType type) {
 }  // namespace
 
 /// Which of the places of a wall a line from that point on the wall below goes to at the least cost, and at which.
-std::pair<std::uint32_t, double> SeamLines::onward(const Wall& wall, Point from) const {
-  std::pair<std::uint32_t, double> best{none, 0};
+std::pair<std::uint32_t, float> SeamLines::onward(const Wall& wall, Point from) const {
+  std::pair<std::uint32_t, float> best{none, 0};
   for (std::uint32_t k = wall.begin; k < wall.end; ++k)
-    if (const double cost = step_um(places_[k].start.at, from) + places_[k].cost_um;
+    if (const float cost = step_um(places_[k].start.at, from) + places_[k].cost_um;
         best.first == none || cost < best.second)
       best = {k, cost};
   return best;
@@ -81,25 +81,26 @@ void SeamLines::add_places(const Wall& wall, const Question& ask) {
   };
   std::vector<Place> found;
   const auto add = [&](const Start& start, double strength, double exposure) {
-    double cost = own(start.at, strength, exposure);
-    if (line && !below) cost -= static_cast<double>(start.at.y) / 1000;  // of two that are alike the one at the back
+    double own_um = own(start.at, strength, exposure);
+    if (line && !below) own_um -= static_cast<double>(start.at.y) / 1000;  // of two that are alike the one at the back
+    const auto cost = static_cast<float>(own_um);
     found.push_back({start, cost, below ? cost + onward(*below, start.at).second : cost});
   };
   if (!below) add(type == SeamType::user ? nearest_start(bead, goal, snap_um) : rearmost_start(bead), 0, 0);
   for (const Corner& c : ask.corners)
     add({c.junction, bead.path[c.junction].at}, static_cast<double>(c.strength), static_cast<double>(c.exposure));
-  const auto needless = [](std::span<const Place> others, Point at, double cost) {
-    return std::any_of(others.begin(), others.end(),
-                       [&](const Place& p) { return p.cost_um + step_um(p.start.at, at) <= cost; });
+  const auto needless = [](auto begin, auto end, const Place& place) {
+    return std::any_of(
+        begin, end, [&](const Place& p) { return p.cost_um + step_um(p.start.at, place.start.at) <= place.cost_um; });
   };
   // A line that would better have stepped to a corner does so no later than here.
   for (std::uint32_t k = below ? below->begin : 0; below && k < below->end; ++k)
-    if (const Place& place = places_[k]; !needless(found, place.start.at, place.cost_um))
+    if (const Place& place = places_[k]; !needless(found.begin(), found.end(), place))
       add(nearest_start(bead, place.start.at, snap_um), 0, 0);
   std::stable_sort(found.begin(), found.end(), [](const Place& a, const Place& b) { return a.cost_um < b.cost_um; });
-  const std::size_t begin = places_.size(), most = line ? most_places : 1;
+  const std::size_t most = line ? most_places : 1;
   for (const Place& place : found)
-    if (places_.size() - begin < most && !needless(std::span(places_).subspan(begin), place.start.at, place.cost_um))
+    if (places_.size() - wall.begin < most && !needless(places_.begin() + wall.begin, places_.end(), place))
       places_.push_back(place);
 }
 

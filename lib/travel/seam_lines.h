@@ -3,6 +3,7 @@
 #include "travel/travel.h"
 
 #include <cstdint>
+#include <deque>
 #include <span>
 #include <utility>
 #include <vector>
@@ -29,8 +30,8 @@ class SeamLines {
   /// Where a line may pass a wall.
   struct Place {
     Start start;
-    double own_um = 0;   ///< what it costs itself
-    double cost_um = 0;  ///< of the best line up to it; at last of all lines from it upwards
+    float own_um = 0;   ///< what it costs itself
+    float cost_um = 0;  ///< of the best line up to it; at last of all lines from it upwards
   };
   struct Wall {
     const Bead* bead = nullptr;
@@ -50,12 +51,12 @@ class SeamLines {
     Um height;
   };
 
-  std::pair<std::uint32_t, double> onward(const Wall& wall, Point from) const;
+  std::pair<std::uint32_t, float> onward(const Wall& wall, Point from) const;
   void add_places(const Wall& wall, const Question& ask);
 
   const TravelSettings& settings_;
-  std::vector<Wall> walls_;    // of all layers
-  std::vector<Place> places_;  // of all walls
+  std::deque<Wall> walls_;    // of all layers; there are many, and a vector would have room for twice as many
+  std::deque<Place> places_;  // of all walls
   std::vector<const Prepared*> layers_;
   std::vector<Top> tops_;  // by stack
 };
