@@ -77,7 +77,9 @@ inline constexpr Rows travel_schema{
             "search."),
     setting("infill_before_walls", Scope::plate, &TravelSettings::infill_before_walls,
             "The fills of a part are printed before its walls: walls then lie on what infill pressed out."),
-    setting("z_seam_type", Scope::object, &TravelSettings::z_seam_type, "Where outer walls begin and end."),
+    setting("z_seam_type", Scope::object, &TravelSettings::z_seam_type,
+            "Where outer walls begin and end: aligned, in lines up the part along corners that last; sharpest_corner, "
+            "wherever it is hidden best; at the back; user, near z_seam_x and z_seam_y; random, anywhere."),
     setting("z_seam_corner", Scope::object, &TravelSettings::z_seam_corner,
             "Which corners attract a seam; weighted prefers inner ones to outer ones."),
     setting("z_seam_visibility_weight", Scope::object, &TravelSettings::z_seam_visibility_weight, Unit::none, 0, 10,
