@@ -23,7 +23,7 @@ namespace weft::geometry {
 /// boxes in one those that meet a box are told at once, and what lies beside each other along a ring mostly lies near
 /// to each other. Edges of a block that go one way along an axis do not meet, nor do two such blocks that follow each
 /// other. Where rings are many, or most edges are near to most others, a SegmentIndex answers after all.
-/// Cost: about 5 ns an edge to build.
+/// Cost: O(n) to build.
 class RingEdges {
  public:
   using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;

@@ -109,6 +109,7 @@ bool in_one_upright_plane(const Mesh& mesh, const Triangle& a, const Triangle& b
     const double x = static_cast<double>(p.x) - origin.x, y = static_cast<double>(p.y) - origin.y;
     if (x * x + y * y > most) most = x * x + y * y, along = p;
   }
+  if (most == 0) return false;  // without area, along an upright edge: it lies in every plane through that edge
   const auto beside = [&](std::uint32_t v) {
     const Point3 p = mesh.vertices[v];
     return (std::int64_t{along.x} - origin.x) * (std::int64_t{p.y} - origin.y) -

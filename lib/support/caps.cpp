@@ -75,7 +75,7 @@ class Capper {
     const auto on = [&](const Regions& all_under) {
       Regions lying, beside;
       for (Region& region : free) {
-        const auto under = geometry::trimmed(all_under, box_of(region.outer).grown(4 * beside_by));
+        const auto under = near_to(region, all_under);
         const Regions covered = geometry::covered(region, under, beside_by);
         const bool whole = covered.size() == 1 && covered.front() == region;
         append(lying, covered);

@@ -423,7 +423,7 @@ std::vector<Regions> columns(const Room& room, const Stack& stack, const std::ve
     for (const auto& [k, held] : patch.contacts) {
       Regions bare;
       for (const Region& region : held) {
-        const Regions under = geometry::trimmed(levels[k], box_of(region.outer).grown(4 * beside_by));
+        const Regions under = near_to(region, levels[k]);
         if (under.empty() || !are_reached(region, geometry::beyond(region, under, beside_by), reached))
           bare.push_back(region);
       }

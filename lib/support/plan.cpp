@@ -147,10 +147,10 @@ struct Near {
   double contact_mm2 = 0;  ///< that support lies right under
 };
 
-Near near_to(const Regions& all_wanted, const Regions& support) {
+Near by_nearness(const Regions& all_wanted, const Regions& support) {
   Near out;
   for (const Region& wanted : all_wanted) {
-    const Regions under = geometry::trimmed(support, box_of(wanted.outer).grown(4 * beside_by));
+    const Regions under = near_to(wanted, support);
     if (under.empty()) {
       out.partly.push_back(wanted);
       continue;
@@ -178,7 +178,7 @@ void note_reached(const Object& object, const Stack& stack, const Demand& demand
     if (contact.level == Stack::none) return out;
     Regions all = all_areas(plan.layers[contact.level]);
     append(all, caps.of[i]);
-    const Near near = near_to(demand[i].wanted, all);
+    const Near near = by_nearness(demand[i].wanted, all);
     out.contact_mm2 = near.contact_mm2;
     // It is a judgement of reach: finer corners do not matter to it.
     constexpr Um coarse = 100;

@@ -17,7 +17,7 @@ namespace {
 Regions hanging(const Region& region, const Regions& below) {
   constexpr double least_mm2 = 0.05;
   constexpr Um least_wide = 60;
-  const Regions under = geometry::trimmed(below, box_of(region.outer).grown(4 * beside_by));
+  const Regions under = near_to(region, below);
   if (std::find(under.begin(), under.end(), region) != under.end()) return {};
   Regions out;
   const Regions over = under.empty() ? Regions{region} : geometry::beyond(region, under, beside_by);

@@ -5,6 +5,7 @@
 #include "geometry/nudge.h"
 #include "geometry/offset.h"
 #include "geometry/spatial_index.h"
+#include "geometry/trimmed.h"
 #include "support/lengths.h"
 
 #include <algorithm>
@@ -23,6 +24,10 @@ Regions boxes_around(const Regions& pieces, Um by) {
 }
 
 }  // namespace
+
+Regions near_to(const Region& region, const Regions& others) {
+  return geometry::trimmed(others, box_of(region.outer).grown(4 * beside_by));
+}
 
 void thicken(Regions& area, const Regions& fresh, Um line) {
   if (fresh.empty()) return;

@@ -8,6 +8,9 @@ namespace weft::support {
 /// do not lie on each other are cut in a third of the time.
 inline constexpr Um beside_by = 3;
 
+/// What of others may lie beside a region, or over it, by that rule; the rest of them is mostly left off.
+Regions near_to(const Region& region, const Regions& others);
+
 /// Strips thinner than two lines of what is `fresh`, made as wide as that.
 void thicken(Regions& area, const Regions& fresh, Um line);
 

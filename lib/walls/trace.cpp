@@ -73,7 +73,9 @@ Piece pair_piece(const Skeleton& s, const Laying& laying, std::uint32_t h, std::
 /// Where a rib thinner than a wall begins, the wall would go round the corner on either side of it and dip into the rib
 /// between them: the nozzle all but stops there. It goes straight past, over none of the halves of both corners, if it
 /// does not come nearer to the corners so.
-/// @param last  of the first corner: where the wall turns
+/// @param last      the last half of the first corner: at its end the wall turns
+/// @param i         the wall, counted from the outline
+/// @param left_out  of each bead of each half: those between the corners are noted
 void go_past(const Skeleton& s, const Laying& laying, std::uint32_t last, std::size_t i, const Slots& slots,
              std::vector<std::uint8_t>& left_out) {
   const auto in_corner = [&](std::uint32_t h) {

@@ -404,6 +404,22 @@ TEST_CASE("slice: an upright part has the same outline at every height") {
   for (const Cut& layer : cut) CHECK(layer.layer.regions == cut[0].layer.regions);
 }
 
+TEST_CASE("slice: a triangle without area along an upright edge leaves its corner") {
+  Mesh mesh;  // an upright edge in two pieces on the one side, whole on the other, and a triangle between them
+  mesh.vertices = {{0, 0, 0}, {10'000, 0, 0}, {0, 10'000, 0}, {0, 0, 3'500}, {10'000, 0, 3'500}, {0, 10'000, 3'500}};
+  mesh.vertices.push_back({10'000, 0, 2'000});
+  mesh.triangles = {{0, 2, 1}, {3, 4, 5}, {2, 0, 3}, {2, 3, 5}, {1, 2, 5}, {1, 5, 4}};
+  for (const Triangle& t : {Triangle{0, 1, 6}, Triangle{0, 6, 3}, Triangle{3, 6, 4}, Triangle{1, 4, 6}})
+    mesh.triangles.push_back(t);
+  const auto cut = cut_all(mesh);
+  REQUIRE(cut.size() > 10);
+  for (const Cut& layer : cut) {
+    REQUIRE(layer.layer.regions.size() == 1);
+    CHECK(layer.layer.regions[0].outer.size() == 3);
+    CHECK(box_of(layer.layer.regions).max == Point{10'000, 10'000});
+  }
+}
+
 TEST_CASE("slice: layers of real parts hold the volume of their meshes", "[law][corpus]") {
   for (const char* name :
        {"models/benchy.stl", "models/MINI-x-carriage.stl", "models/MINI-minda-holder.stl", "models/fandisk.stl"}) {

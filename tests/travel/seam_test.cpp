@@ -4,6 +4,7 @@
 #include "layers.h"
 
 #include <cmath>
+#include <numbers>
 
 #include <catch2/catch.hpp>
 
@@ -27,7 +28,7 @@ std::vector<LayerInput> vase() {
   for (std::size_t i = 0; i < 40; ++i) {
     Ring ring;
     for (int k = 0; k < 90; ++k) {
-      const double a = 2 * 3.14159265358979 * (k + 0.37 * static_cast<double>(i)) / 90;
+      const double a = 2 * std::numbers::pi * (k + 0.37 * static_cast<double>(i)) / 90;
       const double r = 15000 + 2000 * std::sin(static_cast<double>(i) / 8);
       ring.push_back({rounded(r * std::cos(a)), rounded(r * std::sin(a))});
     }
@@ -71,8 +72,8 @@ TEST_CASE("travel: a corner that lasts wins over one that is sharper for a while
     Ring ring;
     const double fades = i < 10 ? 1 - 0.1 * static_cast<double>(i) : 0;
     for (int k = 0; k < 120; ++k) {
-      const double a = 2 * 3.14159265358979 * k / 120, side = 3.14159265358979 - a;
-      const double r = 15000 + 7000 * fades * std::max(0.0, 1 - 4 * std::min(a, 2 * 3.14159265358979 - a)) +
+      const double a = 2 * std::numbers::pi * k / 120, side = std::numbers::pi - a;
+      const double r = 15000 + 7000 * fades * std::max(0.0, 1 - 4 * std::min(a, 2 * std::numbers::pi - a)) +
                        4000 * std::max(0.0, 1 - 3 * std::abs(side));
       ring.push_back({rounded(r * std::cos(a)), rounded(r * std::sin(a))});
     }
