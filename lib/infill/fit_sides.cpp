@@ -10,11 +10,13 @@
 namespace weft::infill {
 namespace {
 
-constexpr double most_slope = 0.4;      // of an edge that lines run along: 22°, where a turn along it becomes too long
-constexpr double shortest = 1;          // bands; a strand is not changed for a shorter edge
-constexpr double jog = 1;               // bands along a line, in which it moves aside
-constexpr double least_change_um = 15;  // of a side; for less no junction is worth it
-constexpr double touching_um = 1;       // the lattice
+constexpr double most_slope = 0.4;  // of an edge that lines run along: 22°, where a turn along it becomes too long
+constexpr double shortest = 1;      // bands; a strand is not changed for a shorter edge
+constexpr double jog = 1;           // bands along a line, in which it moves aside
+constexpr double nearly_straight = 0.25;  // bands, that an edge lines share may lean or bend
+constexpr double ramp = 2;                // bands along a line, in which those that share come back
+constexpr double least_change_um = 15;    // of a side; for less no junction is worth it
+constexpr double touching_um = 1;         // the lattice
 
 /// Without the corners between which the sides stay where they are without them.
 std::vector<Sides> thinned(const std::vector<Sides>& all) {
@@ -95,9 +97,38 @@ SideFit::SideFit(const Outline& outline, const LineSet& lines, std::span<const I
   };
   std::sort(above_.begin(), above_.end(), before);
   std::sort(below_.begin(), below_.end(), before);
+  if (widths_.shared_by < 2) return;
+  shared_ = {intervals_, ramp * band_, widths_.shared_by};
+  shared_.share(straight(below_), false);
+  shared_.share(straight(above_), true);
+  shared_.finish();
+  for (std::uint32_t i = 0; i < beside_.size(); ++i) beside_[i] = beside_[i] || shared_.concerns(i);
 }
 
-std::vector<SideFit::Corner> SideFit::side(const Besides& all, std::uint32_t interval) const {
+/// Edges along which lines run for long, nearly straight. Pre: by interval and then from left to right
+std::vector<SharedMisfit::Edge> SideFit::straight(const Besides& all) const {
+  std::vector<SharedMisfit::Edge> out;
+  const auto knot = [&](double x, double reach) { return Knot{x, reach - band_ / 2}; };
+  for (std::size_t first = 0, end = 0; first < all.size(); first = std::max(end, first + 1)) {
+    double least = all[first].at_from, most = least;
+    for (end = first; end < all.size() && all[end].interval == all[first].interval &&
+                      (end == first || std::abs(all[end].from - all[end - 1].to) <= touching_um);
+         ++end) {
+      least = std::min({least, all[end].at_from, all[end].at_to}),
+      most = std::max({most, all[end].at_from, all[end].at_to});
+      if (most - least > nearly_straight * band_) break;
+    }
+    if (end == first || all[end - 1].to - all[first].from < 2 * ramp * band_) continue;
+    const bool hidden =
+        !out.empty() && out.back().interval == all[first].interval && all[first].from < out.back().to.x - touching_um;
+    for (std::size_t i = first; i < end && !hidden; ++i)
+      out.push_back({all[i].interval, knot(all[i].from, all[i].at_from), knot(all[i].to, all[i].at_to)});
+  }
+  return out;
+}
+
+std::vector<SideFit::Corner> SideFit::side(bool is_above, std::uint32_t interval) const {
+  const Besides& all = is_above ? above_ : below_;
   const double half = band_ / 2;
   const double from = intervals_[interval].from, to = intervals_[interval].to;
   auto it = std::lower_bound(all.begin(), all.end(), interval,
@@ -105,7 +136,8 @@ std::vector<SideFit::Corner> SideFit::side(const Besides& all, std::uint32_t int
   std::vector<Corner> corners, stretch;
   double open = from;  // where the last stretch ended
   const auto leave_plain = [&](double until) {
-    if (until - open > jog * band_) corners.insert(corners.end(), {{open, half}, {until, half}});
+    if (until - open <= jog * band_) return;
+    for (const Knot& knot : shared_.along(interval, is_above, open, until)) corners.push_back({knot.x, half + knot.by});
   };
   while (it != all.end() && it->interval == interval) {
     // edges that follow each other without a hole between them are one stretch
@@ -124,7 +156,8 @@ std::vector<SideFit::Corner> SideFit::side(const Besides& all, std::uint32_t int
     open = stretch.back().x;
   }
   leave_plain(to);
-  if (corners.empty()) return {{from, half}, {to, half}};
+  if (corners.empty())
+    for (const Knot& knot : shared_.along(interval, is_above, from, to)) corners.push_back({knot.x, half + knot.by});
   // what jumps takes a way along the line
   for (std::size_t i = 1; i < corners.size(); ++i) {
     Corner &a = corners[i - 1], &b = corners[i];
@@ -137,7 +170,7 @@ std::vector<SideFit::Corner> SideFit::side(const Besides& all, std::uint32_t int
 }
 
 std::vector<Sides> SideFit::both(std::uint32_t interval) const {
-  const std::vector<Corner> below = side(below_, interval), above = side(above_, interval);
+  const std::vector<Corner> below = side(false, interval), above = side(true, interval);
   const auto between = [](const std::vector<Corner>& c, std::size_t i, double x) {
     return i == 0 ? c.front().reach : i < c.size() ? reach_at(c[i - 1], c[i], x) : c.back().reach;
   };
@@ -154,7 +187,7 @@ std::vector<Sides> SideFit::both(std::uint32_t interval) const {
 
 std::optional<std::pair<double, double>> SideFit::with_room(std::uint32_t interval) const {
   const std::vector<Sides> all = both(interval);
-  const double least = widths_.steady.least / 2 * band_;
+  const double least = widths_.least / 2 * band_;
   const auto has_room = [&](const Sides& each) { return each.below + each.above >= least; };
   const auto first = std::find_if(all.begin(), all.end(), has_room);
   if (first == all.end()) return std::nullopt;
@@ -167,29 +200,40 @@ std::optional<std::pair<double, double>> SideFit::with_room(std::uint32_t interv
                    last + 1 == all.end() ? last->x : between(last[1], *last)};
 }
 
-/// Stretches that are narrower, or wider, than lines may be for short are looked at one by one.
-void SideFit::keep_within_widths(std::vector<Sides>& all) const {
-  const auto side_of_brief = [&](const Sides& each) {
-    const double bands = (each.below + each.above) / band_;
-    return bands < widths_.brief.least ? -1 : bands > widths_.brief.most ? 1 : 0;
+double SideFit::aside(std::uint32_t interval, double x) const {
+  const std::vector<Sides> all = both(interval);
+  const auto after = std::find_if(all.begin(), all.end(), [x](const Sides& each) { return each.x >= x; });
+  const Sides &b = after == all.end() ? all.back() : *after,
+              &a = after == all.begin() || after == all.end() ? b : after[-1];
+  const double t = b.x > a.x ? (x - a.x) / (b.x - a.x) : 0;
+  return (std::lerp(a.above, b.above, t) - std::lerp(a.below, b.below, t)) / 2;
+}
+
+/// Stretches that are narrower, or wider, than the line is without its own edges are looked at one by one.
+void SideFit::keep_within_widths(std::uint32_t interval, std::vector<Sides>& all) const {
+  const auto without = [&](double x, bool above) { return band_ / 2 + shared_.at(interval, above, x); };
+  const auto change = [&](const Sides& each) {
+    const double more = each.below + each.above - without(each.x, false) - without(each.x, true);
+    return more < -least_change_um ? -1 : more > least_change_um ? 1 : 0;
   };
   for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
-    const int side = side_of_brief(all[first]);
-    while (end < all.size() && side_of_brief(all[end]) == side) ++end;
+    const int side = change(all[first]);
+    while (end < all.size() && change(all[end]) == side) ++end;
     const double from = first > 0 ? std::midpoint(all[first - 1].x, all[first].x) : all[first].x,
                  to = end < all.size() ? std::midpoint(all[end - 1].x, all[end].x) : all[end - 1].x;
-    const WidthRange& range = to - from < widths_.steady_from * band_ ? widths_.brief : widths_.steady;
+    const bool followed = side != 0 && to - from >= widths_.steady_from * band_;
     for (std::size_t i = first; i < end; ++i) {
-      const double width = all[i].below + all[i].above,
-                   more = std::clamp(width, range.least * band_, range.most * band_) - width;
-      all[i].below += more / 2, all[i].above += more / 2;
+      Sides& each = all[i];
+      const double width = each.below + each.above, plain = without(each.x, false) + without(each.x, true),
+                   more = (followed ? std::clamp(width, widths_.least * band_, widths_.most * band_) : plain) - width;
+      each.below += more / 2, each.above += more / 2;
     }
   }
 }
 
 std::vector<Sides> SideFit::of(std::uint32_t interval) const {
   std::vector<Sides> all = both(interval);
-  keep_within_widths(all);
+  keep_within_widths(interval, all);
   return thinned(all);
 }
 

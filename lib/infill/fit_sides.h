@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "infill/scan.h"
+#include "infill/shared_misfit.h"
 
 #include <cstdint>
 #include <optional>
@@ -17,13 +18,10 @@ struct Sides {
 };
 
 /// How wide lines may be, in bands.
-struct WidthRange {
-  double least = 0, most = 1e9;
-};
 struct FitWidths {
-  WidthRange steady;  ///< where they stay narrower or wider than others
-  WidthRange brief;   ///< for less than `steady_from`
-  double steady_from = 0;
+  double least = 0, most = 1e9;
+  double steady_from = 0;  ///< along a line; briefer swings of an edge beside it are not followed
+  int shared_by = 1;       ///< lines that share what a nearly straight edge asks of one
 };
 
 /// Where edges run along the lines of a fill, closer than a neighbour would lie, a line ends at the edge: it covers
@@ -43,8 +41,11 @@ class SideFit {
   /// Whether lines run along the edge, rather than end at it.
   static bool along(Turned a, Turned b);
 
-  /// Whether no edge runs along an interval: it covers half a band on both sides of it.
+  /// Whether no edge concerns an interval: it covers half a band on both sides of it.
   bool is_plain(std::uint32_t interval) const { return !beside_[interval]; }
+
+  /// How far the middle of what an interval covers is above its line.
+  double aside(std::uint32_t interval, double x) const;
 
   /// Corners of what an interval covers, from its left end to its right one, straight between them; two corners or
   /// more.
@@ -68,15 +69,17 @@ class SideFit {
     double x = 0, reach = 0;
   };
   static double reach_at(const Corner& a, const Corner& b, double x);
-  std::vector<Corner> side(const Besides& all, std::uint32_t interval) const;
+  std::vector<Corner> side(bool above, std::uint32_t interval) const;
+  std::vector<SharedMisfit::Edge> straight(const Besides& all) const;
   std::vector<Sides> both(std::uint32_t interval) const;
-  void keep_within_widths(std::vector<Sides>& all) const;
+  void keep_within_widths(std::uint32_t interval, std::vector<Sides>& all) const;
 
   double band_;
   FitWidths widths_;
   std::span<const Interval> intervals_;
   std::vector<bool> beside_;  // by interval
   Besides above_, below_;     // by interval, then from left to right
+  SharedMisfit shared_;
 };
 
 }  // namespace weft::infill

@@ -24,9 +24,10 @@ constexpr double widest_pair = 2.4;       // bands across; wider strips are fill
 constexpr double widest_strand = 1.35;    // bands, of a bead along a strip: one and a half nozzles, of lines of 1.125
 constexpr double narrowest_strand = 0.6;  // bands, of one of two
 constexpr double narrowest_side = 0.25;   // bands, of a line that an edge runs along
-// Where edges run along lines. An extruder that lags by 40 ms at 60 mm/s is after 2.4 mm where it should be: of swings
-// that are shorter, as beside edges that slant, it lays the mean, whatever it is asked for.
-constexpr FitWidths beside_edges{{0.65, widest_strand}, {0.85, 1.15}, 6};
+// Where edges run along lines. An extruder that lags by L = 2 mm, 40 ms at 50 mm/s, errs over 2L(1 − e^(−D/L)) when it
+// is asked for a swing of length D, and over D when it is not: it is better not asked below 1.6 L, seven and a half
+// bands of 0.42 mm.
+constexpr FitWidths beside_edges{.least = 0.65, .most = widest_strand, .steady_from = 7.5, .shared_by = 6};
 constexpr double longest_turn = 2.7;      // bands; shallower edges are run along (fit_sides.h), not turned along
 constexpr double least_left = 0.3;        // bands of a line between its turns; else the turn is as wide as the place
 constexpr double most_lean = 4;           // bands that a narrow strip may lean from line to line and still be one strip
@@ -106,6 +107,7 @@ class Filler {
     width_ = style_.fixed_strand ? style_.band : std::max(1, rounded(lines_.spacing));
     all_ = outline_.cut(lines_);
     if (!style_.fixed_strand) sides_.emplace(outline_, lines_, all_, lines_.spacing, beside_edges);
+    if (sides_) end_where_they_lie();
     left_.reserve(all_.size()), right_.reserve(all_.size());
     for (const Interval& i : all_)
       left_.push_back(i.from - over(i.from_edge)), right_.push_back(i.to + over(i.to_edge));
@@ -127,6 +129,21 @@ class Filler {
         if (--chains.waits_for[waiting] == 0) ready.push_back(waiting);
     }
     end_bead();
+  }
+
+  /// Ends of lines that moved aside follow the edges there.
+  void end_where_they_lie() {
+    const auto along = [&](std::uint32_t i, double x, std::uint32_t edge) {
+      const Turned a = outline_.points()[edge], b = outline_.points()[outline_.next(edge)];
+      return is_along(edge) ? 0 : sides_->aside(i, x) * (b.x - a.x) / (b.y - a.y);
+    };
+    for (std::uint32_t i = 0; i < all_.size(); ++i) {
+      Interval& line = all_[i];
+      if (sides_->is_plain(i)) continue;
+      const double from = line.from + along(i, line.from, line.from_edge),
+                   to = line.to + along(i, line.to, line.to_edge);
+      if (to - from > lines_.spacing) line.from = from, line.to = to;
+    }
   }
 
   /// Lines end where there is room for none, and are none where there is none for them at all.

@@ -234,13 +234,17 @@ TEST_CASE("infill: lines run along walls, also where a longer edge that is no wa
         {{0, 0}, {9000, 0}, {9000, 3000}, {11000, 3000}, {11000, 0}, {20000, 0}, {20000, 9000}, {0, 9000 + slant}}, {}};
     for (const std::size_t layer : {0U, 1U}) {
       const LayerAreas areas = solid_area(turned(area, degrees(angle)));
+      double all = 0, straight = 0;
       for (const Bead& bead : fill({}, {}, input(areas, layer)).beads)
         for (std::size_t i = 1; i < bead.path.size(); ++i) {
           const Point a = bead.path[i - 1].at, b = bead.path[i].at;
-          if (distance(a, b) < 4000) continue;
+          const double length = distance(a, b);
+          if (length < 4000) continue;
           const double lean = std::atan2(b.y - a.y, b.x - a.x) - degrees(angle + (layer == 0 ? 0 : 90));
-          CHECK(std::abs(std::sin(lean)) < 0.004);  // between the edge and the next line one leans half as much
+          CHECK(std::abs(std::sin(lean)) < 0.006);  // no more than the edge that some lines beside it share
+          all += length, straight += std::abs(std::sin(lean)) < 0.0005 ? length : 0;
         }
+      CHECK(straight > all / 2);
     }
   }
 }

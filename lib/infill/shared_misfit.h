@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include "infill/scan.h"
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace weft::infill {
+
+/// A place along a line, and how far something is from where it would be.
+struct Knot {
+  double x = 0, by = 0;
+};
+
+/// Where lines stand on one grid and an edge runs along them, the line beside it has more or less room than the others.
+/// It is not left to be much narrower or wider alone: some lines share that, and move aside by what the ones before
+/// them took. A strand half as wide lies poorly, and an extruder takes millimetres to change by that much.
+class SharedMisfit {
+ public:
+  /// A nearly straight edge along an interval, or a piece of it, and by how much more than half a line it is away.
+  struct Edge {
+    std::uint32_t interval = 0;
+    Knot from, to;
+  };
+
+  SharedMisfit() = default;
+  /// @param intervals on the lines of a fill, by line and then from left to right
+  /// @param ramp      in which lines come back beyond the ends of such an edge
+  /// @param lines     that share at most
+  SharedMisfit(std::span<const Interval> intervals, double ramp, int lines);
+
+  /// Shares what edges on one side of the lines ask for, given by interval and then from left to right.
+  /// @param above that side
+  void share(std::span<const Edge> edges, bool above);
+  /// Call after the last `share`.
+  void finish();
+
+  /// Whether an interval has its part of something.
+  bool concerns(std::uint32_t interval) const { return !of_[0].empty() && (has(0, interval) || has(1, interval)); }
+
+  /// How much farther than half a line one side of an interval reaches, at the places strictly between two where that
+  /// bends, and at these.
+  std::vector<Knot> along(std::uint32_t interval, bool above, double from, double to) const;
+  double at(std::uint32_t interval, bool above, double x) const { return along(interval, above, x, x).front().by; }
+
+ private:
+  /// A side of an interval is moved by a share of a profile.
+  struct Moved {
+    std::uint32_t interval = 0, profile = 0;
+    double share = 0;
+  };
+  using Profile = std::vector<Knot>;
+
+  bool has(std::size_t side, std::uint32_t interval) const;
+  std::vector<std::uint32_t> sharers(std::uint32_t interval, double from, double to, bool above) const;
+  std::pair<std::uint32_t, std::uint32_t> on_line(int line) const;
+
+  std::span<const Interval> intervals_;
+  double ramp_ = 0;
+  int lines_ = 1;
+  std::vector<Profile> profiles_;
+  std::vector<Moved> of_[2];  // sides below and above, by interval
+};
+
+}  // namespace weft::infill
