@@ -288,9 +288,9 @@ Mask::Grown Mask::grown_rows(Rows of, int cells, bool outside) const {
 template <class F>
 void Mask::Grown::for_each_word(std::size_t row, F&& f) const {
   const std::size_t part = reach % 64;
-  const Word* const from = &words[row * stride + before - reach / 64];
-  for (std::size_t i = 0; i + before < stride; ++i)
-    f(i, part == 0 ? from[i] : from[i] << part | from[i - 1] >> (64 - part));
+  const Word* from = &words[row * stride + before - reach / 64];
+  for (std::size_t i = 0; i + before < stride; ++i, ++from)
+    f(i, part == 0 ? *from : *from << part | *(from - 1) >> (64 - part));
 }
 
 Mask Mask::grown(int cells) const {
