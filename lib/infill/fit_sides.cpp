@@ -200,20 +200,14 @@ std::optional<std::pair<double, double>> SideFit::with_room(std::uint32_t interv
                    last + 1 == all.end() ? last->x : between(last[1], *last)};
 }
 
-double SideFit::aside(std::uint32_t interval, double x) const {
-  const std::vector<Sides> all = both(interval);
-  const auto after = std::find_if(all.begin(), all.end(), [x](const Sides& each) { return each.x >= x; });
-  const Sides &b = after == all.end() ? all.back() : *after,
-              &a = after == all.begin() || after == all.end() ? b : after[-1];
-  const double t = b.x > a.x ? (x - a.x) / (b.x - a.x) : 0;
-  return (std::lerp(a.above, b.above, t) - std::lerp(a.below, b.below, t)) / 2;
-}
-
 /// Stretches that are narrower, or wider, than the line is without its own edges are looked at one by one.
 void SideFit::keep_within_widths(std::uint32_t interval, std::vector<Sides>& all) const {
-  const auto without = [&](double x, bool above) { return band_ / 2 + shared_.at(interval, above, x); };
+  const bool shares = shared_.concerns(interval);
+  const auto plain = [&](double x) {
+    return shares ? band_ + shared_.at(interval, false, x) + shared_.at(interval, true, x) : band_;
+  };
   const auto change = [&](const Sides& each) {
-    const double more = each.below + each.above - without(each.x, false) - without(each.x, true);
+    const double more = each.below + each.above - plain(each.x);
     return more < -least_change_um ? -1 : more > least_change_um ? 1 : 0;
   };
   for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
@@ -224,8 +218,9 @@ void SideFit::keep_within_widths(std::uint32_t interval, std::vector<Sides>& all
     const bool followed = side != 0 && to - from >= widths_.steady_from * band_;
     for (std::size_t i = first; i < end; ++i) {
       Sides& each = all[i];
-      const double width = each.below + each.above, plain = without(each.x, false) + without(each.x, true),
-                   more = (followed ? std::clamp(width, widths_.least * band_, widths_.most * band_) : plain) - width;
+      const double width = each.below + each.above,
+                   more = (followed ? std::clamp(width, widths_.least * band_, widths_.most * band_) : plain(each.x)) -
+                          width;
       each.below += more / 2, each.above += more / 2;
     }
   }

@@ -44,8 +44,13 @@ class SideFit {
   /// Whether no edge concerns an interval: it covers half a band on both sides of it.
   bool is_plain(std::uint32_t interval) const { return !beside_[interval]; }
 
-  /// How far the middle of what an interval covers is above its line.
-  double aside(std::uint32_t interval, double x) const;
+  /// Whether an interval is moved, or wider or narrower, for the sake of others.
+  bool shares(std::uint32_t interval) const { return shared_.concerns(interval); }
+
+  /// How far a line is moved up where it shares what an edge asks of another.
+  double aside(std::uint32_t interval, double x) const {
+    return (shared_.at(interval, true, x) - shared_.at(interval, false, x)) / 2;
+  }
 
   /// Corners of what an interval covers, from its left end to its right one, straight between them; two corners or
   /// more.

@@ -112,8 +112,10 @@ class Directions {
 
  private:
   double own(const SolidStyle& style, const Region& region) const {
-    if (style.turned && !shells_.skin_angle)
+    if (style.turned && !shells_.skin_angle) {
       if (const auto along = angle_along_strip(region, style.band)) return *along;
+      if (const auto along = angle_along_narrow(region, style.band)) return nearly_across(region, style.band, *along);
+    }
     const double turn = style.turned && input_.index % 2 == 1 ? radians(90) : 0;
     return turn + (shells_.skin_angle ? radians(*shells_.skin_angle) : angle_along_walls(region).value_or(radians(45)));
   }

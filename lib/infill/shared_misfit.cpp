@@ -72,25 +72,30 @@ void SharedMisfit::finish() {
     std::stable_sort(side.begin(), side.end(), [](const Moved& a, const Moved& b) { return a.interval < b.interval; });
 }
 
-bool SharedMisfit::has(std::size_t side, std::uint32_t interval) const {
-  const auto it = std::lower_bound(of_[side].begin(), of_[side].end(), interval,
-                                   [](const Moved& each, std::uint32_t i) { return each.interval < i; });
-  return it != of_[side].end() && it->interval == interval;
+std::span<const SharedMisfit::Moved> SharedMisfit::of(std::uint32_t interval, bool above) const {
+  const std::vector<Moved>& side = of_[above];
+  const auto first = std::lower_bound(side.begin(), side.end(), interval,
+                                      [](const Moved& each, std::uint32_t i) { return each.interval < i; });
+  auto last = first;
+  while (last != side.end() && last->interval == interval) ++last;
+  return std::span(first, last);
+}
+
+double SharedMisfit::at(std::uint32_t interval, bool above, double x) const {
+  double by = 0;
+  for (const Moved& each : of(interval, above)) by += each.share * height_at(profiles_[each.profile], x);
+  return by;
 }
 
 std::vector<Knot> SharedMisfit::along(std::uint32_t interval, bool above, double from, double to) const {
-  const std::vector<Moved>& side = of_[above];
-  auto first = std::lower_bound(side.begin(), side.end(), interval,
-                                [](const Moved& each, std::uint32_t i) { return each.interval < i; });
-  auto last = first;
-  while (last != side.end() && last->interval == interval) ++last;
+  const std::span<const Moved> moved = of(interval, above);
   std::vector<Knot> out{{from, 0}, {to, 0}};
-  for (auto each = first; each != last; ++each)
-    for (const Knot& knot : profiles_[each->profile])
+  if (moved.empty()) return out;
+  for (const Moved& each : moved)
+    for (const Knot& knot : profiles_[each.profile])
       if (knot.x > from && knot.x < to) out.push_back({knot.x, 0});
   std::sort(out.begin(), out.end(), [](const Knot& a, const Knot& b) { return a.x < b.x; });
-  for (Knot& knot : out)
-    for (auto each = first; each != last; ++each) knot.by += each->share * height_at(profiles_[each->profile], knot.x);
+  for (Knot& knot : out) knot.by = at(interval, above, knot.x);
   return out;
 }
 

@@ -38,12 +38,14 @@ class SharedMisfit {
   void finish();
 
   /// Whether an interval has its part of something.
-  bool concerns(std::uint32_t interval) const { return !of_[0].empty() && (has(0, interval) || has(1, interval)); }
+  bool concerns(std::uint32_t interval) const {
+    return !of_[0].empty() && !(of(interval, false).empty() && of(interval, true).empty());
+  }
 
   /// How much farther than half a line one side of an interval reaches, at the places strictly between two where that
   /// bends, and at these.
   std::vector<Knot> along(std::uint32_t interval, bool above, double from, double to) const;
-  double at(std::uint32_t interval, bool above, double x) const { return along(interval, above, x, x).front().by; }
+  double at(std::uint32_t interval, bool above, double x) const;
 
  private:
   /// A side of an interval is moved by a share of a profile.
@@ -53,7 +55,7 @@ class SharedMisfit {
   };
   using Profile = std::vector<Knot>;
 
-  bool has(std::size_t side, std::uint32_t interval) const;
+  std::span<const Moved> of(std::uint32_t interval, bool above) const;
   std::vector<std::uint32_t> sharers(std::uint32_t interval, double from, double to, bool above) const;
   std::pair<std::uint32_t, std::uint32_t> on_line(int line) const;
 

@@ -135,11 +135,11 @@ class Filler {
   void end_where_they_lie() {
     const auto along = [&](std::uint32_t i, double x, std::uint32_t edge) {
       const Turned a = outline_.points()[edge], b = outline_.points()[outline_.next(edge)];
-      return is_along(edge) ? 0 : sides_->aside(i, x) * (b.x - a.x) / (b.y - a.y);
+      return is_along(edge) || a.x == b.x ? 0 : sides_->aside(i, x) * (b.x - a.x) / (b.y - a.y);
     };
     for (std::uint32_t i = 0; i < all_.size(); ++i) {
       Interval& line = all_[i];
-      if (sides_->is_plain(i)) continue;
+      if (!sides_->shares(i)) continue;
       const double from = line.from + along(i, line.from, line.from_edge),
                    to = line.to + along(i, line.to, line.to_edge);
       if (to - from > lines_.spacing) line.from = from, line.to = to;

@@ -20,6 +20,11 @@ double edge_um(const Region& region) {
   return um;
 }
 
+/// Whether an area is on the mean no wider than some lines.
+bool is_narrow(const Region& region, Um band) {
+  return 2e6 * area_mm2(region) <= widest_strip * band * edge_um(region);
+}
+
 /// The direction (against X) that an edge has on the mean, weighted by the square of its parts' lengths: ends that
 /// slant do not turn it. And the share of its length that runs one way, less what runs across.
 struct EdgeDirection {
@@ -120,9 +125,13 @@ std::optional<double> angle_along_walls(const Region& region) {
 
 std::optional<double> angle_along_strip(const Region& region, Um band) {
   constexpr double straight = 0.8;  // of the edge
-  if (2e6 * area_mm2(region) > widest_strip * band * edge_um(region)) return std::nullopt;
+  if (!is_narrow(region, band)) return std::nullopt;
   const EdgeDirection edge = direction_of_edge(region);
   return edge.share < straight ? std::nullopt : std::optional(edge.angle_rad);
+}
+
+std::optional<double> angle_along_narrow(const Region& region, Um band) {
+  return is_narrow(region, band) ? angle_of_axis(region, band) : std::nullopt;
 }
 
 std::optional<double> angle_of_long_lines(const Region& region, double angle_rad) {

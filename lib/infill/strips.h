@@ -27,6 +27,10 @@ std::optional<double> angle_along_walls(const Region& region);
 /// between each two, on every second layer.
 std::optional<double> angle_along_strip(const Region& region, Um band);
 
+/// The direction (against X) of the longer axis of an area no wider than some lines that is longer than wide, and
+/// nearly straight, whichever way its edge runs: lines along it are the fewest, and the longest.
+std::optional<double> angle_along_narrow(const Region& region, Um band);
+
 /// Of lines that run that way and of those across the ones that have no more than half as many ends, where either has.
 std::optional<double> angle_of_long_lines(const Region& region, double angle_rad);
 

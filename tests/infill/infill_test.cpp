@@ -249,6 +249,29 @@ TEST_CASE("infill: lines run along walls, also where a longer edge that is no wa
   }
 }
 
+TEST_CASE(
+    "infill: lines of a narrow area run along it, whichever way its edge runs, and along walls that run nearly so",
+    "[infill]") {
+  const double angle = GENERATE(0.0, 20.0, 65.0);
+  const std::size_t layer = GENERATE(0U, 1U);
+  CAPTURE(angle, layer);
+  const auto lean_of = [&](const Region& area) {  // of the longest line, against the area's own direction
+    const LayerAreas areas = solid_area(turned(area, degrees(angle)));
+    double longest = 0, lean = 0;
+    for (const Bead& bead : fill({}, {}, input(areas, layer)).beads)
+      for (std::size_t i = 1; i < bead.path.size(); ++i) {
+        const Point a = bead.path[i - 1].at, b = bead.path[i].at;
+        if (distance(a, b) <= longest) continue;
+        longest = distance(a, b), lean = std::atan2(b.y - a.y, b.x - a.x) - degrees(angle);
+      }
+    REQUIRE(longest > 0);
+    return std::abs(std::sin(lean));
+  };
+  // an arrowhead, and one that a wall runs along at 6°
+  CHECK(lean_of({{{0, 0}, {1500, -600}, {3600, -250}, {3600, 250}, {1500, 600}}, {}}) < 0.05);
+  CHECK(lean_of({{{0, 0}, {4000, 420}, {3000, 1100}, {1500, 1300}, {600, 900}}, {}}) < 0.2);
+}
+
 TEST_CASE("infill: lines run along straight walls, however long round ones are", "[infill]") {
   const auto pierced = [](int corners) {
     Region area = rectangle(0, 0, 16000, 16000);
