@@ -43,11 +43,13 @@ struct Run {
   double in_air_um = 0;  ///< ∫ share of the width that lies over air
   Level level = 0;
   bool strand = false;
+  double around_um = 0;  ///< how much further it goes behind the seam of a loop
 };
 
 void add(const Run& run, std::vector<Run>& runs) {
   if (!runs.empty() && runs.back().level == run.level)
-    runs.back().to = run.to, runs.back().length_um += run.length_um, runs.back().in_air_um += run.in_air_um;
+    runs.back().to = run.to, runs.back().length_um += run.length_um, runs.back().in_air_um += run.in_air_um,
+    runs.back().around_um += run.around_um;
   else
     runs.push_back(run);
 }
@@ -110,7 +112,20 @@ std::vector<Run> runs_of(const std::vector<Junction>& path, Air& air) {
 }
 
 bool is_short(const Run& run) {
-  return run.length_um < (run.level == whole ? shortest_whole_um : shortest_um);
+  return run.length_um + run.around_um < (run.level == whole ? shortest_whole_um : shortest_um);
+}
+
+/// Whether what lies at a bead's end goes on at its beginning.
+bool is_loop(const Extrude& bead) {
+  return bead.loop_length > 0 || bead.path.front().at == bead.path.back().at;
+}
+
+/// The runs of a loop's two ends are one where they lie in one way: a seam makes neither of them short.
+std::vector<Run> joined_around(std::vector<Run> runs) {
+  if (runs.size() < 2 || runs.front().level != runs.back().level) return runs;
+  runs.front().around_um = runs.back().length_um;
+  runs.back().around_um = runs.front().length_um;
+  return runs;
 }
 
 int unlike(const Run& a, const Run& b) {
@@ -206,7 +221,7 @@ bool holds(const Run& beside) {
 void find_strands(const Extrude& bead, const Strand& strand, std::vector<Run>& runs) {
   const std::size_t count = runs.size();
   if (count < 2) return;
-  const bool round = bead.loop_length > 0 || bead.path.front().at == bead.path.back().at;
+  const bool round = is_loop(bead);
   const bool joined = round && runs.front().level == whole && runs.back().level == whole;
   const Um within = strand.nozzle / 2;
   for (std::size_t i = 0; i < count; ++i) {
@@ -266,7 +281,9 @@ void mark(std::span<const Strand> strands, Regions over_air, LayerPlan& layer) {
       Um widest = 0;
       for (const Junction& j : bead->path) box.add(j.at), widest = std::max(widest, j.width);
       if (air.near(box, widest / 2)) {
-        auto runs = without_short(with_short_ones_joined(runs_of(bead->path, air)));
+        auto found = runs_of(bead->path, air);
+        if (is_loop(*bead)) found = joined_around(std::move(found));
+        auto runs = without_short(with_short_ones_joined(found));
         if (runs.size() > 1 || (runs.size() == 1 && runs[0].level > 0)) {
           if (is_wall(bead->role)) find_strands(*bead, strand, runs);
           cut(*bead, runs, strand, steps);

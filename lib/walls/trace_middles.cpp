@@ -284,6 +284,14 @@ class Tracer {
     return std::max(0.0, std::max(r, l) + std::clamp(std::abs(r - l), least_within_um, within_um));
   }
 
+  /// The half after h around what is further than `inner` from the outline: where that ends, it turns back. Other parts
+  /// are as thick again behind necks, and have beads of their own.
+  std::uint32_t around_dot(std::uint32_t h, double inner) const {
+    std::uint32_t g = s_.end(h).clearance < inner ? Skeleton::twin(h) : s_.halves[h].next;
+    while (laying_.spans[g / 2].core) g = s_.halves[Skeleton::twin(g)].next;
+    return g;
+  }
+
   /// What is as long as it is wide, a part or the middle of one.
   void dot(std::uint32_t start) {
     std::vector<Place> ring;
@@ -292,7 +300,7 @@ class Tracer {
     const double inner = laying_.start(start)[pairs];
     do {
       add_piece(h, inner, ring);
-      h = s_.halves[h].next;
+      h = around_dot(h, inner);
     } while (h != start);
     Line line;
     line.inset = static_cast<int>(pairs);

@@ -110,6 +110,21 @@ TEST_CASE("overhangs: a seam in the middle of a lintel does not take its end fro
   CHECK(is_strand(pieces[2]));
 }
 
+TEST_CASE("overhangs: what hangs is told as well where the seam is near to it", "[overhangs]") {
+  const Regions window{rectangle(10000, -1000, 11100, 2000)};
+  for (const bool behind : {false, true}) {  // the loop begins on what is left to either side of it
+    const Point seam{behind ? 11700 : 9400, 0};
+    const Extrude loop = wall({seam, {30000, 0}, {30000, 10000}, {0, 10000}, {0, 0}}, true);
+    const auto pieces = marked({loop}, window);
+    check_whole(loop, pieces);
+    REQUIRE(pieces.size() == 3);
+    CHECK(pieces[0].air_quarters == 0);
+    CHECK(pieces[1].role == Role::overhang_wall);
+    CHECK(length_of(pieces[1]) == Approx(1.1).margin(0.06));
+    CHECK(pieces[2].air_quarters == 0);
+  }
+}
+
 TEST_CASE("overhangs: a shelf is held at one end, and what turns over air at none: both stay walls", "[overhangs]") {
   const Regions beyond{rectangle(10000, -5000, 40000, 15000)};
   SECTION("an open wall that ends in the air") {

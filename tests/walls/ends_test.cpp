@@ -310,6 +310,27 @@ TEST_CASE("walls: a part hardly longer than wide gets one straight bead of its v
   }
 }
 
+TEST_CASE("walls: the middle of a lug is filled there alone, whatever lies behind its neck", "[walls]") {
+  WallSettings settings = by_volume();
+  settings.wall_line_count = 3;
+  settings.wall_line_width_0 = settings.wall_line_width_x = 0.45_mm;
+  int dots = 0;
+  for (Um radius = 1100; radius <= 1200; radius += 5) {
+    Ring ring{{10000, 200}, {10000, 10000}, {-10000, 10000}, {-10000, -10000}, {10000, -10000}, {10000, -200}};
+    Ring lug = circle({11000 + radius, 0}, radius, 24);
+    std::erase_if(lug, [](Point p) { return p.x < 11200; });
+    std::rotate(lug.begin(), std::find_if(lug.begin(), lug.end(), [](Point p) { return p.y < 0; }), lug.end());
+    ring.insert(ring.end(), lug.begin(), lug.end());
+    CAPTURE(radius);
+    for (const Bead& bead : built({{ring, {}}}, settings).beads) {
+      if (bead.closed || bead.inset != 2) continue;
+      ++dots;
+      for (const Junction& j : bead.path) CHECK(j.at.x > 11000);
+    }
+  }
+  CHECK(dots > 0);
+}
+
 TEST_CASE("walls: the bead of a part a little longer than wide reaches its ends", "[walls]") {
   // A bead along the axis, which ends before a round end does, left 1.9 to 3.6 % bare.
   for (const int corners : {5, 9, 40}) {
