@@ -2,6 +2,7 @@
 #include "infill/bridges.h"
 
 #include "core/stop.h"
+#include "geometry/boolean.h"
 #include "geometry/offset.h"
 #include "infill/scan.h"
 #include "infill/strips.h"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
 
 namespace weft::infill {
@@ -82,6 +84,80 @@ std::optional<double> stands_out_by(Turned end, double along, const Frame& frame
   return std::nullopt;
 }
 
+/// The infill that strands over areas lie on, without its joints: those turn along the edge of the sparse area, not of
+/// these.
+Beads infill_below(const Regions& areas, SparseStyle style) {
+  style.connect = false;
+  Beads out;
+  for (const Region& area : areas) fill_sparse(area, style, out);
+  return out;
+}
+
+/// How far a strand goes on at most for something to lie on: three distances of lines that are all parallel. Those of
+/// most patterns are met sooner.
+double reach_um(const SparseStyle& below) {
+  return 3 * below.band / below.density;
+}
+
+bool is_beside_open(const Region& area, const OverSparse& around) {
+  return Mask(around.open.grid(), {&area, 1}).grown(1).meets(around.open);
+}
+
+/// The infill below the area and around it, as far as strands may go on.
+Beads infill_around(const Region& area, const SparseStyle& below) {
+  return infill_below(geometry::offset({area}, {.by = rounded(reach_um(below))}), below);
+}
+
+bool by_line(const Crossing& a, const Crossing& b) {
+  return a.line < b.line;
+}
+
+/// A strand in the frame of its direction.
+struct Strand {
+  double y = 0, from = 0, to = 0;
+};
+
+/// The way on from an end of a strand to what holds it.
+struct Going {
+  double along = 0;  ///< −1: from its first end on, 1: from its last
+  double by = 0;
+};
+
+/// How far on from an end the nearest thing is to lie on.
+std::optional<double> way_on(const Strand& strand, double along, std::span<const Crossing> holds, const Frame& frame,
+                             const OverSparse& around) {
+  const double end = along < 0 ? strand.from : strand.to;
+  const double reach = reach_um(around.below);
+  double nearest = reach;
+  for (const Crossing& c : holds)
+    if (const double by = along * (c.x - end); by >= 0) nearest = std::min(nearest, by);
+  const double cell = around.open.grid().cell;
+  for (double by = cell; by < nearest; by += cell) {
+    const Point p = frame.back({end + along * by, strand.y});
+    if (!around.hanging.at(p) && !around.open.at(p)) return by;
+  }
+  return nearest < reach ? std::optional(nearest) : std::nullopt;
+}
+
+/// The ends at which a strand must go on to lie on two things, the nearer first.
+std::vector<Going> missing_ends(const Strand& strand, std::span<const Crossing> holds, const Frame& frame,
+                                const OverSparse& around) {
+  constexpr int enough = 2;
+  int held = static_cast<int>(std::count_if(holds.begin(), holds.end(),
+                                            [&](const Crossing& c) { return c.x > strand.from && c.x < strand.to; }));
+  std::vector<Going> free;
+  for (const double along : {-1.0, 1.0}) {
+    const Turned end{along < 0 ? strand.from : strand.to, strand.y};
+    if (!stands_out_by(end, along, frame, around))
+      ++held;
+    else if (const auto by = way_on(strand, along, holds, frame, around))
+      free.push_back({along, *by});
+  }
+  if (free.size() == 2 && free[1].by < free[0].by) std::swap(free[0], free[1]);
+  free.resize(std::min(free.size(), static_cast<std::size_t>(std::max(0, enough - held))));
+  return free;
+}
+
 /// How strands of one direction hang between lines of infill.
 struct Ways {
   double angle_rad = 0;
@@ -106,53 +182,75 @@ Ways ways_of(const Regions& areas, const OverSparse& around, const Beads& held_b
     if (stands) length *= stands_out;
     cubes += std::pow(length, 3), fourths += std::pow(length, 4);
   };
-  auto at = met.begin();
-  int line = -1;
   for (const Interval& i : outline.cut(lines)) {
-    if (i.line != line)
-      line = i.line, at = std::find_if(at, met.end(), [&](const Crossing& c) { return c.line >= line; });
-    const double y = lines.y(line);
-    const auto first = stands_out_by({i.from, y}, -1, frame, around), last = stands_out_by({i.to, y}, 1, frame, around);
-    double from = i.from - first.value_or(0);
+    const auto [begin, end] = std::equal_range(met.begin(), met.end(), Crossing{i.line, 0}, by_line);
+    Strand strand{lines.y(i.line), i.from, i.to};
+    auto first = stands_out_by({strand.from, strand.y}, -1, frame, around);
+    auto last = stands_out_by({strand.to, strand.y}, 1, frame, around);
+    for (const Going& on : missing_ends(strand, {begin, end}, frame, around)) {
+      (on.along < 0 ? strand.from : strand.to) += on.along * on.by;
+      (on.along < 0 ? first : last).reset();
+    }
+    double from = strand.from - first.value_or(0);
     bool stands = first.has_value();
-    for (; at != met.end() && at->line == line && at->x < i.to; ++at)
+    for (auto at = begin; at != end && at->x < strand.to; ++at)
       if (at->x > from) span(at->x - from, std::exchange(stands, false)), from = at->x;
-    span(i.to + last.value_or(0) - from, stands || last);
+    span(strand.to + last.value_or(0) - from, stands || last);
   }
   return {angle_rad, cubes > 0 ? fourths / cubes : 0, all > 0 ? free / all : 0};
 }
 
 }  // namespace
 
-std::optional<double> internal_bridge_angle_rad(const Region& area, const OverSparse& around, const SparseStyle& below,
-                                                Um nozzle, bool narrow) {
+std::optional<double> internal_bridge_angle_rad(const Region& area, const OverSparse& around, Um nozzle, bool narrow) {
   constexpr int directions = 18;
   constexpr double short_way = 3;    // strands: lines that hang no further in any direction do not sag
   constexpr double clearly = 0.8;    // of a span, so 0.4 of its sag: else the first direction stays
   constexpr double most_free = 0.5;  // of the strands' length: more ends over nothing
   const auto along = angle_of_axis(area, narrow ? std::optional<double>(nozzle) : std::nullopt);
   if (narrow && !along) return std::nullopt;
-  Beads infill;
-  SparseStyle lines = below;
-  lines.connect = false;  // its lines turn along the edge of the sparse area, not of this one
-  fill_sparse(area, lines, infill);
+  Beads infill = infill_below({area}, around.below);
+  if (infill.empty() && is_beside_open(area, around)) infill = infill_around(area, around.below);
   // A strand beside the edge, where no line of the infill ends yet, lies on what holds the edge.
   Regions inner = geometry::offset({area}, {.by = -2 * nozzle});
   if (inner.empty()) inner = {area};
   const auto ways_at = [&](double angle) { return ways_of(inner, around, infill, angle); };
-  Ways best = ways_at(along.value_or(below.angle_rad));
+  Ways best = ways_at(along.value_or(around.below.angle_rad));
   const bool sags = best.mean_um > short_way * nozzle, held = best.free_share <= most_free;
   if (narrow || (along && held && sags && best.mean_um <= easy_span * nozzle))
     return held && sags ? std::optional(best.angle_rad) : std::nullopt;
   double most_um = best.mean_um;
   for (int d = along ? 0 : 1; d < directions; ++d) {
     stop_if_asked();
-    const Ways ways = ways_at(below.angle_rad + d * std::numbers::pi / directions);
+    const Ways ways = ways_at(around.below.angle_rad + d * std::numbers::pi / directions);
     if (ways.mean_um < clearly * best.mean_um) best = ways;
     most_um = std::max(most_um, ways.mean_um);
   }
   if (most_um <= short_way * nozzle) return std::nullopt;
   return best.angle_rad;
+}
+
+Regions up_to_holds(const Region& area, double angle_rad, const OverSparse& around, double line) {
+  if (!is_beside_open(area, around)) return {};
+  const Frame frame(angle_rad, area.outer.front());
+  const Outline outline(area, frame);
+  const double height = outline.greatest_y() - outline.least_y();
+  const int count = std::max(1, static_cast<int>(height / line));
+  const LineSet strands{outline.least_y() + height / count / 2, height / count, count};
+  const auto holds = crossings(infill_around(area, around.below), frame, strands);
+  Regions out;
+  for (const Interval& i : outline.cut(strands)) {
+    const Strand strand{strands.y(i.line), i.from, i.to};
+    const auto [first, last] = std::equal_range(holds.begin(), holds.end(), Crossing{i.line, 0}, by_line);
+    for (const Going& end : missing_ends(strand, {first, last}, frame, around)) {
+      const double from = end.along < 0 ? i.from : i.to, to = from + end.along * (end.by + line);
+      const double low = strand.y - strands.spacing / 2, high = strand.y + strands.spacing / 2;
+      out.push_back({{frame.back({std::min(from, to), low}), frame.back({std::max(from, to), low}),
+                      frame.back({std::max(from, to), high}), frame.back({std::min(from, to), high})},
+                     {}});
+    }
+  }
+  return geometry::unite(out);
 }
 
 std::optional<Held> held_over(const Regions& gaps, const Mask& below) {

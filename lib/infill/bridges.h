@@ -27,16 +27,23 @@ std::optional<Held> held_over(const Regions& gaps, const Mask& below);
 struct OverSparse {
   const Mask& hanging;
   const Mask& open;
+  const SparseStyle& below;
 };
 
-/// The direction in which strands over the sparse infill below `area` span the shortest free ways from line to line.
-/// What is around the area holds them too, but where it is open: a strand that ends there stands out from the last
-/// line. Along the area, where it has a direction, unless another is clearly better. Nothing where no way is long in
-/// any direction: there ordinary lines do.
+/// The direction in which strands over the sparse infill below `area` span the shortest free ways from line to line,
+/// with those that `up_to_holds` lets go on. What is around the area holds them too, but where it is open: a strand
+/// that ends there stands out from the last line. Along the area, where it has a direction, unless another is clearly
+/// better. Nothing where no way is long in any direction: there ordinary lines do.
 /// @param nozzle diameter
 /// @param narrow strands across it would be dabs: they run along it and are held at both ends, or there are none
 /// Cost: the infill of the area, and up to 19 scans of it.
-std::optional<double> internal_bridge_angle_rad(const Region& area, const OverSparse& around, const SparseStyle& below,
-                                                Um nozzle, bool narrow);
+std::optional<double> internal_bridge_angle_rad(const Region& area, const OverSparse& around, Um nozzle, bool narrow);
+
+/// Where strands over sparse infill must go on so that each lies on two things at least: on lines of that infill, or on
+/// what is around the area and not open. Along those that do not, beyond their ends; one that finds nothing stays.
+/// Post: strips of whole strands, with a line's width of what each comes to lie on.
+/// @param line width of a strand, µm
+/// Cost: nothing for an area that nothing open is beside; else the infill around it, and a scan.
+Regions up_to_holds(const Region& area, double angle_rad, const OverSparse& around, double line);
 
 }  // namespace weft::infill

@@ -126,13 +126,16 @@ void find_internal_bridges(const ShellSettings& settings, const HangingLayer& la
   if (!hanging.any()) return;
   const Mask wide = hanging.opened(cells(narrow_over_infill / 2 * layer.line, grid));
   const Mask open = kinds.sparse ? *kinds.sparse & *sparse : Mask(grid);
+  const OverSparse around{hanging, open, below};
   for (const Region& outline : regions_of(hanging)) {
     stop_if_asked();
     const bool narrow = !Mask(grid, {&outline, 1}).meets(wide);
-    std::optional<double> angle = internal_bridge_angle_rad(outline, {hanging, open}, below, layer.nozzle, narrow);
+    std::optional<double> angle = internal_bridge_angle_rad(outline, around, layer.nozzle, narrow);
     if (!angle) continue;
     if (settings.bridge_angle) angle = *settings.bridge_angle * std::numbers::pi / 180;
     Mask bridge = anchored(outline, *angle, settings.bridge_anchor, layer.line, grid) & kinds.solid;
+    if (const Regions beyond = up_to_holds(outline, *angle, around, layer.line); !beyond.empty())
+      bridge |= Mask(grid, beyond) & kinds.inside;
     // Strips that its anchors leave of the solid beside it would be slivers along their ends.
     const Mask rest = kinds.solid - bridge;
     if (rest.any())

@@ -23,8 +23,8 @@ void find_bridges(const ShellSettings& settings, const HangingLayer& layer, cons
                   Kinds& kinds);
 
 /// Solid over sparse infill hangs from line to line of it: strands run along a straight area whose spans are easy, else
-/// across the shortest free spans. What is narrow is a bridge only along, with strands that both ends hold: shreds
-/// across it, or along a bend, would hang no better than the lines beside them.
+/// across the shortest free spans, and each lies on two things. What is narrow is a bridge only along, with strands
+/// that both ends hold: shreds across it, or along a bend, would hang no better than the lines beside them.
 /// @param below, sparse  the infill of the layer below, and where it is
 void find_internal_bridges(const ShellSettings& settings, const HangingLayer& layer, const SparseStyle& below,
                            const std::optional<Mask>& sparse, Kinds& kinds);

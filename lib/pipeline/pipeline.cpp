@@ -137,18 +137,27 @@ void name_custom_code(const GcodeSettings& g, audit::Check& check) {
   check.custom_code("machine_end_gcode", g.machine_end_gcode);
 }
 
+/// What to do about a model of which nothing is printed.
+const char* hint_for_nothing(Point3 size) {
+  constexpr Um flat = 10;       // thinner than any slicer's bead or layer
+  constexpr Um small = 10'000;  // a part of 10 m, or of 25 cm, drawn in metres or in inches
+  if (std::min({size.x, size.y, size.z}) < flat)
+    return "it is a surface and no body: give it a thickness where it is drawn";
+  if (std::max({size.x, size.y, size.z}) < small)
+    return "is it drawn in metres or inches? --scale 1000 or --scale 25.4";
+  return "no bead of its settings fits into it: look at layer_height, wall_line_count, line widths and xy_offset";
+}
+
 /// A job that prints nothing is not done: a model in metres, or thinner than a layer, would pass every check.
 void refuse_emptiness(const std::string& name, const Box3& box, const std::vector<PrintedLayers>& layers) {
   for (const auto& object : layers)
     for (const auto& layer : object)
       if (!layer.beads.empty()) return;
   const auto size = box.size();
-  throw Error{
-      Error::Kind::model,
-      fmt::format("holds nothing to print: it is {:.3f} × {:.3f} × {:.3f} mm", to_mm(size.x), to_mm(size.y),
-                  to_mm(size.z)),
-      name,
-      "is it drawn in metres or inches? --scale 1000 or --scale 25.4; else look at layer_height and wall_line_count"};
+  throw Error{Error::Kind::model,
+              fmt::format("holds nothing to print: it is {:.3f} × {:.3f} × {:.3f} mm", to_mm(size.x), to_mm(size.y),
+                          to_mm(size.z)),
+              name, hint_for_nothing(size)};
 }
 
 /// What is printed, and what it is called.

@@ -136,6 +136,21 @@ TEST_CASE("slice: what is wrong with the input is told with place and status, an
   }
 }
 
+TEST_CASE("slice: a model of which nothing is printed is refused, and why is told by its size") {
+  Scratch scratch;
+  scratch.write("cube.stl", box_stl(10, 10, 2));
+  scratch.write("sheet.stl", box_stl(10, 0, 2));
+  const auto refusal = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "slice"), words.insert(words.end(), {"-o", "out.gcode"});
+    const auto run = weft(words, scratch.path());
+    CHECK(run.status == 4);
+    return run.err;
+  };
+  CHECK_THAT(refusal({"cube.stl", "--scale", "0.01"}), Contains("metres or inches"));
+  CHECK_THAT(refusal({"cube.stl", "-s", "xy_offset=-5"}), Contains("xy_offset"));
+  CHECK_THAT(refusal({"sheet.stl"}), Contains("it is a surface"));
+}
+
 TEST_CASE("slice: an output that cannot be written is status 6") {
   Scratch scratch;
   scratch.write("cube.stl", box_stl(10, 10, 1));

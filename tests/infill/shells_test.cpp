@@ -459,6 +459,34 @@ TEST_CASE("shells: solid over sparse infill is a bridge across the lines of the 
   for (const std::size_t other : {3U, 17U, 18U, 19U}) CHECK(bridged(areas[other]) == 0);
 }
 
+TEST_CASE("shells: a patch of solid between two lines of the infill goes on to them", "[infill]") {
+  // below a pit of 1.5 mm; lines along one axis are 4 mm apart
+  const Um at = GENERATE(12000, 13000, 14000, 15000);
+  CAPTURE(at);
+  std::vector<Regions> outlines(20, {rectangle(0, 0, 30000, 30000)});
+  const Regions pit{rectangle(at, at, at + 1500, at + 1500)};
+  for (std::size_t i = 16; i < outlines.size(); ++i) outlines[i] = geometry::subtract(outlines[i], pit);
+  const Object block(outlines);
+  InfillSettings infill;
+  infill.infill_pattern = InfillPattern::lines;
+  infill.infill_sparse_density = 10, infill.infill_angle = 0;
+  const auto areas = block.areas(skin(4, 4, 0, 0, 0), infill);
+  REQUIRE(areas[12][0].bridges.size() == 1);
+  const infill::BridgeArea& bridge = areas[12][0].bridges[0];
+  double left = 1e9, right = -1e9, low = 1e9, high = -1e9;
+  for (const Ring& ring : geometry::rings_of(bridge.regions))
+    for (const Point p : ring) {
+      const double along = p.x * std::cos(bridge.angle_rad) + p.y * std::sin(bridge.angle_rad);
+      const double across = p.y * std::cos(bridge.angle_rad) - p.x * std::sin(bridge.angle_rad);
+      left = std::min(left, along), right = std::max(right, along);
+      low = std::min(low, across), high = std::max(high, across);
+    }
+  const double length = right - left, width = high - low;
+  CHECK(length >= 4000);  // from one line to the next at least
+  CHECK(length <= 9000);  // and no further than to one on either side
+  CHECK(width <= 4500);   // the patch: the pit and its walls
+}
+
 TEST_CASE("shells: strands over infill do not end where it goes on", "[infill]") {
   // lines along y below, 4.5 mm apart; solid along x that is held at its long sides, or has infill beside them
   const auto angle = [](bool open_sides) {
