@@ -2,6 +2,7 @@
 #include "pipeline/support_columns.h"
 
 #include "geometry/simplify.h"
+#include "model/flow.h"
 #include "pipeline/support_beads.h"
 #include "support/lengths.h"
 #include "tasks/parallel.h"
@@ -14,12 +15,13 @@
 namespace weft::pipeline {
 namespace {
 
-/// What tells columns from each other, roughly.
+/// What tells columns from each other, roughly; and how beads are laid: levels a micron higher or lower have the same.
 using Hint = std::tuple<Um, Um, bool, std::size_t, Point, Point>;
 Hint hint_of(const Settings& settings, const support::SupportLayer& layer, const Region& column) {
   const Um at = settings.support.support_pattern == SupportPattern::gyroid ? layer.z : 0;
   const std::size_t n = column.outer.size();
-  return {layer.height, at, layer.first, n, column.outer.front(), column.outer[n / 2]};
+  const Um line = support::line_width(settings.support, settings.machine.nozzle_diameter);
+  return {flow::band(line, layer.height), at, layer.first, n, column.outer.front(), column.outer[n / 2]};
 }
 
 }  // namespace

@@ -119,10 +119,10 @@ bool for_columns_alone(const SupportSettings& settings, const Guess& guess, cons
 }  // namespace
 
 Split cheaper(const Room& room, const Stack& stack, const std::vector<Regions>& contacts, tasks::Spare& spare) {
-  const Patches patches(contacts, apart(room.settings(), room.object().nozzle));
+  Split out{std::vector<Regions>(contacts.size()), std::vector<Regions>(contacts.size()), std::nullopt};
+  const Patches& patches = out.patches.emplace(contacts, apart(room.settings(), room.object().nozzle));
   const Guess guess(room, stack);
   const auto& all = patches.all();
-  Split out{std::vector<Regions>(contacts.size()), std::vector<Regions>(contacts.size()), std::nullopt};
   std::vector<std::optional<double>> columns_mm3(all.size());
   std::vector<char> strips(all.size(), 0);
   spare.for_each_index(all.size(), [&](std::size_t i) {

@@ -407,7 +407,7 @@ Um apart(const SupportSettings& s, Um nozzle) {
 }
 
 std::vector<Regions> columns(const Room& room, const Stack& stack, const std::vector<Regions>& contacts,
-                             const std::vector<Regions>& given, tasks::Spare& spare) {
+                             const std::vector<Regions>& given, tasks::Spare& spare, const Patches* known) {
   if (stack.levels.empty()) return {};  // what is so near to the plate has no room for any
   const auto& s = room.settings();
   std::vector<Regions> shadow;
@@ -450,9 +450,11 @@ std::vector<Regions> columns(const Room& room, const Stack& stack, const std::ve
     spare.beside([&] { out = under(all, drawn ? &given : nullptr); });
     return out;
   }
-  const Patches patches(contacts, apart(s, room.object().nozzle));
-  std::vector<std::vector<Regions>> of_patch(patches.all().size());
-  spare.for_each_index(of_patch.size(), [&](std::size_t i) { of_patch[i] = under(patches.all()[i], nullptr); });
+  std::optional<Patches> found;
+  if (known == nullptr) known = &found.emplace(contacts, apart(s, room.object().nozzle));
+  const auto& patches = known->all();
+  std::vector<std::vector<Regions>> of_patch(patches.size());
+  spare.for_each_index(of_patch.size(), [&](std::size_t i) { of_patch[i] = under(patches[i], nullptr); });
   std::vector<Regions> out(stack.levels.size());
   for (auto& levels : of_patch)
     for (std::size_t k = 0; k < levels.size(); ++k)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include "support/patches.h"
 #include "support/room.h"
 #include "tasks/spare.h"
 
@@ -11,9 +12,10 @@ namespace weft::support {
 /// @param contacts  by level: what is to be held from there
 /// @param given     by level: what stands there in any case
 /// @param spare     what other threads do while one follows the highest patch down
+/// @param known     the patches of these contacts, `apart` from each other, where they are known
 /// Post: every area lies outside of what is kept out and in the object's room, and rests.
 std::vector<Regions> columns(const Room& room, const Stack& stack, const std::vector<Regions>& contacts,
-                             const std::vector<Regions>& given, tasks::Spare& spare);
+                             const std::vector<Regions>& given, tasks::Spare& spare, const Patches* known = nullptr);
 
 /// Lets columns get narrower downwards, but none narrower than an eighth of its height: it would tip over.
 class Lean {

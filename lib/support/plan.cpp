@@ -240,12 +240,12 @@ bool all_empty(const std::vector<Regions>& by_level) {
 /// By what is asked for.
 Split split_of(const Room& room, const Stack& stack, const std::vector<Regions>& contacts, tasks::Spare& spare) {
   const std::vector<Regions> nothing(contacts.size());
-  if (all_empty(contacts)) return {nothing, nothing, std::nullopt};
+  if (all_empty(contacts)) return {nothing, nothing, std::nullopt, std::nullopt};
   switch (room.settings().support_structure) {
     case SupportStructure::normal:
-      return {nothing, contacts, std::nullopt};
+      return {nothing, contacts, std::nullopt, std::nullopt};
     case SupportStructure::tree:
-      return {contacts, nothing, Field(room.settings(), room.object(), stack, contacts)};
+      return {contacts, nothing, Field(room.settings(), room.object(), stack, contacts), std::nullopt};
     case SupportStructure::hybrid:
       break;
   }
@@ -260,7 +260,8 @@ Standing stand(const Room& room, const Stack& stack, const std::vector<Regions>&
   Split split = split_of(room, stack, others, spare);
   if (all_empty(split.for_branches)) {
     out.under_columns = contacts;
-    out.columns = columns(room, stack, contacts, given, spare);
+    const Patches* const known = split.patches && all_empty(towers) ? &*split.patches : nullptr;
+    out.columns = columns(room, stack, contacts, given, spare, known);
     return out;
   }
   out.branches = tree(room, stack, *split.field, split.for_branches);

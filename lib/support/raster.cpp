@@ -4,39 +4,6 @@
 namespace weft::support {
 namespace {
 
-/// Lower envelope of parabolas: of each place the least of f(q) + (p - q)², by the parabolas' places and where each
-/// begins to be the lowest.
-struct Envelope {
-  std::vector<double> from;
-  std::vector<int> place;
-
-  void of(const std::vector<double>& f, std::vector<double>& out) {
-    const int n = static_cast<int>(f.size());
-    const auto at = [](auto& list, int i) -> auto& {
-      return list[static_cast<std::size_t>(i)];
-    };
-    from.resize(f.size() + 1), place.resize(f.size());
-    int k = -1;
-    for (int q = 0; q < n; ++q) {
-      if (at(f, q) >= far_away) continue;
-      const auto meeting = [&](int p) {
-        return (at(f, q) + double(q) * q - at(f, p) - double(p) * p) / (2.0 * (q - p));
-      };
-      double s = -far_away;
-      while (k >= 0 && (s = meeting(at(place, k))) <= at(from, k)) --k;
-      if (k < 0) s = -far_away;
-      at(place, ++k) = q, at(from, k) = s;
-    }
-    if (k < 0) return std::fill(out.begin(), out.end(), far_away);
-    at(from, k + 1) = far_away;
-    k = 0;
-    for (int q = 0; q < n; ++q) {
-      while (at(from, k + 1) < q) ++k;
-      at(out, q) = double(q - at(place, k)) * (q - at(place, k)) + at(f, at(place, k));
-    }
-  }
-};
-
 /// How far each cell of a column is from the nearest one that is not 0, but at most so far.
 std::vector<int> along_columns(const std::vector<std::uint8_t>& cells, std::size_t columns, int most) {
   std::vector<int> out(cells.size(), most);
@@ -91,15 +58,19 @@ class NearestInRow {
 
 }  // namespace
 
-void spread_squares(std::vector<double>& squares, const GridLines& along) {
-  Envelope envelope;
-  std::vector<double> line(along.count), result(along.count);
-  for (std::size_t l = 0; l < along.lines; ++l) {
-    double* const first = squares.data() + l * along.between;
-    for (std::size_t i = 0; i < along.count; ++i) line[i] = first[i * along.stride];
-    envelope.of(line, result);
-    for (std::size_t i = 0; i < along.count; ++i) first[i * along.stride] = result[i];
-  }
+void spread_squares(std::vector<std::uint8_t>& squares, std::size_t count, std::size_t stride, std::size_t reach) {
+  const std::vector<std::uint8_t> before = squares;
+  const std::size_t block = count * stride;
+  const auto lessen = [](std::uint8_t* to, const std::uint8_t* from, std::size_t cells, std::uint8_t more) {
+    for (std::size_t i = 0; i < cells; ++i) to[i] = std::min(to[i], static_cast<std::uint8_t>(from[i] + more));
+  };
+  for (std::size_t first = 0; first < squares.size(); first += block)
+    for (std::size_t away = 1; away <= reach && away < count; ++away) {
+      const std::size_t by = away * stride;
+      const auto more = static_cast<std::uint8_t>(away * away);
+      lessen(squares.data() + first + by, before.data() + first, block - by, more);
+      lessen(squares.data() + first, before.data() + first + by, block - by, more);
+    }
 }
 
 std::vector<int> squared_distances(const std::vector<std::uint8_t>& cells, std::size_t columns, int most) {

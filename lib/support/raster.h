@@ -11,17 +11,15 @@
 /// Outlines as cells of a grid, and how far cells are from each other.
 namespace weft::support {
 
-inline constexpr double far_away = 1e12;  ///< squared distance, in cells, where there is nothing
+/// Squared distance, in cells, where there is nothing near.
+inline constexpr std::uint8_t far_away = 100;
 
-/// Lines of a grid along one of its axes.
-struct GridLines {
-  std::size_t count, stride;   ///< cells of a line, and how far apart they lie in memory
-  std::size_t lines, between;  ///< how many lines, and how far apart they begin
-};
-/// One pass of a squared distance transform: each cell gets the least of what cells of its line have, plus the square
-/// of how far they are. One pass along each axis makes distances of zeros.
-/// Source: Felzenszwalb & Huttenlocher 2012, "Distance transforms of sampled functions". Cost: O(n).
-void spread_squares(std::vector<double>& squares, const GridLines& along);
+/// One pass, along an axis, of a squared distance transform of what is near: each cell gets the least of what cells of
+/// its line have, plus the square of how far they are. One pass along each of three axes makes distances of zeros.
+/// Pre: cells of a line lie `stride` apart in memory, lines fill blocks of `count` times that; reach is 5 at most, so
+///      that no sum is too large for a byte
+/// Cost: two looks at each cell for each cell of reach, sixteen at once.
+void spread_squares(std::vector<std::uint8_t>& squares, std::size_t count, std::size_t stride, std::size_t reach);
 
 /// Squared distance, in cells, of each cell of rows of so many to the nearest one that is not 0, but at most most²:
 /// what is further counts for nothing. Exact.

@@ -15,6 +15,7 @@ namespace {
 constexpr Um ball = 1.5_mm;  // its radius: a finger, or pliers
 constexpr double most_cells = 150'000;
 constexpr Um finest_cell = 0.75_mm;
+static_assert(2 * ball <= 7 * finest_cell, "distances that tell are of five cells at most");
 
 /// The air around an object, in cubes.
 class Air {
@@ -56,21 +57,17 @@ class Air {
   double squared(double um) const { return um / cell_ * (um / cell_); }
   double near_enough() const { return squared(ball + 1.5 * cell_); }  // with the cells' corners
 
-  void find_distances(std::vector<double>& squares) const {
-    const auto columns = static_cast<std::size_t>(columns_), rows = static_cast<std::size_t>(rows_),
-               slabs = static_cast<std::size_t>(slabs_);
-    spread_squares(squares, {.count = columns, .stride = 1, .lines = rows * slabs, .between = columns});
-    spread_squares(squares, {.count = slabs, .stride = rows * columns, .lines = rows * columns, .between = 1});
-    for (std::size_t s = 0; s < slabs; ++s) {
-      std::vector<double> slab(squares.begin() + static_cast<std::ptrdiff_t>(s * rows * columns),
-                               squares.begin() + static_cast<std::ptrdiff_t>((s + 1) * rows * columns));
-      spread_squares(slab, {.count = rows, .stride = columns, .lines = columns, .between = 1});
-      std::copy(slab.begin(), slab.end(), squares.begin() + static_cast<std::ptrdiff_t>(s * rows * columns));
-    }
+  /// From zeros, as far as `least` tells whether one is as near.
+  void find_distances(std::vector<std::uint8_t>& squares, double least) const {
+    const auto columns = static_cast<std::size_t>(columns_), rows = static_cast<std::size_t>(rows_);
+    const auto reach = static_cast<std::size_t>(std::sqrt(least));
+    spread_squares(squares, columns, 1, reach);
+    spread_squares(squares, rows, columns, reach);
+    spread_squares(squares, static_cast<std::size_t>(slabs_), rows * columns, reach);
   }
 
   void find_reached() {
-    std::vector<double> from_part(
+    std::vector<std::uint8_t> from_part(
         static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) * static_cast<std::size_t>(slabs_),
         far_away);
     for (int s = 0; s < slabs_; ++s) {
@@ -79,9 +76,9 @@ class Air {
       rasterize(room_.part(middle - 1, middle + 1, box_), origin_, cell_, columns_, rows_,
                 [&](int c, int r) { from_part[index(c, r, s)] = 0; });
     }
-    find_distances(from_part);
     // What the ball's middle gets to from a corner, which lies outside; half a cell is left to the grid.
     const double keeps = squared(ball - cell_ / 2.0);
+    find_distances(from_part, keeps);
     from_reached_.assign(from_part.size(), far_away);
     std::vector<std::size_t> open{0};
     from_reached_[0] = 0;
@@ -99,7 +96,7 @@ class Air {
       look(r > 0, i - columns), look((r + 1) * columns < plane, i + columns);
       look(s > 0, i - plane), look(i + plane < from_part.size(), i + plane);
     }
-    find_distances(from_reached_);
+    find_distances(from_reached_, near_enough());
   }
 
   const Room& room_;
@@ -107,7 +104,7 @@ class Air {
   Point origin_;
   Um cell_ = 0, bottom_ = 0;
   int columns_ = 0, rows_ = 0, slabs_ = 0;
-  std::vector<double> from_reached_;  ///< squared distance to what the ball's middle gets to
+  std::vector<std::uint8_t> from_reached_;  ///< squared distance to what the ball's middle gets to
 };
 
 }  // namespace
