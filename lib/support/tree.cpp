@@ -64,9 +64,7 @@ class Grower {
         style_(branch_style(s_)),
         tip_(style_.tip / 2.0),
         discs_(stack.levels.size()),
-        mm3_(patches != nullptr ? patches->all().size() : 0, 0.0) {
-    tree_.left.resize(stack.levels.size());
-  }
+        mm3_(patches != nullptr ? patches->all().size() : 0, 0.0) {}
 
   Tree tree() && {
     Roofs roofs(room_, stack_, contacts_, Roofs::Use::laid);
@@ -132,7 +130,7 @@ class Grower {
       if (slab > 0 && !finds_way(slab, node)) {
         node.plate = false;
         if (s_.support_type == SupportType::buildplate || !finds_way(slab, node)) {
-          leave(k, contact, p, spacing.inside);
+          if (patches_ != nullptr) leave(k, contact, p, spacing.inside);
           continue;
         }
       }
@@ -142,16 +140,15 @@ class Grower {
       tree_.tips_at.push_back({p.x, p.y, z});
     }
   }
-  /// What a tip should have held, and no other branch does.
+  /// What a tip should have held, and no other branch does, is reckoned to stand on columns of its own.
   void leave(std::size_t k, const Regions& contact, Point p, Um covers) {
     const Regions round{{circle_around({p, static_cast<double>(covers)}), {}}};
     Regions left = geometry::intersect(geometry::trimmed(contact, box_of(round).grown(1)), round);
-    if (patches_ == nullptr) return append(tree_.left[k], left);
     std::vector<Ring> held;
     for (const Node& node : nodes_)
       if (distance(node.at, p) < covers + 2 * reached) held.push_back(circle_around({node.at, node.radius + reached}));
     if (!held.empty()) left = geometry::subtract(left, geometry::regions_from_rings(held));
-    if (const auto patch = patches_->at(p))  // which stands on columns of its own
+    if (const auto patch = patches_->at(p))
       mm3_[*patch] += area_mm2(left) * to_mm(stack_.levels[k].z - o_.floor) * s_.support_infill_rate / 100;
   }
   bool finds_way(std::size_t slab, const Node& node) const {

@@ -14,7 +14,6 @@ struct Tree {
   std::vector<Regions> areas;  ///< by level
   std::vector<Regions> roofs;  ///< by level: interfaces that lie on branches
   std::vector<Joists> joists;  ///< by level: the lowest of them
-  std::vector<Regions> left;   ///< by level: contacts that no branch could get to
   std::vector<Point3> tips_at;
   std::size_t trunks = 0;
   double slenderest = 0;  ///< height by diameter where a trunk stands
