@@ -262,10 +262,9 @@ class Falling {
     const Um least = thin();
     Regions left;
     for (Region& region : falling_) {
-      bool cut = shaded;
-      Regions free = room_.free_part({region}, level, close_, cut ? nullptr : &cut, &above_);
-      if (shaded) free = geometry::subtract(free, shadow_[k]);
+      auto [free, cut] = free_of(region, k, shaded);
       ragged_ = ragged_ || cut;
+      step.freed.push_back({step.left.size(), free.size(), cut});
       append(step.left, free);
       if (!cut)
         left.push_back(std::move(region));
@@ -277,6 +276,26 @@ class Falling {
     falling_ = std::move(left);
     edge_.reset();
     step.less = true;
+  }
+  struct Free {
+    Regions area;
+    bool cut = false;
+  };
+  /// What of a region has room on a level: what the first of two falls found of the same one, or else asked for.
+  Free free_of(const Region& region, std::size_t k, bool shaded) const {
+    if (first_ != nullptr) {
+      const Step& before = first_->steps_[k];
+      const auto same = std::find(before.whole.begin(), before.whole.end(), region);
+      if (same != before.whole.end()) {
+        const Freed& freed = before.freed[static_cast<std::size_t>(same - before.whole.begin())];
+        const auto from = before.left.begin() + static_cast<std::ptrdiff_t>(freed.first);
+        return {{from, from + static_cast<std::ptrdiff_t>(freed.count)}, freed.cut};
+      }
+    }
+    Free out{{}, shaded};
+    out.area = room_.free_part({region}, stack_.levels[k], close_, shaded ? nullptr : &out.cut, &above_);
+    if (shaded) out.area = geometry::subtract(out.area, shadow_[k]);
+    return out;
   }
   /// What the same columns did before, unless they slide.
   void clear_as_before(std::size_t k, bool may_slide) {
@@ -390,10 +409,16 @@ class Falling {
   std::optional<geometry::SegmentIndex> edge_;  ///< of what falls, once asked for
   bool ragged_ = false;                         ///< it has corners of what was cut from it
   std::vector<Regions> levels_;
+  /// What is left of a region.
+  struct Freed {
+    std::size_t first = 0, count = 0;  ///< of what is left of all
+    bool cut = false;
+  };
   struct Step {
     Regions begun, whole,
-        left;         ///< after what begins there; of that, what was cut, and what is left with its thin ends
-    Regions cleared;  ///< what is left, whether it rests or not
+        left;                  ///< after what begins there; of that, what was cut, and what is left with its thin ends
+    std::vector<Freed> freed;  ///< of each region of the whole
+    Regions cleared;           ///< what is left, whether it rests or not
     bool ragged = false;
     bool less = false;  ///< it is not all of what lies above it
   };
