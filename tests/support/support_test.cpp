@@ -463,6 +463,18 @@ TEST_CASE("support: blockers take demand away, enforcers add it, and where both 
         Approx(area_mm2(free[50].wanted) / 2).epsilon(0.01));
 }
 
+TEST_CASE("support: what begins inside a tube is an island, and the tube around it is none") {
+  const Regions tube = geometry::subtract({rectangle(0, 0, 20000, 20000)}, {rectangle(1000, 1000, 19000, 19000)});
+  Body body;
+  body.add(30, tube);
+  Regions both = tube;
+  both.push_back(rectangle(5000, 5000, 15000, 15000));  // larger than the tube's wall
+  body.add(5, both);
+  const auto found = support::islands(body.object());
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].at.x >= 5000);
+}
+
 TEST_CASE("support: an island asks for support however small it is, and is told where support is off") {
   Body body;
   body.add(30, {rectangle(0, 0, 10000, 10000)});
