@@ -2,6 +2,7 @@
 #include "overhangs/overhangs.h"
 
 #include "core/stop.h"
+#include "core/tolerances.h"
 #include "model/flow.h"
 #include "overhangs/air.h"
 
@@ -112,6 +113,7 @@ std::vector<Run> runs_of(const std::vector<Junction>& path, Air& air) {
 }
 
 bool is_short(const Run& run) {
+  if (run.length_um < tolerances::least_move) return true;  // a piece of its own all the same, and a jog at its corner
   return run.length_um + run.around_um < (run.level == whole ? shortest_whole_um : shortest_um);
 }
 

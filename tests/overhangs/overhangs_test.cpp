@@ -110,6 +110,16 @@ TEST_CASE("overhangs: a seam in the middle of a lintel does not take its end fro
   CHECK(is_strand(pieces[2]));
 }
 
+TEST_CASE("overhangs: the rest of a loop between a corner and its seam is no piece of its own", "[overhangs]") {
+  for (const Um rest : {10, 30}) {
+    const Extrude loop = wall({{0, rest}, {0, 10000}, {30000, 10000}, {30000, 0}, {0, 0}}, true);
+    const auto pieces = marked({loop}, {rectangle(-1000, -1000, 31000, 0)});
+    check_whole(loop, pieces);
+    CHECK(pieces.size() > 1);
+    for (const Extrude& piece : pieces) CHECK(length_of(piece) > 0.05);
+  }
+}
+
 TEST_CASE("overhangs: what hangs is told as well where the seam is near to it", "[overhangs]") {
   const Regions window{rectangle(10000, -1000, 11100, 2000)};
   for (const bool behind : {false, true}) {  // the loop begins on what is left to either side of it
