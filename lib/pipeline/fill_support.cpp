@@ -9,6 +9,7 @@
 #include "pipeline/rungs_below.h"
 #include "pipeline/support_beads.h"
 #include "pipeline/support_columns.h"
+#include "support/column_steps.h"
 #include "support/lengths.h"
 #include "tasks/parallel.h"
 
@@ -32,11 +33,19 @@ class Layers {
         layers_(layers),
         origin_(origin),
         line_(support::line_width(settings.support, settings.machine.nozzle_diameter)),
-        span_(support::roof_span(settings.machine.nozzle_diameter)) {
+        span_(support::roof_span(settings.machine.nozzle_diameter)),
+        between_feet_(support::between_feet(settings.machine.nozzle_diameter)),
+        shares_(shares_of_columns(settings)),
+        near_(settings, layers, shares_, origin),
+        reach_(shares_.shares.size() < 2
+                   ? span_
+                   : std::max(span_, support::line_distance(settings.support.support_pattern, shares_.band,
+                                                            shares_.shares.back()))) {
     if (settings.support.support_wall_count.value_or(0) == 0)
-      columns_.emplace(settings, layers, origin);
+      columns_.emplace(settings, layers, near_, origin);
     else
-      walled_ = tasks::parallel_map(layers.size(), [&](std::size_t k) { return fill_walled_columns(to_fill(k)); });
+      walled_ = tasks::parallel_map(layers.size(),
+                                    [&](std::size_t k) { return fill_walled_columns(to_fill(k), near_.on(k)); });
     under_roof_ = tasks::parallel_map(layers.size(), [&](std::size_t k) { return fill_under_roof(to_fill(k)); });
     outlines_ = tasks::parallel_map(layers.size(), [&](std::size_t k) {
       Regions all = layers[k].columns;
@@ -114,6 +123,13 @@ class Layers {
     // Lines get longer and shorter from level to level: their ends hold on to the rest, a whole new one does not.
     const auto of_lines = on.hanging(lines, span_, 2 * span_).at;
     out.insert(out.end(), of_lines.begin(), of_lines.end());
+    // Where a step begins all of them are new: what crosses from one of fewer lines to the next lies, no loose end
+    // does.
+    const Regions begun = near_.begun(k, under.front());
+    if (begun.empty()) return out;
+    const geometry::SegmentIndex there(begun);
+    for (const Point p : on.hanging(lines, between_feet_).at)
+      if (there.region_at(p)) out.push_back(p);
     return out;
   }
   /// @param hang    of each layer places where beads above it hang
@@ -141,12 +157,16 @@ class Layers {
     return out;
   }
   /// A bead holds itself one height out at 45°, and no further than it lies on the one below by a third of its width.
+  /// Where lines are further apart brackets are longer, and the lowest of each lies on its root by half of itself.
   RungsBelow& rungs_on(std::size_t k, const Beads& beads, std::optional<RungsBelow>& out) const {
-    const Um height = layers_[k].height;
-    return out.emplace(
-        beads, between_beads(k), beneath(k),
-        RungStyle{
-            .span = span_, .line = line_, .band = flow::band(line_, height), .step = std::min(height, line_ * 2 / 3)});
+    const Um height = layers_[k].height, step = std::min(height, line_ * 2 / 3);
+    return out.emplace(beads, between_beads(k), beneath(k),
+                       RungStyle{.span = span_,
+                                 .out = reach_,
+                                 .line = line_,
+                                 .band = flow::band(line_, height),
+                                 .step = step,
+                                 .stub = shares_.shares.size() < 2 ? step + line_ : line_});
   }
   /// What rungs may lie in.
   Regions between_beads(std::size_t k) const {
@@ -172,6 +192,10 @@ class Layers {
   const std::vector<support::SupportLayer>& layers_;
   Point origin_;
   Um line_, span_;
+  Um between_feet_;
+  ColumnShares shares_;
+  NearBelow near_;
+  Um reach_;                               ///< from a column's lines to where they end above
   std::optional<SupportColumns> columns_;  ///< without walls
   std::vector<Beads> walled_;              ///< columns with walls, by layer
   std::vector<Beads> under_roof_;          ///< by layer

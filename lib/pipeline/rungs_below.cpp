@@ -83,7 +83,7 @@ void RungsBelow::bars() {
 
 /// Whether a bracket does with nothing below but its root.
 bool RungsBelow::holds_itself(const geometry::Segment& way) const {
-  return distance(way.a, way.b) <= style_.step + style_.line || below_.lies(way.b);
+  return distance(way.a, way.b) <= style_.stub || below_.lies(way.b);
 }
 
 void RungsBelow::lay(const geometry::Segment& way) {
@@ -147,7 +147,7 @@ std::vector<Point> RungsBelow::furthest_first(std::span<const Point> places) con
   std::vector<std::pair<double, Point>> by_distance;
   for (const Point p : places)
     if (const auto end = into(p))
-      if (const auto root = laid_.nearest(*end, style_.span)) by_distance.push_back({distance(*end, root->at), *end});
+      if (const auto root = laid_.nearest(*end, style_.out)) by_distance.push_back({distance(*end, root->at), *end});
   std::stable_sort(by_distance.begin(), by_distance.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<Point> out;
@@ -164,7 +164,7 @@ std::optional<Point> RungsBelow::into(Point p) const {
 
 /// From the nearest bead to p, no further than a column's line is from its edge.
 std::optional<geometry::Segment> RungsBelow::out_to(Point p) const {
-  const auto root = laid_.nearest(p, style_.span);
+  const auto root = laid_.nearest(p, style_.out);
   if (!root || inside_.crosses(root->at, p)) return std::nullopt;
   return geometry::Segment{root->at, p};
 }

@@ -13,8 +13,10 @@ namespace weft::pipeline {
 
 struct RungStyle {
   Um span = 0;            ///< the longest way that a bead may cross freely
+  Um out = 0;             ///< the longest way from a bead to the end of a bracket
   Um line = 0, band = 0;  ///< widths of a bead
   Um step = 0;            ///< how far a bead may reach beyond the one below, as steep as beads hold themselves
+  Um stub = 0;            ///< the longest bracket that lies on nothing but its root
 };
 
 /// What a layer lays for beads above that would hang: rungs from one of its beads to another, and brackets out from one

@@ -11,6 +11,7 @@
 #include "infill/sparse.h"
 #include "model/flow.h"
 #include "pipeline/feet.h"
+#include "support/column_steps.h"
 #include "support/lengths.h"
 
 #include <algorithm>
@@ -94,7 +95,8 @@ class Filler {
         narrow_span_(support::narrow_roof_span(what.settings.machine.nozzle_diameter)),
         between_feet_(support::between_feet(what.settings.machine.nozzle_diameter)),
         band_(flow::band(line_, layer_.height)),
-        usual_band_(std::max<Um>(flow::band(line_, what.settings.layers.layer_height), 1)) {}
+        columns_(shares_of_columns(what.settings)),
+        usual_band_(columns_.band) {}
 
   /// @param columns  what `column` and `under_roof` made of the layer's
   /// @param below    what the layer lies on
@@ -113,9 +115,9 @@ class Filler {
   }
 
   /// Columns with walls.
-  Beads walled() && {
-    sparse(loops(layer_.columns, s_.support_wall_count.value_or(0), Role::support), share(), s_.support_pattern,
-           s_.support_infill_angle, Role::support);
+  Beads walled(const NearSteps& near) && {
+    const Regions inside = loops(layer_.columns, s_.support_wall_count.value_or(0), Role::support);
+    lines_of(thinned(inside, near), 0);
     return std::move(beads_);
   }
   /// What a roof's strands lie on.
@@ -126,27 +128,86 @@ class Filler {
     return std::move(beads_);
   }
   /// A column without walls: hollow where it is narrow.
-  Beads column(const Region& column) && {
-    const Um half = support::hollow_column(usual_band_, share());
-    // Where narrow columns meet, two or three short lines would stand alone.
-    const double alone_mm = 2.5 * to_mm(half), least_mm2 = alone_mm * alone_mm;
-    const Box box = box_of(column.outer);
-    Regions wide = std::min(box.size().x, box.size().y) > 2 * half ? wider({column}, half) : Regions{};
-    std::erase_if(wide, [&](const Region& piece) { return area_mm2(piece) < least_mm2; });
-    if (wide.empty()) {
-      loops({column}, 1, Role::support, true);
-      return std::move(beads_);
-    }
-    sparse(wide, share(), s_.support_pattern, s_.support_infill_angle, Role::support);
-    if (s_.support_pattern == SupportPattern::zigzag) bend_lone_lines(column);
-    if (reaches_further(column, wide, half))
-      loops(geometry::opening(geometry::subtract({column}, coarsely(wide, half)), band_ / 4), 1, Role::support, true);
+  Beads column(const Region& column, const NearSteps& near) && {
+    if (near.empty() || layer_.first)
+      dense_column(column);
+    else
+      for (const Region& piece : thinned({column}, near)) dense_column(piece);
     return std::move(beads_);
   }
 
  private:
   static constexpr double dense = 0.995;  // a share that leaves nothing between beads
   static constexpr int most_loops = 1000;
+
+  /// What of a column is no further down than the first step.
+  void dense_column(const Region& column) {
+    const Regions wide = wide_enough({column}, 0);
+    if (wide.empty()) return void(loops({column}, 1, Role::support, true));
+    const std::size_t from = beads_.size();
+    lines_of(wide, 0);
+    bend_lone_lines(column, 0, from);
+    const Um half = support::hollow_column(usual_band_, share(0));
+    if (reaches_further(column, wide, half))
+      loops(geometry::opening(geometry::subtract({column}, coarsely(wide, half)), band_ / 4), 1, Role::support, true);
+  }
+  /// Lays the lines of what is further down, from the lowest step up.
+  /// @return what is no further down than the first step, and what is too narrow for lines of others
+  Regions thinned(const Regions& area, const NearSteps& near) {
+    Regions left = area;
+    for (std::size_t step = layer_.first ? 0 : near.size(); step > 0 && !left.empty(); --step) {
+      const Regions away = near[step - 1].empty() ? left : geometry::subtract(left, near[step - 1]);
+      const Regions here = laid_joined(away, step);
+      if (here.empty()) continue;
+      left = geometry::opening(geometry::subtract(left, here), band_ / 4);
+    }
+    return left;
+  }
+  /// Lays lines where these are joined. @return where
+  Regions laid_joined(Regions area, std::size_t step) {
+    const Um half = least_half(step);
+    const std::size_t from = beads_.size();
+    for (;;) {
+      const Regions wide = wide_enough(area, step);
+      if (wide.empty()) return {};
+      area = geometry::intersect(area, coarsely(wide, half));
+      lines_of(area, step);
+      const Regions alone = shares_of_lone_lines(step, from);
+      if (alone.empty()) return area;
+      beads_.resize(from);
+      area = geometry::subtract(area, alone);
+    }
+  }
+  /// What lines that are joined to no other take of a column: nearer to each other they are joined.
+  Regions shares_of_lone_lines(std::size_t step, std::size_t from) const {
+    if (s_.support_pattern != SupportPattern::zigzag) return {};
+    std::vector<Ring> rings;
+    for (const Bead& bead : std::span(beads_).subspan(from))
+      if (straight(bead)) rings.push_back(around(bead, rounded(usual_band_ / share(step) / 2)));
+    return rings.empty() ? Regions{} : geometry::regions_from_rings(rings);
+  }
+  Um least_half(std::size_t step) const {
+    if (step == 0) return support::hollow_column(usual_band_, share(0));  // also of the first layer
+    return support::least_half(s_.support_pattern, usual_band_, columns_.shares, step);
+  }
+  /// What of a column is wide enough for lines that far apart.
+  Regions wide_enough(const Regions& area, std::size_t step) const {
+    const Um half = least_half(step);
+    // Where narrow columns meet, two or three short lines would stand alone.
+    const double alone_mm = 2.5 * to_mm(support::hollow_column(usual_band_, share(step))),
+                 least_mm2 = alone_mm * alone_mm;
+    Regions out;
+    for (const Region& region : area) {
+      const Box box = box_of(region.outer);
+      if (std::min(box.size().x, box.size().y) > 2 * half) support::append(out, wider({region}, half));
+    }
+    std::erase_if(out, [&](const Region& piece) { return area_mm2(piece) < least_mm2; });
+    return out;
+  }
+  void lines_of(const Regions& wide, std::size_t step) {
+    const double turned = step % 2 == 0 ? 0 : 90;  // so that the lines of the step above lie across
+    sparse(wide, share(step), s_.support_pattern, s_.support_infill_angle + turned, Role::support);
+  }
 
   /// What of an area is wider than twice that. Its corners may be as coarse as support is.
   static Regions wider(const Regions& area, Um by) { return coarsely(coarsely(area, -by), by); }
@@ -159,10 +220,13 @@ class Filler {
   /// A line of a zigzag that is joined to no other would stand there alone, as high as its column and as thin as a
   /// bead, until the nozzle knocks it over: it goes in waves. These cross their line every so often, and so lie on it
   /// where it is still joined below; where they have no room, a loop around the line's share of the column is laid.
-  void bend_lone_lines(const Region& column) {
-    const double apart = usual_band_ / share();
-    if (apart < 2 * band_) return;  // lines that near lean on each other
-    const auto lone = std::stable_partition(beads_.begin(), beads_.end(), [&](const Bead& b) { return !straight(b); });
+  /// @param from  the first bead of the column
+  void bend_lone_lines(const Region& column, std::size_t step, std::size_t from) {
+    const double apart = usual_band_ / share(step);
+    if (s_.support_pattern != SupportPattern::zigzag || apart < 2 * band_)
+      return;  // lines that near lean on each other
+    const auto lone = std::stable_partition(beads_.begin() + static_cast<std::ptrdiff_t>(from), beads_.end(),
+                                            [&](const Bead& b) { return !straight(b); });
     Beads lines(std::make_move_iterator(lone), std::make_move_iterator(beads_.end()));
     beads_.erase(lone, beads_.end());
     if (lines.empty()) return;
@@ -214,7 +278,9 @@ class Filler {
     return {a - on - beside, b + on - beside, b + on + beside, a - on + beside};
   }
 
-  double share() const { return (layer_.first ? s_.support_initial_layer_density : s_.support_infill_rate) / 100; }
+  double share(std::size_t step) const {
+    return layer_.first ? s_.support_initial_layer_density / 100 : columns_.shares[step];
+  }
   /// Hollow, or nearly: loops, two around thick ones, and what support_tree_infill_rate puts inside.
   void branches() {
     const double double_mm = to_mm(s_.support_tree_branch_diameter_double_wall);
@@ -397,6 +463,7 @@ class Filler {
   Um span_;         ///< what a bead crosses without sagging
   Um narrow_span_;  ///< … one of a narrow roof
   Um between_feet_, band_;
+  ColumnShares columns_;
   Um usual_band_;  ///< at layer_height: what shares are of, so that lines of layers of any height lie on each other
   const Beneath* below_ = nullptr;
   Beads beads_;
@@ -405,12 +472,12 @@ class Filler {
 
 }  // namespace
 
-Beads fill_column(const SupportToFill& what, const Region& column) {
-  return Filler(what).column(column);
+Beads fill_column(const SupportToFill& what, const Region& column, const NearSteps& near) {
+  return Filler(what).column(column, near);
 }
 
-Beads fill_walled_columns(const SupportToFill& what) {
-  return Filler(what).walled();
+Beads fill_walled_columns(const SupportToFill& what, const NearSteps& near) {
+  return Filler(what).walled(near);
 }
 
 Beads fill_under_roof(const SupportToFill& what) {

@@ -2,6 +2,7 @@
 #pragma once
 #include "model/bead.h"
 #include "pipeline/beneath.h"
+#include "pipeline/near_below.h"
 #include "settings/settings.h"
 #include "support/support.h"
 
@@ -23,9 +24,10 @@ struct SupportToFill {
 };
 
 /// A column without walls: hollow where it is narrow.
-Beads fill_column(const SupportToFill& what, const Region& column);
+/// @param near  where it is how near below what it carries
+Beads fill_column(const SupportToFill& what, const Region& column, const NearSteps& near);
 /// A layer's columns, which have walls.
-Beads fill_walled_columns(const SupportToFill& what);
+Beads fill_walled_columns(const SupportToFill& what, const NearSteps& near);
 /// The strands across a layer's columns that a roof lies on.
 Beads fill_under_roof(const SupportToFill& what);
 /// @param columns  what became of the layer's, with what a roof lies on

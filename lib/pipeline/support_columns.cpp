@@ -27,13 +27,14 @@ Hint hint_of(const Settings& settings, const support::SupportLayer& layer, const
 }  // namespace
 
 SupportColumns::SupportColumns(const Settings& settings, const std::vector<support::SupportLayer>& layers,
-                               Point origin) {
+                               const NearBelow& near, Point origin) {
   const auto areas = tasks::parallel_map(
       layers.size(), [&](std::size_t k) { return geometry::simplified(layers[k].columns, support::outline_bound); });
-  find_like(settings, layers, areas);
+  find_like(settings, layers, near, areas);
   filled_ = tasks::parallel_map(firsts_.size(), [&](std::size_t i) {
     const auto [layer, region] = firsts_[i];
-    return fill_column({settings, layers[layer], origin}, areas[layer][region]);
+    const Region& column = areas[layer][region];
+    return fill_column({settings, layers[layer], origin}, column, near.around(layer, column));
   });
 }
 
@@ -52,14 +53,16 @@ SupportColumns::Unlike SupportColumns::unlike(std::size_t layer, std::size_t oth
 }
 
 void SupportColumns::find_like(const Settings& settings, const std::vector<support::SupportLayer>& layers,
-                               const std::vector<Regions>& areas) {
+                               const NearBelow& near, const std::vector<Regions>& areas) {
   std::map<Hint, std::vector<std::size_t>> known;  // firsts_
   like_.resize(layers.size());
   for (std::size_t k = 0; k < layers.size(); ++k)
     for (std::size_t r = 0; r < areas[k].size(); ++r) {
       auto& alike = known[hint_of(settings, layers[k], areas[k][r])];
       const auto same = std::find_if(alike.begin(), alike.end(), [&](std::size_t i) {
-        return areas[firsts_[i].layer][firsts_[i].region] == areas[k][r];
+        const auto [layer, region] = firsts_[i];
+        return areas[layer][region] == areas[k][r] &&
+               (near.are_alike(layer, k) || near.around(layer, areas[k][r]) == near.around(k, areas[k][r]));
       });
       like_[k].push_back(same != alike.end() ? *same : firsts_.size());
       if (same != alike.end()) continue;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "model/bead.h"
+#include "pipeline/near_below.h"
 #include "settings/settings.h"
 #include "support/support.h"
 
@@ -12,8 +13,10 @@ namespace weft::pipeline {
 /// height, the first one is filled.
 class SupportColumns {
  public:
+  /// @param near   where they are how near below what they carry
   /// @param origin where patterns are anchored: one point for all layers
-  SupportColumns(const Settings& settings, const std::vector<support::SupportLayer>& layers, Point origin);
+  SupportColumns(const Settings& settings, const std::vector<support::SupportLayer>& layers, const NearBelow& near,
+                 Point origin);
 
   Beads of(std::size_t layer) const;
   struct Unlike {
@@ -26,7 +29,7 @@ class SupportColumns {
   struct Place {
     std::size_t layer, region;
   };
-  void find_like(const Settings& settings, const std::vector<support::SupportLayer>& layers,
+  void find_like(const Settings& settings, const std::vector<support::SupportLayer>& layers, const NearBelow& near,
                  const std::vector<Regions>& areas);
 
   std::vector<Place> firsts_;

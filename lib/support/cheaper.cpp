@@ -6,6 +6,7 @@
 #include "geometry/offset.h"
 #include "geometry/outline_length.h"
 #include "geometry/simplify.h"
+#include "support/column_steps.h"
 #include "support/columns.h"
 #include "support/lengths.h"
 #include "support/patches.h"
@@ -20,15 +21,28 @@ namespace weft::support {
 using namespace weft::literals;
 namespace {
 
-/// What the columns of a patch would take, mm³.
+/// What the columns of a patch would take, mm³: as they are, and if they were of one density.
+struct ColumnsMm3 {
+  double as_they_are = 0, of_one_density = 0;
+};
+
+/// Reckons them.
 class Guess {
  public:
   Guess(const Room& room, const Stack& stack)
-      : room_(room), stack_(stack), s_(room.settings()), line_(line_width(s_, room.object().nozzle)) {}
+      : room_(room),
+        stack_(stack),
+        s_(room.settings()),
+        line_(line_width(s_, room.object().nozzle)),
+        shares_(column_shares(s_, room.object().nozzle, usual_band(s_, room.object().nozzle))) {}
 
-  double columns_mm3(const Patch& patch) const {
+  ColumnsMm3 columns_mm3(const Patch& patch) const {
     constexpr Um step = 2_mm, coarse = 0.1_mm;
-    double mm3 = 0, by_mm = 0;
+    std::vector<std::pair<Um, const Regions*>> carried;
+    for (const auto& [k, regions] : patch.contacts) carried.push_back({stack_.levels[k].z, &regions});
+    const NearMm2 near(s_, room_.object().nozzle, shares_, carried);
+    double mm3 = 0, saved_mm3 = 0, mm2 = 0;
+    std::vector<double> by_mm;
     Regions falling;
     Lean lean(s_, line_, stack_.levels[patch.contacts.back().first].z - room_.object().floor);
     Um height = 0;
@@ -46,15 +60,22 @@ class Guess {
       bool cut = false;
       mm3 += lost(k, falling, cut);
       if (changed || cut) {
-        by_mm = 0;
-        for (const Region& region : falling) by_mm += column_mm3(s_, room_.object().nozzle, region, 1_mm);
+        by_mm.assign(shares_.size(), 0), mm2 = area_mm2(falling);
+        for (const Region& region : falling) {
+          const auto own = column_mm3(s_, room_.object().nozzle, shares_, region, 1_mm);
+          for (std::size_t i = 0; i < own.size(); ++i) by_mm[i] += own[i];
+        }
       }
-      mm3 += by_mm * to_mm(height);
+      mm3 += by_mm.front() * to_mm(height);
+      if (by_mm.size() > 1)
+        saved_mm3 +=
+            to_mm(height) * (by_mm.front() - taken_mm3(by_mm, near.at(stack_.levels[k].bottom() + height / 2), mm2));
       const int levels = std::max(1, height / stack_.levels[k].height);
       changed = (s_.support_conical_enabled && lean.narrow(height, falling, levels)) || cut;
       height = 0;
     }
-    return mm3 + foot_mm3(falling) - roof_mm3(patch);
+    mm3 += foot_mm3(falling) - roof_mm3(patch);
+    return {mm3 - saved_mm3, mm3};
   }
 
  private:
@@ -100,6 +121,7 @@ class Guess {
   const Stack& stack_;
   const SupportSettings& s_;
   Um line_;
+  std::vector<double> shares_;
 };
 
 /// What is held is strips too narrow for a roof on branches, on the whole, as under slopes. Each strip would need a row
@@ -107,13 +129,13 @@ class Guess {
 /// columns take less than a row of tips does, branches need not be reckoned. High up they may well be less.
 /// @param columns_mm3  what columns take, if it had to be reckoned
 bool for_columns_alone(const SupportSettings& settings, const Guess& guess, const Patch& patch,
-                       std::optional<double>& columns_mm3) {
+                       std::optional<ColumnsMm3>& columns_mm3) {
   constexpr double tips_mm3_by_mm = 0.95;  // of a strip's outline: the least of those that share branches low down
   double mm2 = 0, round_mm = 0;
   for (const auto& [k, regions] : patch.contacts) mm2 += area_mm2(regions), round_mm += geometry::outline_mm(regions);
   if (2 * mm2 >= round_mm * to_mm(narrowest_roof(branch_style(settings)))) return false;
   columns_mm3 = guess.columns_mm3(patch);
-  return *columns_mm3 < tips_mm3_by_mm * round_mm;
+  return columns_mm3->as_they_are < tips_mm3_by_mm * round_mm;
 }
 
 }  // namespace
@@ -123,7 +145,7 @@ Split cheaper(const Room& room, const Stack& stack, const std::vector<Regions>& 
   const Patches& patches = out.patches.emplace(contacts, apart(room.settings(), room.object().nozzle));
   const Guess guess(room, stack);
   const auto& all = patches.all();
-  std::vector<std::optional<double>> columns_mm3(all.size());
+  std::vector<std::optional<ColumnsMm3>> columns_mm3(all.size());
   std::vector<char> strips(all.size(), 0);
   spare.for_each_index(all.size(), [&](std::size_t i) {
     strips[i] = char{for_columns_alone(room.settings(), guess, all[i], columns_mm3[i])};
@@ -145,10 +167,11 @@ Split cheaper(const Room& room, const Stack& stack, const std::vector<Regions>& 
       });
   });
   // Under a mushroom a mm³ of branches takes a third longer than one of columns: at three quarters of the plastic they
-  // take the same time.
+  // take the same time. Columns with fewer lines below are quicker still, but are not to take more than branches do.
   constexpr double worth_branches = 0.75;
   std::vector<double> least_mm3(all.size(), 0);  // for which branches are not taken
-  for (const std::size_t i : asked) least_mm3[i] = worth_branches * *columns_mm3[i];
+  for (const std::size_t i : asked)
+    least_mm3[i] = std::min(columns_mm3[i]->as_they_are, worth_branches * columns_mm3[i]->of_one_density);
   const auto by_branches_mm3 = branches_mm3(room, stack, *out.field, wide, patches, least_mm3);
   for (const std::size_t i : asked)
     for (const auto& [k, regions] : all[i].contacts)

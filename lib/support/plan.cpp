@@ -325,6 +325,17 @@ void let_columns_rest(const Room& room, const Stack& stack, std::vector<SupportL
   }
 }
 
+/// What rests right on columns of a level: what they hold, what was drawn as support, and branches that come down
+/// there.
+Regions carried_on(std::size_t k, const Standing& standing, const std::vector<Regions>& given) {
+  if (standing.columns[k].empty()) return {};
+  Regions out = standing.under_columns[k];
+  append(out, given[k]);
+  if (k + 1 < standing.branches.areas.size() && !standing.branches.areas[k + 1].empty())
+    append(out, geometry::intersect(standing.branches.areas[k + 1], standing.columns[k]));
+  return out;
+}
+
 /// Where columns or roofs took the place of branches, those above may have nothing left below them.
 void let_branches_rest(const Room& room, const Stack& stack, const Standing& standing,
                        std::vector<SupportLayer>& layers) {
@@ -369,6 +380,7 @@ Plan plan(const SupportSettings& settings, const Object& object, const Demand& d
   out.layers = tasks::parallel_map(used, [&](std::size_t k) {
     stop_if_asked();
     auto layer = interfaces.divided(k, standing.columns[k]);
+    if (settings.gradual_support_infill_steps > 0) layer.carried = carried_on(k, standing, given);
     if (k < standing.branches.areas.size()) add_branches(room, k, standing, layer);
     return layer;
   });
@@ -380,6 +392,8 @@ Plan plan(const SupportSettings& settings, const Object& object, const Demand& d
   Caps caps = caps_on(room, stack, demand, out.layers);
   note_reached(object, stack, demand, caps, out);
   out.figures.on_part_mm2 = land(room, out.layers);
+  if (settings.gradual_support_infill_steps > 0)
+    for (SupportLayer& cap : caps.layers) cap.carried = cap.columns;
   std::move(caps.layers.begin(), caps.layers.end(), std::back_inserter(out.layers));
   std::stable_sort(out.layers.begin(), out.layers.end(),
                    [](const SupportLayer& a, const SupportLayer& b) { return a.z < b.z; });

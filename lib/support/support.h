@@ -67,6 +67,7 @@ struct SupportLayer {
   Joists joists{};       ///< between branches and the roof above them
   Regions under_roof{};  ///< strands across what fills columns, on which a roof's strands lie
   Regions feet{};        ///< where what stands on the part touches it by feet only
+  Regions carried{};     ///< what rests right on columns there, where it is asked how far below that they are
 };
 
 struct Figures {

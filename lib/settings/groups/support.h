@@ -82,6 +82,8 @@ struct SupportSettings {
   SupportPattern support_pattern = SupportPattern::zigzag;
   double support_infill_rate = 15;
   double support_infill_angle = 0;
+  int gradual_support_infill_steps = 1;
+  Um gradual_support_infill_step_height = 1.5_mm;
   Um support_join_distance = 2_mm;
   double support_initial_layer_density = 90;
   Um support_brim_width = 3_mm;
@@ -174,6 +176,12 @@ inline constexpr Rows support_schema{
             "Share of the inside of columns that is plastic."),
     setting("support_infill_angle", Scope::object, &SupportSettings::support_infill_angle, Unit::degrees, -360, 360,
             "Direction of the lines of support, against X; what a roof lies on lies across, as do floors."),
+    setting("gradual_support_infill_steps", Scope::object, &SupportSettings::gradual_support_infill_steps, Unit::none,
+            0, 10,
+            "How often columns of lines, zigzag, grid or triangles get half as dense on the way down from what they "
+            "carry, as far as what is laid above crosses from line to line; lines and zigzag turn across each time."),
+    setting("gradual_support_infill_step_height", Scope::object, &SupportSettings::gradual_support_infill_step_height,
+            Unit::mm, 0.1_mm, 1000_mm, "Height of one step of gradual_support_infill_steps, the first below the roof."),
     setting("support_join_distance", Scope::object, &SupportSettings::support_join_distance, Unit::mm, 0_mm, 50_mm,
             "Columns nearer to each other than this become one."),
     setting("support_initial_layer_density", Scope::object, &SupportSettings::support_initial_layer_density,
