@@ -240,12 +240,12 @@ bool all_empty(const std::vector<Regions>& by_level) {
 /// By what is asked for.
 Split split_of(const Room& room, const Stack& stack, const std::vector<Regions>& contacts, tasks::Spare& spare) {
   const std::vector<Regions> nothing(contacts.size());
-  if (all_empty(contacts)) return {nothing, nothing, std::nullopt, std::nullopt};
+  if (all_empty(contacts)) return {nothing, nothing, std::nullopt};
   switch (room.settings().support_structure) {
     case SupportStructure::normal:
-      return {nothing, contacts, std::nullopt, std::nullopt};
+      return {nothing, contacts, std::nullopt};
     case SupportStructure::tree:
-      return {contacts, nothing, Field(room.settings(), room.object(), stack, contacts), std::nullopt};
+      return {contacts, nothing, Field(room.settings(), room.object(), stack, contacts)};
     case SupportStructure::hybrid:
       break;
   }
