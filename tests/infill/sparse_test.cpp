@@ -166,6 +166,21 @@ TEST_CASE("sparse: between two walls some lines apart it is joined, also where t
   CHECK(dashes <= 1);
 }
 
+TEST_CASE("sparse: dashes that cross beside a wall turn into each other there", "[infill]") {
+  constexpr Um length = 60'000, below = 200;  // of the crossings: no band has room for two more lines there
+  const Beads beads = filled(rectangle(0, -below, length, 500), {.pattern = InfillPattern::grid,
+                                                                 .density = 0.2,
+                                                                 .band = 420,
+                                                                 .angle_rad = degrees(45),
+                                                                 .overlap = {60},
+                                                                 .connect = true});
+  double mm = 0;
+  for (const Bead& bead : beads) mm += length_mm(bead);
+  CAPTURE(mm);
+  // the other way round joints lead to each crossing and back from it, and over the dashes' other ends
+  CHECK(mm < 1.15 * length / 1000);
+}
+
 TEST_CASE("sparse: layers stand on each other", "[infill][law]") {
   // The lattice is anchored at the origin: another area of the same layer carries on the same lines.
   const SparseStyle style{
