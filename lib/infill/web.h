@@ -103,6 +103,10 @@ class Web {
   double length(std::uint32_t line) const { return lines_[line].length; }
   std::vector<Place> walked_from(std::uint32_t end) const;
   Place pulled(std::uint32_t end) const;
+  Place end_place(std::uint32_t end) const {
+    const std::vector<Place>& places = lines_[end / 2].places;
+    return end % 2 == 0 ? places.front() : places.back();
+  }
   std::uint32_t set_of(std::uint32_t line) {
     while (set_[line] != line) line = set_[line] = set_[set_[line]];
     return line;
@@ -112,6 +116,7 @@ class Web {
   void join(double longest);
   void order_ends();
   void join_the_rest(double longest);
+  double length_of_joints(const std::vector<std::uint32_t>& ends) const;
   bool shift_joints(const std::vector<std::uint32_t>& ends, double longest);
   void find_sets();
   void merge_loops(double longest);
@@ -124,6 +129,7 @@ class Web {
   bool crosses_a_line(const std::vector<Place>& way, std::uint32_t a, std::uint32_t b);
   void join_far(double longest, double most_more);
   void anchor(double length);
+  bool is_dash(std::uint32_t line) const;
   bool try_join(std::uint32_t a, std::uint32_t b, double longest);
   bool turn_above_others(std::uint32_t a, std::uint32_t b) const;
   void part(std::uint32_t a);
@@ -149,6 +155,7 @@ class Web {
   std::vector<std::uint32_t> at_ring_, in_order_;           // by end on the edge: its ring, its place in `order_`
   std::vector<std::uint32_t> joint_, set_;
   Um band_ = 0;
+  double most_ = 0;                       // length of a joint of dashes, whatever it takes
   double neighbours_ = 0;                 // length of joints between which no line can come near the edge
   std::optional<Beside> beside_;          // the edge, where joints run; made when it is wanted
   geometry::SegmentIndex all_lines_;      // the same

@@ -9,6 +9,10 @@ namespace weft::infill {
 namespace {
 
 constexpr double least_inset = 0.7;  // of what a joint keeps from the edge
+// In bands. An extruder that lags by 40 ms is at 60 mm/s not there before its end: between two walls that are some
+// lines apart a pattern is nothing but dashes and ways between them, if it is not joined.
+constexpr double longest_dash = 5.5;
+constexpr double tip = 2;  // bands: joints from nearer ends to both sides lie on each other
 
 }  // namespace
 
@@ -42,7 +46,7 @@ bool Web::turn_above_others(std::uint32_t a, std::uint32_t b) const {
 }
 
 /// Joins ends that are neighbours along an edge, going around each ring once; of lines that stand alone those first
-/// that turn above others. Paths never close.
+/// that turn above others; of dashes those that meet at the edge. Paths never close.
 void Web::join(double longest) {
   joint_.assign(ends_.size(), nobody);
   arc_.assign(ends_.size(), {});
@@ -52,7 +56,7 @@ void Web::join(double longest) {
   pull_.resize(ends_.size());
   for (std::uint32_t e = 0; e < ends_.size(); ++e) pull_[e] = free_pull(e);
   if (order_.empty()) order_ends();
-  if (longest <= 0) return;
+  if (!style_.connect || most_ <= 0) return;
   StopNowAndThen stop(64);
   const auto join_those = [&](auto wanted) {
     for (const auto& [first, last] : rings_)
@@ -63,6 +67,9 @@ void Web::join(double longest) {
       }
   };
   if (style_.alone) join_those([&](std::uint32_t a, std::uint32_t b) { return turn_above_others(a, b); });
+  join_those([&](std::uint32_t a, std::uint32_t b) {
+    return is_dash(a / 2) && is_dash(b / 2) && norm(end_place(a) - end_place(b)) < tip * band_;
+  });
   join_those([](std::uint32_t, std::uint32_t) { return true; });
 }
 
@@ -90,8 +97,17 @@ void Web::join_the_rest(double longest) {
   }
 }
 
+/// Of those that both their ends are among these.
+double Web::length_of_joints(const std::vector<std::uint32_t>& ends) const {
+  double sum = 0;
+  for (const std::uint32_t e : ends)
+    if (const std::uint32_t other = joint_[e]; other != nobody && e < other)
+      sum += infill::length_of(way_of(arc_[other].empty() ? e : other));
+  return sum;
+}
+
 /// Joins each pair of the ends, of which the inner ones were joined to their other neighbours; as before when it cannot
-/// be done.
+/// be done, or takes more than the one joint that it makes is worth.
 bool Web::shift_joints(const std::vector<std::uint32_t>& ends, double longest) {
   struct Kept {
     std::uint32_t joint;
@@ -100,13 +116,14 @@ bool Web::shift_joints(const std::vector<std::uint32_t>& ends, double longest) {
   };
   for (std::size_t i = 1; i + 1 < ends.size(); i += 2)
     if (joint_[ends[i]] != ends[i + 1]) return false;  // they are joined across the ring's beginning
+  const double before = length_of_joints(ends);
   std::vector<Kept> kept;
   for (const std::uint32_t e : ends) kept.push_back({joint_[e], pull_[e], arc_[e]});
   for (const std::uint32_t e : ends) part(e);
   find_sets();
   bool done = true;
   for (std::size_t i = 0; i + 1 < ends.size() && done; i += 2) done = try_join(ends[i], ends[i + 1], longest);
-  if (done) return true;
+  if (done && length_of_joints(ends) - before <= most_) return true;
   for (const std::uint32_t e : ends) part(e);
   for (std::size_t i = 0; i < ends.size(); ++i)
     joint_[ends[i]] = kept[i].joint, pull_[ends[i]] = kept[i].pull, arc_[ends[i]] = std::move(kept[i].arc);
@@ -128,8 +145,13 @@ void Web::part(std::uint32_t a) {
   pull_[a] = free_pull(a), pull_[b] = free_pull(b);
 }
 
+bool Web::is_dash(std::uint32_t line) const {
+  return length(line) < longest_dash * band_;
+}
+
 bool Web::try_join(std::uint32_t a, std::uint32_t b, double longest) {
-  if (a == b || set_of(a / 2) == set_of(b / 2)) return false;
+  if (is_dash(a / 2) || is_dash(b / 2)) longest = std::max(longest, most_);
+  if (a == b || longest <= 0 || set_of(a / 2) == set_of(b / 2)) return false;
   const double inset = band_ / 2.0 - style_.overlap.um;
   const double before_a = pull_[a], before_b = pull_[b];
   std::optional<std::vector<Place>> arc = arc_between(a, b, inset, longest);
