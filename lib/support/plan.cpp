@@ -16,6 +16,7 @@
 #include "support/resting.h"
 #include "support/support.h"
 #include "support/thin.h"
+#include "support/towers.h"
 #include "support/trapped.h"
 #include "support/tree.h"
 #include "tasks/parallel.h"
