@@ -107,7 +107,7 @@ class Falling {
   }
   void clear(std::size_t k, const Regions& contacts) {
     held_.go_to(k, contacts);
-    if (contacts.empty() && !air_.shaded(k) && air_.room.stands_free(falling_, edge(), air_.stack.levels[k])) return;
+    if (contacts.empty() && !air_.shaded(k) && stands_free(k)) return;
     if (ragged_ || !contacts.empty()) falling_ = geometry::simplified(falling_, corner_bound), edge_.reset();
     ragged_ = false;
     Fallen::Step& step = out_.steps[k];
@@ -124,6 +124,13 @@ class Falling {
       edge_.reset();
     }
     falling_ = std::move(left);
+  }
+  bool stands_free(std::size_t k) {
+    const auto* levels = air_.stack.levels.data();
+    const bool as_above = edge_ && free_at_ == k + 1;  // nothing changed since
+    if (!air_.room.stands_free(falling_, edge(), levels[k], as_above ? &levels[k + 1] : nullptr)) return false;
+    free_at_ = k;
+    return true;
   }
   const geometry::SegmentIndex& edge() {
     if (!edge_) edge_.emplace(falling_);
@@ -151,6 +158,7 @@ class Falling {
   ContactsAbove held_;
   Regions falling_;
   std::optional<geometry::SegmentIndex> edge_;  ///< of what falls, once asked for
+  std::optional<std::size_t> free_at_;          ///< the last level on which it stood free
   bool ragged_ = false;                         ///< it has corners of what was cut from it
   Fallen out_;
 };
