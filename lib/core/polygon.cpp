@@ -62,6 +62,14 @@ Side side_of(const Ring& ring, Point p) {
   return inside ? Side::inside : Side::outside;
 }
 
+Side side_of(const Region& region, Point p) {
+  Side out = side_of(region.outer, p);
+  for (auto hole = region.holes.begin(); hole != region.holes.end() && out == Side::inside; ++hole)
+    if (const Side of_hole = side_of(*hole, p); of_hole != Side::outside)
+      out = of_hole == Side::on ? Side::on : Side::outside;
+  return out;
+}
+
 Regions moved(Regions regions, Point by) {
   for (auto& region : regions) {
     for (auto& p : region.outer) p = p + by;

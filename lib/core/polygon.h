@@ -60,6 +60,8 @@ double perimeter_of(const Ring& ring);
 /// Where p lies relative to the ring, by crossing number; points on the ring are `on`. Exact. O(n).
 enum class Side { outside, on, inside };
 Side side_of(const Ring& ring, Point p);
+/// Relative to the region: what lies in one of its holes is outside.
+Side side_of(const Region& region, Point p);
 
 /// The same regions, every point moved by `by`.
 Regions moved(Regions regions, Point by);

@@ -10,10 +10,9 @@ namespace {
 
 constexpr double looked_at = widest_strip + 2;  // bands: how deep
 constexpr double step_um = 200;                 // along the wall: half a bead
-constexpr double mean_over_um = 4000;           // along the wall, of a belt's width: no line begins and ends for less
 constexpr double shortest_um = 2000;            // of a line, of a pause in it, and of what is no spike between belts
 constexpr double about_um = 500;                // that is about as long
-constexpr double doubt = 1.5;                   // cells: nearer to a limit a mean by cells says nothing
+constexpr double doubt = 1.5;                   // cells: nearer to a limit a width by cells says nothing
 
 /// Whether a layer has a place and what is around it.
 bool surely_has(const Mask& cells, Point p) {
@@ -88,7 +87,6 @@ void BeltRing::look_across(Sample& s) const {
 
 /// The same by outlines.
 void BeltRing::measure(Sample& s, Measuring& on) const {
-  if (std::exchange(s.exact, true) || !s.free) return;
   const double by_cells = s.width * (s.all_solid ? 2 : 1), enough = std::min(by_cells + 3 * cell_, most_);
   s.width = std::min(first_that_all_cover(s, enough, on), most_);
   if (s.width == most_) s.width = std::min(first_that_all_cover(s, most_, on), most_);
@@ -203,59 +201,24 @@ double LinesBefore::within(Point at) const {
 void BeltRing::find_lines(const LinesBefore& before) {
   const auto too_narrow = [&](const Sample& s) { return s.width + cell_ < depth_; };
   if (std::all_of(samples_.begin(), samples_.end(), too_narrow)) return;
-  find_means();
-  measure_doubtful();
+  const double in_doubt = doubt * cell_;
+  Measuring on;
   for (Sample& s : samples_) {
-    if (!s.free || s.over < 0) continue;
+    if (!s.free) continue;
+    if (std::abs(over(s)) < in_doubt) measure(s, on);  // what may have a line or may not, as far as cells can tell
+    s.over = over(s);
+    if (s.over < 0) continue;
     s.within = before.within(s.at), s.over = std::min(s.over, s.within);
     s.line = s.over >= 0;
   }
 }
 
-/// Means of the widths around each place, as far as a line may go on there.
-void BeltRing::find_means() {
-  struct Sum {  // over the samples before the next, from one turn before the ring's first point
-    std::size_t next = 0;
-    double begins = 0, length = 0, area = 0;
-  };
-  const auto sum_to = [&](Sum& sum, double um) {
-    for (;;) {
-      const Sample& s = samples_[sum.next];
-      const double length = std::min(um - sum.begins, s.length);
-      if (length < s.length) return std::pair{sum.length + s.free * length, sum.area + s.free * length * s.width};
-      sum.begins += s.length, sum.length += s.free * s.length, sum.area += s.free * s.length * s.width;
-      if (++sum.next == samples_.size()) sum.next = 0;
-    }
-  };
-  const double half = std::min(mean_over_um, perimeter_) / 2;
-  Sum from{0, -perimeter_, 0, 0}, to = from;
-  for (Sample& s : samples_) {
-    const auto [length_from, area_from] = sum_to(from, s.along - half);
-    const auto [length_to, area_to] = sum_to(to, s.along + half);
-    const double mean = s.free ? (area_to - area_from) / (length_to - length_from) : 0;
-    s.over = std::min(mean - depth_, widest_strip * ground_.band - mean);
-  }
+/// By how much the belt is wide enough there, and narrow enough.
+double BeltRing::over(const Sample& s) const {
+  return std::min(s.width - depth_, widest_strip * ground_.band - s.width);
 }
 
-/// What may have a line or may not, as far as cells can tell, is measured.
-void BeltRing::measure_doubtful() {
-  const double most = doubt * cell_;
-  const std::vector<Run> doubtful = runs([&](const Sample& s) { return s.free && std::abs(s.over) < most; });
-  for (const Run& run : doubtful) measure_around(run);
-  if (!doubtful.empty()) find_means();
-}
-
-void BeltRing::measure_around(const Run& run) {
-  const std::size_t n = samples_.size();
-  std::size_t first = run.first + n, end = first + run.count;  // one turn on, so that nothing is before the ring
-  const double from = begins_um(first) - mean_over_um / 2, to = begins_um(end) + mean_over_um / 2;
-  while (first > end - n && begins_um(first) > from) --first;
-  while (end < first + n && begins_um(end) < to) ++end;
-  Measuring on;
-  for (std::size_t i = first; i < end; ++i) measure(samples_[i % n], on);
-}
-
-/// How much later than that sample what it is begins: where its mean passes the limit.
+/// How much later than that sample what it is begins: where the width passes the limit.
 double BeltRing::later(std::size_t i) const {
   const Sample &a = sample(i + samples_.size() - 1), &b = sample(i);
   if (!a.free || !b.free || (a.over >= 0) == (b.over >= 0)) return 0;

@@ -65,7 +65,7 @@ class BeltRing {
   // To be done in this order, and each step with a limit by what all rings of that depth add to it.
   void add_solid_runs(LengthLimit& limit) const;
   void open_solid_runs(double longest_um);     ///< longer ones are no spike between belts: wider than any belt
-  void find_lines(const LinesBefore& before);  ///< where the belt's mean width asks for one
+  void find_lines(const LinesBefore& before);  ///< where the belt is as wide as asks for one
   void add_pauses(LengthLimit& limit) const { add_runs(false, limit); }
   void close_pauses(double shortest_um) { turn_short(false, shortest_um); }
   void add_lines(LengthLimit& limit) const { add_runs(true, limit); }
@@ -82,12 +82,11 @@ class BeltRing {
     double along = 0;       // µm from the ring's first point, of its middle
     double length = 0;
     double width = 0;        // of the belt there, from the wall
-    double over = 0;         // by how much its mean is within the limits between which there is a line
+    double over = 0;         // by how much it is within the limits between which there is a line
     double within = beyond;  // the ends of the line beside it, of those one nearer to the wall
     bool free = false;       // solid or sparse: a line may go on there
     bool line = false;       // there is one
     bool all_solid = false;  // from wall to wall
-    bool exact = false;      // its width was asked of the layers' outlines
   };
   /// What measuring a place needs, made once for many.
   struct Measuring {
@@ -114,9 +113,7 @@ class BeltRing {
   Point place(const Sample& s, double um) const {
     return {s.at.x + rounded((um - depth_) * s.nx), s.at.y + rounded((um - depth_) * s.ny)};
   }
-  void measure_doubtful();
-  void measure_around(const Run& run);
-  void find_means();
+  double over(const Sample& s) const;
   double later(std::size_t i) const;
   double drawn_length(const Run& run) const;
   std::vector<Run> turnable(bool line) const;

@@ -31,10 +31,10 @@ struct Belts {
 /// Finds belts of no more than about five lines' width (`widest_strip`) and lays lines along the wall in them: the one
 /// in depth (k − ½) · band runs where the belt is at least that wide. A belt's inner edge follows from what lies layers
 /// away and is not seen: it moves to the edge of the last line, by half a line at most. So a belt below half a line has
-/// none: there the skin lacks a layer, or a wall lies beside what carries it with less than half of a line. Where lines
-/// begin and end is decided by the belt's mean width over some millimetres, by outlines where cells leave it in doubt,
-/// and lines that are about as long as the shortest are kept or left out together: so equal places are alike, however
-/// the grid lies on them.
+/// none: there the skin lacks a layer, or a wall lies beside what carries it with less than half of a line. A line
+/// begins and ends where the belt is that wide, by outlines where cells leave it in doubt: a wall that turns a corner
+/// above lies on all of it. Lines that are about as long as the shortest are kept or left out together: so equal places
+/// are alike, however the grid lies on them.
 /// @param inside of the walls, exactly
 /// @param solid,sparse cells of it; what is too narrow for a line of its own is solid, too
 /// @param layers what decides which is which

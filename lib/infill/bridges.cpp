@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <utility>
@@ -28,14 +29,23 @@ struct Hung {
   Strands resting, held;
 };
 
+/// Lines of so many at least and at most that share the height of an outline evenly, about `spacing` apart.
+LineSet lines_across(const Outline& outline, double spacing, int least, int most) {
+  const double height = outline.greatest_y() - outline.least_y();
+  const int count = std::clamp(static_cast<int>(height / spacing), least, most);
+  return {outline.least_y() + height / count / 2, height / count, count};
+}
+
+/// Lines that stand for the strands of an area where only their directions are compared: about one for each.
+LineSet few_across(const Outline& outline) {
+  return lines_across(outline, 400, 4, 200);
+}
+
 Hung hung(const Regions& gaps, const Mask& below, double angle_rad) {
-  constexpr double spacing = 400;                 // about a strand
   const double beyond = 2.5 * below.grid().cell;  // how far past its end a strand must find support: the grid's doubt
   const Frame frame(angle_rad, gaps.front().outer.front());
   const Outline outline(gaps, frame);
-  const double height = outline.greatest_y() - outline.least_y();
-  const int count = std::clamp(static_cast<int>(height / spacing), 4, 200);
-  const LineSet lines{outline.least_y() + height / count / 2, height / count, count};
+  const LineSet lines = few_across(outline);
   struct Sums {
     double length = 0, cubes = 0, fourths = 0;
     void add(double l) { length += l, cubes += std::pow(l, 3), fourths += std::pow(l, 4); }
@@ -93,8 +103,9 @@ Beads infill_below(const Regions& areas, SparseStyle style) {
   return out;
 }
 
-/// How far a strand goes on at most for something to lie on: three distances of lines that are all parallel. Those of
-/// most patterns are met sooner.
+/// How far a strand goes on at most for something to lie on. Two lines of the infill are met within two of their
+/// distances; the third is for strands that cross them aslant, by up to 48°. Those of patterns that cross themselves,
+/// which stand farther apart, are met sooner as well.
 double reach_um(const SparseStyle& below) {
   return 3 * below.band / below.density;
 }
@@ -117,10 +128,10 @@ struct Strand {
   double y = 0, from = 0, to = 0;
 };
 
-/// The way on from an end of a strand to what holds it.
-struct Going {
-  double along = 0;  ///< −1: from its first end on, 1: from its last
-  double by = 0;
+/// An end of a strand that lies on nothing, and the way on from there to what holds it.
+struct FreeEnd {
+  double along = 0;  ///< −1: its first end, 1: its last
+  double by = 0;     ///< µm
 };
 
 /// How far on from an end the nearest thing is to lie on.
@@ -140,12 +151,12 @@ std::optional<double> way_on(const Strand& strand, double along, std::span<const
 }
 
 /// The ends at which a strand must go on to lie on two things, the nearer first.
-std::vector<Going> missing_ends(const Strand& strand, std::span<const Crossing> holds, const Frame& frame,
-                                const OverSparse& around) {
+std::vector<FreeEnd> missing_ends(const Strand& strand, std::span<const Crossing> holds, const Frame& frame,
+                                  const OverSparse& around) {
   constexpr int enough = 2;
   int held = static_cast<int>(std::count_if(holds.begin(), holds.end(),
                                             [&](const Crossing& c) { return c.x > strand.from && c.x < strand.to; }));
-  std::vector<Going> free;
+  std::vector<FreeEnd> free;
   for (const double along : {-1.0, 1.0}) {
     const Turned end{along < 0 ? strand.from : strand.to, strand.y};
     if (!stands_out_by(end, along, frame, around))
@@ -166,15 +177,12 @@ struct Ways {
 };
 
 Ways ways_of(const Regions& areas, const OverSparse& around, const Beads& held_by, double angle_rad) {
-  constexpr double spacing = 400;  // about a strand
   // A strand is laid straight because it is pulled; an end that nothing holds is not, and curls. So much longer is one
   // that sags as far.
   constexpr double stands_out = 6;
   const Frame frame(angle_rad, areas.front().outer.front());
   const Outline outline(areas, frame);
-  const double height = outline.greatest_y() - outline.least_y();
-  const int count = std::clamp(static_cast<int>(height / spacing), 4, 200);
-  const LineSet lines{outline.least_y() + height / count / 2, height / count, count};
+  const LineSet lines = few_across(outline);
   const auto met = crossings(held_by, frame, lines);
   double all = 0, free = 0, cubes = 0, fourths = 0;
   const auto span = [&](double length, bool stands) {
@@ -187,9 +195,9 @@ Ways ways_of(const Regions& areas, const OverSparse& around, const Beads& held_b
     Strand strand{lines.y(i.line), i.from, i.to};
     auto first = stands_out_by({strand.from, strand.y}, -1, frame, around);
     auto last = stands_out_by({strand.to, strand.y}, 1, frame, around);
-    for (const Going& on : missing_ends(strand, {begin, end}, frame, around)) {
-      (on.along < 0 ? strand.from : strand.to) += on.along * on.by;
-      (on.along < 0 ? first : last).reset();
+    for (const FreeEnd& each : missing_ends(strand, {begin, end}, frame, around)) {
+      (each.along < 0 ? strand.from : strand.to) += each.along * each.by;
+      (each.along < 0 ? first : last).reset();
     }
     double from = strand.from - first.value_or(0);
     bool stands = first.has_value();
@@ -234,15 +242,13 @@ Regions up_to_holds(const Region& area, double angle_rad, const OverSparse& arou
   if (!is_beside_open(area, around)) return {};
   const Frame frame(angle_rad, area.outer.front());
   const Outline outline(area, frame);
-  const double height = outline.greatest_y() - outline.least_y();
-  const int count = std::max(1, static_cast<int>(height / line));
-  const LineSet strands{outline.least_y() + height / count / 2, height / count, count};
+  const LineSet strands = lines_across(outline, line, 1, std::numeric_limits<int>::max());
   const auto holds = crossings(infill_around(area, around.below), frame, strands);
   Regions out;
   for (const Interval& i : outline.cut(strands)) {
     const Strand strand{strands.y(i.line), i.from, i.to};
     const auto [first, last] = std::equal_range(holds.begin(), holds.end(), Crossing{i.line, 0}, by_line);
-    for (const Going& end : missing_ends(strand, {first, last}, frame, around)) {
+    for (const FreeEnd& end : missing_ends(strand, {first, last}, frame, around)) {
       const double from = end.along < 0 ? i.from : i.to, to = from + end.along * (end.by + line);
       const double low = strand.y - strands.spacing / 2, high = strand.y + strands.spacing / 2;
       out.push_back({{frame.back({std::min(from, to), low}), frame.back({std::max(from, to), low}),

@@ -23,11 +23,11 @@ struct Held {
 /// Cost: 36 directions, each a scan of the gaps. Pre: there is one
 std::optional<Held> held_over(const Regions& gaps, const Mask& below);
 
-/// Where strands over sparse infill hang, and what of that layer's edge holds none: there it is sparse infill as well.
+/// What strands of a layer meet around sparse infill below them.
 struct OverSparse {
-  const Mask& hanging;
-  const Mask& open;
-  const SparseStyle& below;
+  const Mask& hanging;       ///< where they hang between its lines
+  const Mask& open;          ///< beside that, where the layer below is sparse infill too and holds no end
+  const SparseStyle& below;  ///< that infill
 };
 
 /// The direction in which strands over the sparse infill below `area` span the shortest free ways from line to line,

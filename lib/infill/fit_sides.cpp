@@ -98,10 +98,7 @@ SideFit::SideFit(const Outline& outline, const LineSet& lines, std::span<const I
   std::sort(above_.begin(), above_.end(), before);
   std::sort(below_.begin(), below_.end(), before);
   if (widths_.shared_by < 2) return;
-  shared_ = {intervals_, ramp * band_, widths_.shared_by};
-  shared_.share(straight(below_), false);
-  shared_.share(straight(above_), true);
-  shared_.finish();
+  shared_ = {intervals_, straight(below_), straight(above_), ramp * band_, widths_.shared_by};
   for (std::uint32_t i = 0; i < beside_.size(); ++i) beside_[i] = beside_[i] || shared_.concerns(i);
 }
 
@@ -137,7 +134,8 @@ std::vector<SideFit::Corner> SideFit::side(bool is_above, std::uint32_t interval
   double open = from;  // where the last stretch ended
   const auto leave_plain = [&](double until) {
     if (until - open <= jog * band_) return;
-    for (const Knot& knot : shared_.along(interval, is_above, open, until)) corners.push_back({knot.x, half + knot.by});
+    for (const Knot& knot : shared_.along(interval, is_above, open, until))
+      corners.push_back({knot.x, half + knot.more});
   };
   while (it != all.end() && it->interval == interval) {
     // edges that follow each other without a hole between them are one stretch
@@ -157,7 +155,7 @@ std::vector<SideFit::Corner> SideFit::side(bool is_above, std::uint32_t interval
   }
   leave_plain(to);
   if (corners.empty())
-    for (const Knot& knot : shared_.along(interval, is_above, from, to)) corners.push_back({knot.x, half + knot.by});
+    for (const Knot& knot : shared_.along(interval, is_above, from, to)) corners.push_back({knot.x, half + knot.more});
   // what jumps takes a way along the line
   for (std::size_t i = 1; i < corners.size(); ++i) {
     Corner &a = corners[i - 1], &b = corners[i];

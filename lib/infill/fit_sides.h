@@ -17,11 +17,11 @@ struct Sides {
   double below = 0, above = 0;  ///< from the line; fractional microns
 };
 
-/// How wide lines may be, in bands.
+/// How far lines go along with edges beside them. Lengths are in bands.
 struct FitWidths {
-  double least = 0, most = 1e9;
-  double steady_from = 0;  ///< along a line; briefer swings of an edge beside it are not followed
-  int shared_by = 1;       ///< lines that share what a nearly straight edge asks of one
+  double least = 0, most = 1e9;  ///< width of a line
+  double steady_from = 0;        ///< along a line; briefer swings of an edge beside it are not followed
+  int shared_by = 1;             ///< lines that share what a nearly straight edge asks of one
 };
 
 /// Where edges run along the lines of a fill, closer than a neighbour would lie, a line ends at the edge: it covers

@@ -11,13 +11,19 @@ double height_at(const std::vector<Knot>& profile, double x) {
   if (x <= profile.front().x || x >= profile.back().x) return 0;
   const auto after = std::find_if(profile.begin(), profile.end(), [x](const Knot& each) { return each.x >= x; });
   const Knot &a = after[-1], &b = *after;
-  return b.x > a.x ? std::lerp(a.by, b.by, (x - a.x) / (b.x - a.x)) : b.by;
+  return b.x > a.x ? std::lerp(a.more, b.more, (x - a.x) / (b.x - a.x)) : b.more;
 }
 
 }  // namespace
 
-SharedMisfit::SharedMisfit(std::span<const Interval> intervals, double ramp, int lines)
-    : intervals_(intervals), ramp_(ramp), lines_(lines) {}
+SharedMisfit::SharedMisfit(std::span<const Interval> intervals, std::span<const Edge> below,
+                           std::span<const Edge> above, double ramp, int lines)
+    : intervals_(intervals), ramp_(ramp), lines_(lines) {
+  share(below, false);
+  share(above, true);
+  for (auto& side : of_)
+    std::stable_sort(side.begin(), side.end(), [](const Moved& a, const Moved& b) { return a.interval < b.interval; });
+}
 
 std::pair<std::uint32_t, std::uint32_t> SharedMisfit::on_line(int line) const {
   const auto before = [](const Interval& each, int l) { return each.line < l; };
@@ -67,11 +73,6 @@ void SharedMisfit::share(std::span<const Edge> edges, bool above) {
   }
 }
 
-void SharedMisfit::finish() {
-  for (auto& side : of_)
-    std::stable_sort(side.begin(), side.end(), [](const Moved& a, const Moved& b) { return a.interval < b.interval; });
-}
-
 std::span<const SharedMisfit::Moved> SharedMisfit::of(std::uint32_t interval, bool above) const {
   const std::vector<Moved>& side = of_[above];
   const auto first = std::lower_bound(side.begin(), side.end(), interval,
@@ -82,9 +83,9 @@ std::span<const SharedMisfit::Moved> SharedMisfit::of(std::uint32_t interval, bo
 }
 
 double SharedMisfit::at(std::uint32_t interval, bool above, double x) const {
-  double by = 0;
-  for (const Moved& each : of(interval, above)) by += each.share * height_at(profiles_[each.profile], x);
-  return by;
+  double more = 0;
+  for (const Moved& each : of(interval, above)) more += each.share * height_at(profiles_[each.profile], x);
+  return more;
 }
 
 std::vector<Knot> SharedMisfit::along(std::uint32_t interval, bool above, double from, double to) const {
@@ -95,7 +96,7 @@ std::vector<Knot> SharedMisfit::along(std::uint32_t interval, bool above, double
     for (const Knot& knot : profiles_[each.profile])
       if (knot.x > from && knot.x < to) out.push_back({knot.x, 0});
   std::sort(out.begin(), out.end(), [](const Knot& a, const Knot& b) { return a.x < b.x; });
-  for (Knot& knot : out) knot.by = at(interval, above, knot.x);
+  for (Knot& knot : out) knot.more = at(interval, above, knot.x);
   return out;
 }
 

@@ -9,9 +9,9 @@
 
 namespace weft::infill {
 
-/// A place along a line, and how far something is from where it would be.
+/// A place along a line, and how much more room there is than half a line takes. In the unit of the lines, µm.
 struct Knot {
-  double x = 0, by = 0;
+  double x = 0, more = 0;
 };
 
 /// Where lines stand on one grid and an edge runs along them, the line beside it has more or less room than the others.
@@ -19,31 +19,28 @@ struct Knot {
 /// them took. A strand half as wide lies poorly, and an extruder takes millimetres to change by that much.
 class SharedMisfit {
  public:
-  /// A nearly straight edge along an interval, or a piece of it, and by how much more than half a line it is away.
+  /// A nearly straight edge along an interval, or a piece of it.
   struct Edge {
     std::uint32_t interval = 0;
     Knot from, to;
   };
 
   SharedMisfit() = default;
-  /// @param intervals on the lines of a fill, by line and then from left to right
-  /// @param ramp      in which lines come back beyond the ends of such an edge
+  /// Shares what edges below lines and above them ask for.
+  /// @param intervals on the lines of a fill, by line and then from left to right; they must outlive this
+  /// @param below,above edges by interval and then from left to right
+  /// @param ramp      µm in which lines come back beyond the ends of such an edge
   /// @param lines     that share at most
-  SharedMisfit(std::span<const Interval> intervals, double ramp, int lines);
-
-  /// Shares what edges on one side of the lines ask for, given by interval and then from left to right.
-  /// @param above that side
-  void share(std::span<const Edge> edges, bool above);
-  /// Call after the last `share`.
-  void finish();
+  SharedMisfit(std::span<const Interval> intervals, std::span<const Edge> below, std::span<const Edge> above,
+               double ramp, int lines);
 
   /// Whether an interval has its part of something.
   bool concerns(std::uint32_t interval) const {
     return !of_[0].empty() && !(of(interval, false).empty() && of(interval, true).empty());
   }
 
-  /// How much farther than half a line one side of an interval reaches, at the places strictly between two where that
-  /// bends, and at these.
+  /// How much farther than half a line one side of an interval reaches: at two places, and at those strictly between
+  /// them where that bends.
   std::vector<Knot> along(std::uint32_t interval, bool above, double from, double to) const;
   double at(std::uint32_t interval, bool above, double x) const;
 
@@ -55,6 +52,7 @@ class SharedMisfit {
   };
   using Profile = std::vector<Knot>;
 
+  void share(std::span<const Edge> edges, bool above);
   std::span<const Moved> of(std::uint32_t interval, bool above) const;
   std::vector<std::uint32_t> sharers(std::uint32_t interval, double from, double to, bool above) const;
   std::pair<std::uint32_t, std::uint32_t> on_line(int line) const;

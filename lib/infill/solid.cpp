@@ -24,9 +24,9 @@ constexpr double widest_pair = 2.4;       // bands across; wider strips are fill
 constexpr double widest_strand = 1.35;    // bands, of a bead along a strip: one and a half nozzles, of lines of 1.125
 constexpr double narrowest_strand = 0.6;  // bands, of one of two
 constexpr double narrowest_side = 0.25;   // bands, of a line that an edge runs along
-// Where edges run along lines. An extruder that lags by L = 2 mm, 40 ms at 50 mm/s, errs over 2L(1 − e^(−D/L)) when it
-// is asked for a swing of length D, and over D when it is not: it is better not asked below 1.6 L, seven and a half
-// bands of 0.42 mm.
+// Where edges run along lines. The flow of an extruder that lags follows a step as 1 − e^(−x/L); with L = 2 mm, 40 ms
+// at 50 mm/s, it errs over 2L(1 − e^(−D/L)) when it is asked for a swing of length D, both flanks together, and over D
+// when it is not: it is better not asked below 1.6 L, seven and a half bands of 0.42 mm.
 constexpr FitWidths beside_edges{.least = 0.65, .most = widest_strand, .steady_from = 7.5, .shared_by = 6};
 constexpr double longest_turn = 2.7;      // bands; shallower edges are run along (fit_sides.h), not turned along
 constexpr double least_left = 0.3;        // bands of a line between its turns; else the turn is as wide as the place

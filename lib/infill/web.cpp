@@ -243,13 +243,13 @@ void Web::emit(double most, Um band, double wanted, Beads& beads) {
   const double widest = wanted > 0 ? 1 / least_narrowing : 1;
   if (wanted <= 0) wanted = raw + around;
   neighbours_ = most / 2;
-  // joints that make up much of a small area's plastic are not worth it: shorter ones, or the shortest alone
+  most_ = most;
+  // joints that make up much of a small area's plastic are not worth it: shorter ones, or the shortest alone, and those
+  // of dashes
   for (const double longest : {most, most / 2, 0.0}) {
-    join(style_.connect ? longest : 0.0);
-    if (style_.connect && longest > 0) {
-      join_the_rest(longest);
-      merge_loops(longest);
-    }
+    join(longest);
+    if (style_.connect && most > 0) join_the_rest(longest);
+    if (style_.connect && longest > 0) merge_loops(longest);
     if (style_.connect && most > 0)
       join_far(style_.anchor_max >= 0 ? most : farther * most, wanted / least_even - around - laid_length());
     if (style_.anchor_um > 0) anchor(style_.anchor_um);

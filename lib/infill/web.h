@@ -149,6 +149,7 @@ class Web {
   std::vector<std::uint32_t> at_ring_, in_order_;           // by end on the edge: its ring, its place in `order_`
   std::vector<std::uint32_t> joint_, set_;
   Um band_ = 0;
+  double most_ = 0;                       // length of a joint of dashes, whatever it takes
   double neighbours_ = 0;                 // length of joints between which no line can come near the edge
   std::optional<Beside> beside_;          // the edge, where joints run; made when it is wanted
   geometry::SegmentIndex all_lines_;      // the same

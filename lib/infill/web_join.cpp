@@ -9,6 +9,9 @@ namespace weft::infill {
 namespace {
 
 constexpr double least_inset = 0.7;  // of what a joint keeps from the edge
+// In bands. An extruder that lags by 40 ms is at 60 mm/s not there before its end: between two walls that are some
+// lines apart a pattern is nothing but dashes and ways between them, if it is not joined.
+constexpr double longest_dash = 5.5;
 
 }  // namespace
 
@@ -52,7 +55,7 @@ void Web::join(double longest) {
   pull_.resize(ends_.size());
   for (std::uint32_t e = 0; e < ends_.size(); ++e) pull_[e] = free_pull(e);
   if (order_.empty()) order_ends();
-  if (longest <= 0) return;
+  if (!style_.connect || most_ <= 0) return;
   StopNowAndThen stop(64);
   const auto join_those = [&](auto wanted) {
     for (const auto& [first, last] : rings_)
@@ -129,7 +132,8 @@ void Web::part(std::uint32_t a) {
 }
 
 bool Web::try_join(std::uint32_t a, std::uint32_t b, double longest) {
-  if (a == b || set_of(a / 2) == set_of(b / 2)) return false;
+  if (std::min(length(a / 2), length(b / 2)) < longest_dash * band_) longest = std::max(longest, most_);
+  if (a == b || longest <= 0 || set_of(a / 2) == set_of(b / 2)) return false;
   const double inset = band_ / 2.0 - style_.overlap.um;
   const double before_a = pull_[a], before_b = pull_[b];
   std::optional<std::vector<Place>> arc = arc_between(a, b, inset, longest);

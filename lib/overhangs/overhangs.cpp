@@ -75,6 +75,12 @@ std::optional<double> edge_between(Look here, Look there, double length_um, cons
   return (here.along + there.along) / 2;
 }
 
+/// A part thinner than a bead may be has one with less flow: the plastic lies over what is below the part, and not over
+/// what is below the width that the bead has in name.
+double laid_width(const Junction& j) {
+  return j.width * std::min(1.0, static_cast<double>(j.flow));
+}
+
 /// How the bead lies all along.
 std::vector<Run> runs_of(const std::vector<Junction>& path, Air& air) {
   std::vector<Run> runs;
@@ -92,7 +98,7 @@ std::vector<Run> runs_of(const std::vector<Junction>& path, Air& air) {
     const int looks = static_cast<int>(std::ceil(length / step_um));
     const double nx = -(b.at.y - a.at.y) / length, ny = (b.at.x - a.at.x) / length;
     const auto look = [&](double along) {
-      const double half = (a.width + along * (b.width - a.width)) / 2;
+      const double half = (laid_width(a) + along * (laid_width(b) - laid_width(a))) / 2;
       return Look{along, air.share(lerp(a.at, b.at, along), {rounded(half * nx), rounded(half * ny)})};
     };
     double from = 0;

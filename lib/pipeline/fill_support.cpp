@@ -95,10 +95,11 @@ class Layers {
         append(areas, *some);
       Beads more = columns_of(j);
       std::move(more.begin(), more.end(), std::back_inserter(beads));
-      for (const Polyline& line : under.joists.lines) {
-        Bead& bead = beads.emplace_back();
-        for (Point p : line) bead.path.push_back({p, 0, 1.F});
-      }
+      for (const auto* lines : {&under.joists.lines, &under.joists.after})
+        for (const Polyline& line : *lines) {
+          Bead& bead = beads.emplace_back();
+          for (Point p : line) bead.path.push_back({p, 0, 1.F});
+        }
     }
     return {areas, beads, line_};
   }

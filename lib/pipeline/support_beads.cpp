@@ -297,9 +297,13 @@ class Filler {
   /// Rims, and lines from branch to branch.
   void joists() {
     loops(layer_.joists.rimmed, 1, Role::support, true);
-    for (const Polyline& line : layer_.joists.lines) {
+    joists(layer_.joists.lines, 0);
+    joists(layer_.joists.after, 1);
+  }
+  void joists(const std::vector<Polyline>& lines, std::uint32_t sequence) {
+    for (const Polyline& line : lines) {
       Bead bead;
-      bead.role = Role::support;
+      bead.role = Role::support, bead.sequence = sequence;
       for (Point p : line) bead.path.push_back({p, band_, 1.F});
       beads_.push_back(std::move(bead));
     }

@@ -180,7 +180,7 @@ class Below {
   bool holds(const Region& region) const {
     return std::any_of(region.outer.begin(), region.outer.end(), [&](Point p) {
       bool held = false;
-      columns_.each_around(p, [&](std::uint32_t r) { held = held || has(regions_[r], p); });
+      columns_.each_around(p, [&](std::uint32_t r) { held = held || side_of(regions_[r], p) != Side::outside; });
       return held;
     });
   }
@@ -190,11 +190,6 @@ class Below {
     std::vector<Box> out;
     for (const Region& region : regions) out.push_back(box_of(region.outer));
     return out;
-  }
-  static bool has(const Region& region, Point p) {
-    return side_of(region.outer, p) != Side::outside &&
-           std::none_of(region.holes.begin(), region.holes.end(),
-                        [p](const Ring& hole) { return side_of(hole, p) == Side::inside; });
   }
 
   const Regions& regions_;

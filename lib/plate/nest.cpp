@@ -266,10 +266,7 @@ class Nest {
       for (const Point p : region.outer) offer(p);
       for (const auto& hole : region.holes)
         for (const Point p : hole) offer(p);
-      const bool in = side_of(region.outer, bed_.middle) == Side::inside &&
-                      std::all_of(region.holes.begin(), region.holes.end(),
-                                  [&](const Ring& hole) { return side_of(hole, bed_.middle) == Side::outside; });
-      if (in && way == Way::middle_out) offer(bed_.middle);
+      if (way == Way::middle_out && side_of(region, bed_.middle) == Side::inside) offer(bed_.middle);
     }
     return out;
   }

@@ -32,13 +32,6 @@ struct LayerPatches {
   double bridged_mm2 = 0;
 };
 
-/// Whether a place lies in a region or on its edge; what lies in a hole of it is of another.
-bool is_of(const Region& region, Point p) {
-  return side_of(region.outer, p) != Side::outside &&
-         std::none_of(region.holes.begin(), region.holes.end(),
-                      [&](const Ring& hole) { return side_of(hole, p) == Side::inside; });
-}
-
 /// Which regions of a layer begin in the air: those of which no more than a bead's square lies over the layer below.
 /// @param step  what of the layer lies over air
 std::vector<std::size_t> beginning(const Regions& here, const Regions& step, Um outer_line) {
@@ -50,7 +43,8 @@ std::vector<std::size_t> beginning(const Regions& here, const Regions& step, Um 
   for (const Region& piece : step) {
     const Box box = box_of(piece.outer);
     columns.each_around(box.min, [&](std::uint32_t r) {
-      if (columns[r].contains(box.max) && is_of(here[r], piece.outer.front())) in_air_mm2[r] += area_mm2(piece);
+      if (columns[r].contains(box.max) && side_of(here[r], piece.outer.front()) != Side::outside)
+        in_air_mm2[r] += area_mm2(piece);
     });
   }
   std::vector<std::size_t> out;
@@ -215,7 +209,8 @@ std::vector<Island> islands(const Object& object) {
     const Box under = box_of(below);
     const bool near = std::all_of(here.begin(), here.end(), [&](const Region& r) {
       const Point p = r.outer.front();
-      return under.contains(p) && std::any_of(below.begin(), below.end(), [&](const Region& b) { return is_of(b, p); });
+      return under.contains(p) &&
+             std::any_of(below.begin(), below.end(), [&](const Region& b) { return side_of(b, p) != Side::outside; });
     });
     if (near) return out;
     for (const auto r : beginning(here, geometry::subtract(here, below), object.outer_line))

@@ -13,6 +13,8 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <numbers>
+#include <optional>
 #include <set>
 #include <span>
 #include <utility>
@@ -86,6 +88,11 @@ class Resting {
  public:
   Resting(const Regions& below, const JoistStyle& style) : below_(below), style_(style) {}
 
+  /// Beads of the same level that are laid before: their ends carry as well.
+  void carried_by(std::span<const Polyline> lines) {
+    for (const Polyline& line : lines) ends_.insert(ends_.end(), {line.front(), line.back()});
+  }
+
   /// @return whether all of a ring rests; else its pieces that do, in `out`
   bool ring(const Ring& ring, std::vector<Polyline>& out) const {
     Polyline points = walked(ring, true);
@@ -113,7 +120,10 @@ class Resting {
   }
 
  private:
-  bool rests(Point p) const { return below_.region_at(p).has_value(); }
+  bool rests(Point p) const {
+    return below_.region_at(p).has_value() ||
+           std::any_of(ends_.begin(), ends_.end(), [&](Point end) { return distance(end, p) <= style_.line; });
+  }
   /// From a rest to another as far as none is too far from the next one.
   std::vector<Polyline> spans(const Polyline& points) const {
     std::vector<Polyline> out;
@@ -147,31 +157,84 @@ class Resting {
 
   geometry::SegmentIndex below_;
   const JoistStyle& style_;
+  std::vector<Point> ends_;
 };
 
-void lay_rims(const JoistPlace& place, const JoistStyle& style, Joists& out) {
+/// Branches that have no other for a joist to run to.
+class Lone {
+ public:
+  Lone(const std::vector<Point>& tips, const std::vector<Polyline>& lines, const JoistStyle& style) : style_(style) {
+    std::set<Point> taken;
+    for (const Polyline& line : lines) taken.insert(line.begin(), line.end());
+    std::copy_if(tips.begin(), tips.end(), std::back_inserter(tips_), [&](Point p) { return taken.insert(p).second; });
+  }
+
+  /// On each that a region lies on, two beads that cross, as far as its rim.
+  std::vector<Polyline> crosses(const Region& region) const {
+    std::vector<Polyline> out;
+    std::optional<geometry::SegmentIndex> rim;
+    for (const Point tip : tips_) {
+      if (side_of(region, tip) != Side::inside) continue;
+      if (!rim) rim.emplace(geometry::offset({region}, {.by = -style_.line * 8 / 10}));
+      if (!rim->region_at(tip)) continue;
+      for (const double angle : {style_.strands_rad, style_.strands_rad + std::numbers::pi / 2})
+        out.push_back({arm(tip, angle, *rim), tip, arm(tip, angle + std::numbers::pi, *rim)});
+    }
+    return out;
+  }
+
+ private:
+  Point arm(Point tip, double angle, const geometry::SegmentIndex& rim) const {
+    const double reach = style_.longest / 2.0;
+    const Point end = tip + Point{rounded(reach * std::cos(angle)), rounded(reach * std::sin(angle))};
+    std::vector<geometry::SegmentIndex::Crossing> found;
+    rim.crossings(tip, end, found);
+    return found.empty() ? end : lerp(tip, end, found.front().along);
+  }
+
+  const JoistStyle& style_;
+  std::vector<Point> tips_;
+};
+
+/// The rims of a region, or what of them rests.
+struct Rims {
+  bool all = true;               ///< whether they rest as they are
+  std::vector<Polyline> pieces;  ///< what does
+};
+
+Rims rims_on(const Resting& resting, const std::vector<Ring>& rings) {
+  Rims out;
+  std::vector<Polyline> whole;
+  for (Ring ring : rings)
+    if (resting.ring(ring, out.pieces))
+      ring.push_back(ring.front()), whole.push_back(std::move(ring));
+    else
+      out.all = false;
+  std::move(whole.begin(), whole.end(), std::back_inserter(out.pieces));
+  return out;
+}
+
+void lay_rims(const JoistPlace& place, const Lone& lone, const JoistStyle& style, Joists& out) {
   const Resting resting(place.below, style);
   for (const Region& region : out.area) {
     // Under a slope each strip hangs on to the roof of the one below it: its loops are what steps lie on.
     const bool holds_on = !geometry::trimmed(place.beside, box_of(region.outer)).empty();
-    bool all = true;
-    std::vector<Polyline> pieces;
-    std::vector<Ring> whole, rings;
+    std::vector<Ring> rings;
     if (!holds_on) rings = geometry::rings_of(geometry::offset({region}, {.by = -style.line / 2}));
-    for (const Ring& ring : rings) {
-      const bool rests = resting.ring(ring, pieces);
-      if (rests) whole.push_back(ring);
-      all = all && rests;
-    }
-    if (all) {
+    Rims rims = rims_on(resting, rings);
+    if (rims.all) {
       out.rimmed.push_back(region);
       continue;
     }
-    for (Ring& ring : whole) {
-      ring.push_back(ring.front());
-      pieces.push_back(std::move(ring));
+    std::vector<Polyline>* to = &out.lines;
+    if (auto crosses = lone.crosses(region); !crosses.empty()) {
+      Resting on_crosses = resting;
+      on_crosses.carried_by(crosses);
+      rims = rims_on(on_crosses, rings);
+      std::move(crosses.begin(), crosses.end(), std::back_inserter(out.lines));
+      to = &out.after;
     }
-    std::move(pieces.begin(), pieces.end(), std::back_inserter(out.lines));
+    std::move(rims.pieces.begin(), rims.pieces.end(), std::back_inserter(*to));
   }
 }
 
@@ -240,16 +303,17 @@ void run_out_to_rim(std::vector<Polyline>& lines, const Regions& inside, const J
 }  // namespace
 
 Joists joists_between(Regions area, const JoistPlace& place, const JoistStyle& style) {
-  Joists out{std::move(area), {}, {}};
+  Joists out{std::move(area), {}, {}, {}};
   if (out.area.empty()) return out;
   Chosen chosen(place.tips, style);
   for (const auto& triangle : geometry::delaunay(place.tips)) chosen.take(triangle);
   auto lines = chosen.lines();
   Regions inside = geometry::offset(out.area, {.by = -style.line * 8 / 10});  // their ends lie on the rim
   if (style.one_way && place.beside.empty()) run_out_to_rim(lines, inside, style);
+  const Lone lone(place.tips, lines, style);
   auto pieces = geometry::clip_lines(lines, ways(lines, out.area, std::move(inside), place));
   std::erase_if(pieces, [&](const auto& piece) { return length_of(piece.line) < style.line; });
-  lay_rims(place, style, out);
+  lay_rims(place, lone, style, out);
   if (place.beside.empty()) {
     Regions below = place.below;  // and the rims that they end on
     const Regions within = geometry::offset(out.rimmed, {.by = -style.line});

@@ -27,7 +27,8 @@ struct JoistPlace {
 /// Of an area that lies on the tips of branches, what carries the strands above it: its rim, where that lies on
 /// something every so often, and lines from tip to tip across the strands. Of each Delaunay triangle of tips the side
 /// that is widest across the strands is one, so whatever strand crosses the triangle crosses that side. Lines run on to
-/// branches beyond the rim, or their ends would hang.
+/// branches beyond the rim, or their ends would hang. Where a branch stands alone and the rim does not lie on it, two
+/// lines that cross there carry the rim.
 Joists joists_between(Regions area, const JoistPlace& place, const JoistStyle& style);
 
 }  // namespace weft::support

@@ -241,12 +241,12 @@ bool all_empty(const std::vector<Regions>& by_level) {
 /// By what is asked for.
 Split split_of(const Room& room, const Stack& stack, const std::vector<Regions>& contacts, tasks::Spare& spare) {
   const std::vector<Regions> nothing(contacts.size());
-  if (all_empty(contacts)) return {nothing, nothing, std::nullopt, std::nullopt};
+  if (all_empty(contacts)) return {nothing, nothing, std::nullopt};
   switch (room.settings().support_structure) {
     case SupportStructure::normal:
-      return {nothing, contacts, std::nullopt, std::nullopt};
+      return {nothing, contacts, std::nullopt};
     case SupportStructure::tree:
-      return {contacts, nothing, Field(room.settings(), room.object(), stack, contacts), std::nullopt};
+      return {contacts, nothing, Field(room.settings(), room.object(), stack, contacts)};
     case SupportStructure::hybrid:
       break;
   }
@@ -305,10 +305,12 @@ void add_branches(const Room& room, std::size_t k, const Standing& standing, Sup
   if (!layer.joists.area.empty() && !columns.empty()) {
     layer.joists.area = beside(layer.joists.area, columns, 20, half / 2);
     layer.joists.rimmed = beside(layer.joists.rimmed, columns, 20, half / 2);
-    std::vector<Polyline> left;
-    for (auto& piece : geometry::clip_lines(layer.joists.lines, columns, geometry::Keep::outside))
-      if (length_of(piece.line) >= 2 * half) left.push_back(std::move(piece.line));
-    layer.joists.lines = std::move(left);
+    for (auto* lines : {&layer.joists.lines, &layer.joists.after}) {
+      std::vector<Polyline> left;
+      for (auto& piece : geometry::clip_lines(*lines, columns, geometry::Keep::outside))
+        if (length_of(piece.line) >= 2 * half) left.push_back(std::move(piece.line));
+      *lines = std::move(left);
+    }
   }
   layer.branches = beside(areas, columns, half, half / 2);
   Regions others = roofs;

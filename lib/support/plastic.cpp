@@ -44,7 +44,8 @@ double plastic_mm3(const SupportSettings& settings, Um nozzle, const Plan& plan)
     double mm2 =
         area_mm2(layer.roof) + area_mm2(layer.under_roof) * under_roof_share(settings) + area_mm2(layer.bottom);
     mm2 += loops_mm2(layer.branches, band) + loops_mm2(layer.joists.rimmed, band);
-    for (const Polyline& joist : layer.joists.lines) mm2 += length_of(joist) / 1000 * to_mm(band);
+    for (const auto* lines : {&layer.joists.lines, &layer.joists.after})
+      for (const Polyline& joist : *lines) mm2 += length_of(joist) / 1000 * to_mm(band);
     mm3 += mm2 * to_mm(layer.height);
   }
   return mm3;

@@ -11,14 +11,14 @@
 /// Outlines as cells of a grid, and how far cells are from each other.
 namespace weft::support {
 
-/// Squared distance, in cells, where there is nothing near.
+/// Squared distance, in cells, where there is nothing near: more than three axes of reach make, 3 · 5².
 inline constexpr std::uint8_t far_away = 100;
 
 /// One pass, along an axis, of a squared distance transform of what is near: each cell gets the least of what cells of
 /// its line have, plus the square of how far they are. One pass along each of three axes makes distances of zeros.
 /// Pre: cells of a line lie `stride` apart in memory, lines fill blocks of `count` times that; reach is 5 at most, so
 ///      that no sum is too large for a byte
-/// Cost: two looks at each cell for each cell of reach, sixteen at once.
+/// Cost: two looks at each cell for each cell of reach, in a loop over bytes that compilers vectorise.
 void spread_squares(std::vector<std::uint8_t>& squares, std::size_t count, std::size_t stride, std::size_t reach);
 
 /// Squared distance, in cells, of each cell of rows of so many to the nearest one that is not 0, but at most most²:

@@ -48,19 +48,13 @@ bool is_near(const Ring& ring, const geometry::SegmentIndex& edge, Um within) {
   return edge.winding(ring.front()).value_or(1) != 0;
 }
 
-bool contains(const Region& region, Point p) {
-  return side_of(region.outer, p) != Side::outside &&
-         std::none_of(region.holes.begin(), region.holes.end(),
-                      [p](const Ring& hole) { return side_of(hole, p) == Side::inside; });
-}
-
 /// Whether a piece of the part comes as near to an area.
 bool comes_near(const Region& part, const Regions& area, const geometry::SegmentIndex& edge, Um within) {
   return is_near(part.outer, edge, within) ||
          std::any_of(part.holes.begin(), part.holes.end(),
                      [&](const Ring& hole) { return is_near(hole, edge, within); }) ||
          std::any_of(area.begin(), area.end(),
-                     [&](const Region& region) { return contains(part, region.outer.front()); });
+                     [&](const Region& region) { return side_of(part, region.outer.front()) != Side::outside; });
 }
 
 }  // namespace

@@ -54,6 +54,7 @@ struct Joists {
   Regions area;
   Regions rimmed;               ///< what of it has a loop along its rim
   std::vector<Polyline> lines;  ///< from branch to branch, and what of other rims lies on something
+  std::vector<Polyline> after;  ///< rims that lie on ends of these: printed after them
 };
 
 /// One layer of support. Areas do not overlap.

@@ -48,6 +48,18 @@ TEST_CASE("core: a point is inside, on or outside of a ring") {
   CHECK(side_of(triangle, {0, 3000}) == Side::outside);
 }
 
+TEST_CASE("core: what lies in a hole of a region is outside of it") {
+  const Region frame{{{0, 0}, {9000, 0}, {9000, 9000}, {0, 9000}},
+                     {{{1000, 1000}, {1000, 3000}, {3000, 3000}, {3000, 1000}},
+                      {{5000, 5000}, {5000, 8000}, {8000, 8000}, {8000, 5000}}}};
+  CHECK(side_of(frame, {4000, 4000}) == Side::inside);
+  CHECK(side_of(frame, {2000, 2000}) == Side::outside);
+  CHECK(side_of(frame, {6000, 7000}) == Side::outside);
+  CHECK(side_of(frame, {8000, 7000}) == Side::on);
+  CHECK(side_of(frame, {0, 7000}) == Side::on);
+  CHECK(side_of(frame, {9001, 7000}) == Side::outside);
+}
+
 TEST_CASE("core: sha256 agrees with FIPS 180-4, example B.1") {
   CHECK(sha256("abc") == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }

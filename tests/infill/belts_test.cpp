@@ -246,6 +246,25 @@ TEST_CASE("belts: a line away from the wall lies beside another all along, witho
   CHECK(alone < 0.002 * um);
 }
 
+TEST_CASE("belts: one that ends where walls above turn a corner ends there with all its lines", "[infill]") {
+  const Um from = 10000, to = 20000, depth = 2200;  // of a slot in the upper layers
+  const Hill hill(20, [&](int i) {
+    if (i < 10) return Regions{{{{0, 0}, {30000, 0}, {30000, 20000}, {0, 20000}}, {}}};
+    const Um low = 20000 - depth;
+    return Regions{
+        {{{0, 0}, {30000, 0}, {30000, 20000}, {to, 20000}, {to, low}, {from, low}, {from, 20000}, {0, 20000}}, {}}};
+  });
+  const infill::PartAreas& part = hill.areas[8].at(0);  // what is solid there is no top
+  const double lines = static_cast<double>(depth - one_wall) / static_cast<double>(flow::band(450, 200));
+  CHECK(part.belts.size() == static_cast<std::size_t>(std::lround(lines)));
+  constexpr double within = 150;  // a cell, and by so much walls may step from layer to layer beyond what carries them
+  for (const infill::BeltLine& line : part.belts) {
+    const auto [least, most] = std::minmax({line.path.front().x, line.path.back().x});
+    CHECK(least == Approx(from).margin(within));
+    CHECK(most == Approx(to).margin(within));
+  }
+}
+
 TEST_CASE("belts: one below half a line is none, and walls as thick as the skin need none", "[infill]") {
   const auto [walls, step] = GENERATE(table<int, Um>({{1, 40}, {1, 150}, {2, 200}, {3, 200}}));
   CAPTURE(walls, step);

@@ -145,6 +145,27 @@ TEST_CASE("sparse: joining lines saves travels", "[infill]") {
   }
 }
 
+TEST_CASE("sparse: between two walls some lines apart it is joined, also where that takes more than it is dense",
+          "[infill]") {
+  const Um width = GENERATE(700, 1000, 1400);
+  const bool wide = GENERATE(false, true);  // beside it: lines of all lengths
+  constexpr Um length = 60'000;
+  Region region = rectangle(0, 0, length, width);
+  if (wide)
+    region.outer = {{0, 0}, {length + 4000, 0}, {length + 4000, 12'000}, {length, 12'000}, {length, width}, {0, width}};
+  const Beads beads = filled(region, {.pattern = InfillPattern::grid,
+                                      .density = 0.2,
+                                      .band = 420,
+                                      .angle_rad = degrees(45),
+                                      .overlap = {60},
+                                      .connect = true});
+  CAPTURE(width, wide);
+  CHECK(beads.size() <= 4);
+  std::size_t dashes = 0;
+  for (const Bead& bead : beads) dashes += length_mm(bead) < 2;
+  CHECK(dashes <= 1);
+}
+
 TEST_CASE("sparse: layers stand on each other", "[infill][law]") {
   // The lattice is anchored at the origin: another area of the same layer carries on the same lines.
   const SparseStyle style{

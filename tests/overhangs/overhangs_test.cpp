@@ -217,6 +217,21 @@ TEST_CASE("overhangs: what lies on nothing is told from half a millimetre on, an
   }
 }
 
+TEST_CASE("overhangs: a fin thinner than a bead may be hangs with all of the plastic that is laid for it",
+          "[overhangs]") {
+  const Um thickness = GENERATE(60, 100, 250);
+  CAPTURE(thickness);
+  Extrude fin = wall({{0, 0}, {6000, 0}});
+  for (Junction& j : fin.path) j.flow = static_cast<float>(thickness) / band;
+  const auto pieces = marked({fin}, {rectangle(1000, -thickness / 2, 6000, thickness / 2)});
+  check_whole(fin, pieces);
+  REQUIRE(pieces.size() == 2);
+  CHECK(pieces[0].air_quarters == 0);
+  CHECK(pieces[1].role == Role::overhang_wall);
+  CHECK(length_of(pieces[1]) == Approx(5).margin(0.05));
+  CHECK(pieces[1].path.back() == fin.path.back());  // held at one end: no strand
+}
+
 TEST_CASE("overhangs: a corner that sticks out is told", "[overhangs]") {
   const Extrude loop = wall({{0, 0}, {20000, 0}, {20000, 10000}, {0, 10000}}, true);
   const auto pieces = marked({loop}, {rectangle(19300, 9300, 21000, 11000)});

@@ -3,6 +3,9 @@
 #include "geometry/clip_lines.h"
 #include "geometry/spatial_index.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <tuple>
 #include <utility>
 
@@ -78,6 +81,50 @@ TEST_CASE("support: every strand of a roof over branches lies on joists, and eve
       carried(joists.lines, geometry::unite(grown(all_of(plan.layers[k - 2]), 200), rim));
     }
     CHECK(roofs == 1);
+  }
+}
+
+TEST_CASE("support: a roof on one branch alone lies on two joists that cross there, and on the rim that these carry") {
+  for (const Um bore : {2000, 2300, 2600}) {
+    CAPTURE(bore);
+    // A bore of a block, with a ceiling over it.
+    Ring round;
+    for (int i = 0; i < 48; ++i)
+      round.push_back(
+          {rounded(bore * std::cos(i * std::numbers::pi / 24)), rounded(bore * std::sin(i * std::numbers::pi / 24))});
+    Region block = rectangle(-8000, -8000, 8000, 8000);
+    Body body;
+    block.holes = {Ring(round.rbegin(), round.rend())};
+    body.add(20, {block});
+    block.holes.clear();
+    body.add(5, {block});
+    auto s = on(SupportStructure::tree);
+    s.support_bridges = true;
+    const auto plan = planned(s, body);
+    const auto first =
+        std::find_if(plan.layers.begin(), plan.layers.end(), [](const auto& l) { return !l.roof.empty(); });
+    REQUIRE(first != plan.layers.end());
+    REQUIRE(first - plan.layers.begin() >= 2);
+    const support::SupportLayer &carries = first[-1], &branch = first[-2];
+    REQUIRE(branch.branches.size() == 1);
+    const Point middle = box_of(branch.branches[0].outer).centre();
+    const auto& joists = carries.joists;
+    CHECK(joists.rimmed.empty());
+    REQUIRE(joists.lines.size() == 2);
+    for (const Polyline& line : joists.lines) {
+      REQUIRE(line.size() == 3);
+      CHECK(distance(line[1], middle) < 50);  // half of a grid's cell that branches are found on
+    }
+    CHECK(std::abs(static_cast<double>(orient(joists.lines[0][1], joists.lines[0][0], joists.lines[1][0]))) >
+          0.9 * distance(joists.lines[0][0], middle) * distance(joists.lines[1][0], middle));
+    REQUIRE(joists.after.size() == 1);
+    CHECK(joists.after[0].front() == joists.after[0].back());
+    std::vector<Point> ends;
+    for (const Polyline& line : joists.lines) ends.insert(ends.end(), {line.front(), line.back()});
+    const geometry::SegmentIndex rim(joists.after);
+    for (const Point end : ends) CHECK(distance(rim.nearest(end)->at, end) < 400);  // beads meet
+    // The roof reaches no further than the rim that carries it.
+    CHECK(geometry::subtract(first->roof, grown(joists.area, 400)).empty());
   }
 }
 
