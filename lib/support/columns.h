@@ -41,10 +41,4 @@ class Lean {
 /// Columns of contacts that are further from each other than that, seen from above, never meet.
 Um apart(const SupportSettings& settings, Um nozzle);
 
-/// Contacts by level that stand on towers (support_use_towers), and the others.
-struct TowersAndOthers {
-  std::vector<Regions> towers, others;
-};
-TowersAndOthers for_towers(const SupportSettings& settings, const std::vector<Regions>& contacts);
-
 }  // namespace weft::support

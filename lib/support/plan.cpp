@@ -16,6 +16,7 @@
 #include "support/resting.h"
 #include "support/support.h"
 #include "support/thin.h"
+#include "support/towers.h"
 #include "support/trapped.h"
 #include "support/tree.h"
 #include "tasks/parallel.h"
@@ -77,11 +78,11 @@ class Interfaces {
     append(dense, out.under_roof), append(dense, out.bottom);
     if (dense.empty()) return out;
     for (Region& column : out.columns) {
-      const Regions near = geometry::trimmed(dense, box_of(column.outer).grown(1));
+      const Regions near = near_to(column, dense);
       if (near.empty())
         sparse.push_back(std::move(column));
       else if (near != Regions{column})
-        append(sparse, without_thin(geometry::subtract({column}, near), line_ * 4 / 10));
+        append(sparse, without_thin(geometry::beyond(column, near, beside_by), thin_column(line_)));
     }
     out.columns = std::move(sparse);
     return out;

@@ -67,7 +67,7 @@ Regions falls_down(const Room& room, const Stack::Level& level, const Regions& b
 }  // namespace
 
 Regions rest_on(const Room& room, const Stack::Level& level, const Regions& below, Regions& here) {
-  const Um thin = line_width(room.settings(), room.object().nozzle) * 4 / 10;
+  const Um thin = thin_column(line_width(room.settings(), room.object().nozzle));
   Regions left, lost;
   for (Region& region : here) {
     const Regions free = falls_down(room, level, below, hanging(region, below));
@@ -82,6 +82,35 @@ Regions rest_on(const Room& room, const Stack::Level& level, const Regions& belo
   }
   here = std::move(left);
   return lost;
+}
+
+namespace {
+
+/// Over a steep slope a column hangs: it is kept off it further sideways than it may sag. There it reaches out to
+/// where the slope is near below, no nearer to it than contacts are.
+/// @param lost  regions of that level of which nothing rests
+Regions toes(const Room& room, const Stack::Level& level, const Regions& lost) {
+  const auto& s = room.settings();
+  if (lost.empty() || s.support_type != SupportType::everywhere || level.bottom() <= room.object().floor) return {};
+  const Regions wide = grown(lost, beside(s, room.object()));
+  const Regions free = room.free_part(wide, level, wide), part = part_below(room, level, box_of(wide));
+  if (free.empty() || part.empty()) return {};
+  return without_thin(geometry::intersect(grown(geometry::intersect(free, part), reach_of(room, level)), free),
+                      thin_column(line_width(s, room.object().nozzle)));
+}
+
+}  // namespace
+
+bool rest_or_reach(const Room& room, const Stack::Level& level, const Regions& below, Regions& here, Regions& lost) {
+  constexpr double least_mm2 = 0.2;  // about a bead's square
+  const double all_mm2 = area_mm2(here);
+  const Regions fallen = rest_on(room, level, below, here);
+  const double lost_mm2 = all_mm2 - area_mm2(here);
+  if (lost_mm2 > least_mm2) {
+    lost = geometry::unite(lost, fallen);
+    if (const Regions more = toes(room, level, fallen); !more.empty()) here = geometry::unite(here, more);
+  }
+  return lost_mm2 > 0;
 }
 
 }  // namespace weft::support

@@ -14,4 +14,10 @@ Um reach_of(const Room& room, const Stack::Level& level);
 /// @return the regions of which nothing is left
 Regions rest_on(const Room& room, const Stack::Level& level, const Regions& below, Regions& here);
 
+/// The same; and where nothing of a region rests, over a slope too steep to stand on, it reaches out to where the slope
+/// is near below.
+/// @param lost  seen from above, with the regions of which nothing rested
+/// @return whether it is less than it was
+bool rest_or_reach(const Room& room, const Stack::Level& level, const Regions& below, Regions& here, Regions& lost);
+
 }  // namespace weft::support

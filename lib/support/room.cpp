@@ -204,7 +204,7 @@ Regions Room::free_part(const Regions& area, const Stack::Level& level, const Re
     if (!left.empty()) {
       const Regions alone{region};
       const Um hair = hair_on(level);
-      const Box wide = box.grown(4 * hair);
+      const Box wide = box.grown(4 * hair + 10);
       const Regions not_there =
           geometry::trimmed(barred(level, {wide, alone, geometry::SegmentIndex(alone)}, contacts, above), wide);
       if (!not_there.empty()) left = geometry::beyond(left, not_there, hair), cut = true;
@@ -232,7 +232,8 @@ bool Room::comes_near(Um low, Um high, const Regions& area, const geometry::Segm
   return false;
 }
 
-bool Room::stands_free(const Regions& area, const geometry::SegmentIndex& edge, const Stack::Level& level) const {
+bool Room::stands_free(const Regions& area, const geometry::SegmentIndex& edge, const Stack::Level& level,
+                       const Stack::Level* above) const {
   if (area.empty()) return true;
   constexpr Um hair = 10;
   if (s_.support_blockers_avoided && !o_.blocked.empty()) return false;
@@ -244,7 +245,8 @@ bool Room::stands_free(const Regions& area, const geometry::SegmentIndex& edge, 
     }
   const Um kept = fine_outline + outline_bound - hair, gap = top_gap(s_);
   if (comes_near(level.bottom(), level.z, area, edge, beside_ + kept)) return false;
-  if (gap > 0 && comes_near(level.z, level.z + gap, area, edge, close_ + kept)) return false;
+  const Um known = above != nullptr ? above->z : level.z;  // so far up the part is further away than close_
+  if (known < level.z + gap && comes_near(known, level.z + gap, area, edge, close_ + kept)) return false;
   const Um step = std::max(s_.support_bottom_stair_step_height, 0);  // a stair may begin so far below
   return level.bottom() <= o_.floor ||
          !comes_near(level.bottom() - bottom_gap(s_) - step, level.bottom(), area, edge, 0);

@@ -40,9 +40,11 @@ class Room {
 
   /// Whether nothing is kept out of an area on a level, so that no more than a hair would be taken from its rim. What
   /// is beside contacts needs more than that.
-  /// @param edge  the area's
+  /// @param edge   the area's
+  /// @param above  the level right above, if the same area stands free there: what is in the gap is not asked for again
   /// Cost: the corners of the part beside.
-  bool stands_free(const Regions& area, const geometry::SegmentIndex& edge, const Stack::Level& level) const;
+  bool stands_free(const Regions& area, const geometry::SegmentIndex& edge, const Stack::Level& level,
+                   const Stack::Level* above = nullptr) const;
 
   /// Whether the part in that height comes as near to an area.
   /// @param edge  the area's

@@ -14,6 +14,11 @@ Regions near_to(const Region& region, const Regions& others);
 /// Strips thinner than two lines of what is `fresh`, made as wide as that.
 void thicken(Regions& area, const Regions& fresh, Um line);
 
+/// What of columns is thinner than twice that goes: no bead has room in it.
+inline Um thin_column(Um line) {
+  return line * 4 / 10;
+}
+
 /// What is thinner than twice the radius goes, and tips sharper than 39°. Other corners stay as they are: what is
 /// rounded on one level would leave nothing below the corners of the next. Post: nothing reaches out of the area
 /// further than offsets are rounded.
