@@ -45,14 +45,14 @@ Regions nudged_out(const Regions& regions, Um by) {
 
 namespace {
 
-/// Each by a little more than the one before it, so that none of them lies on another, nor where it touched something.
+/// Each by a little more than the one before it, so that none of them lies on another.
 /// @param rings  that run the other way round
 void nudge_apart(std::span<Ring> rings) {
   constexpr Um apart = 2;
   constexpr int kinds = 3;  // in turn
   int kind = 0;
   for (Ring& ring : rings) {
-    ring = nudged_out(ring, -apart * (1 + kind++ % kinds));
+    ring = nudged_out(ring, -apart * (kind++ % kinds));
     drop_collinear(ring);
   }
 }

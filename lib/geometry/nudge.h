@@ -9,8 +9,8 @@ namespace weft::geometry {
 Regions nudged_out(const Regions& regions, Um by);
 
 /// What of a region others do not cover that are a hair wider than they are: a few microns, by which they may then
-/// cross. Pre: the region is one, as a Boolean leaves it; others are whole within four hairs and 10 µm of its box.
-/// Cost: as of `wound`, or of `subtract` where that cannot tell.
+/// cross. Pre: the region is one, as a Boolean leaves it; others are whole within four hairs of its box. Cost: as of
+/// `wound`, or of `subtract` where that cannot tell.
 Regions beyond(const Region& region, const Regions& others, Um hair);
 /// The same of several that do not overlap.
 Regions beyond(const Regions& regions, const Regions& others, Um hair);

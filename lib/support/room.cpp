@@ -204,7 +204,7 @@ Regions Room::free_part(const Regions& area, const Stack::Level& level, const Re
     if (!left.empty()) {
       const Regions alone{region};
       const Um hair = hair_on(level);
-      const Box wide = box.grown(4 * hair + 10);
+      const Box wide = box.grown(4 * hair);
       const Regions not_there =
           geometry::trimmed(barred(level, {wide, alone, geometry::SegmentIndex(alone)}, contacts, above), wide);
       if (!not_there.empty()) left = geometry::beyond(left, not_there, hair), cut = true;

@@ -26,7 +26,7 @@ Regions boxes_around(const Regions& pieces, Um by) {
 }  // namespace
 
 Regions near_to(const Region& region, const Regions& others) {
-  return geometry::trimmed(others, box_of(region.outer).grown(4 * beside_by + 10));
+  return geometry::trimmed(others, box_of(region.outer).grown(4 * beside_by));
 }
 
 void thicken(Regions& area, const Regions& fresh, Um line) {
