@@ -2,6 +2,7 @@
 #include "pipeline/rungs_below.h"
 
 #include "geometry/offset.h"
+#include "support/lengths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,13 +16,24 @@ geometry::Segment way_of(const Bead& rung) {
   return {rung.path[0].at, rung.path[1].at};
 }
 
+/// How far past the nearer end of a rung a place lies, along it.
+double past_end(Point p, const geometry::Segment& way) {
+  const double length = std::max(distance(way.a, way.b), 1.0);
+  const Point on = way.b - way.a, to = p - way.a;
+  const double along = (static_cast<double>(to.x) * on.x + static_cast<double>(to.y) * on.y) / length;
+  return std::max(-along, along - length);
+}
+
+/// Where the middle of a rung may be. Areas of a column and of a roof beside it, which meet but for a hair, are one.
+Regions middles_in(const Regions& area, Um line) {
+  const Regions met = area.size() > 1 ? support::grown(area, support::outline_bound) : area;
+  return geometry::offset(met, {.by = -line * 4 / 10 - (area.size() > 1 ? support::outline_bound : 0)});
+}
+
 }  // namespace
 
 RungsBelow::RungsBelow(const Beads& beads, const Regions& area, Beneath below, const RungStyle& style)
-    : laid_(segments_of(beads)),
-      inside_(geometry::offset(area, {.by = -style.line * 4 / 10})),
-      below_(std::move(below)),
-      style_(style) {}
+    : laid_(segments_of(beads)), inside_(middles_in(area, style.line)), below_(std::move(below)), style_(style) {}
 
 std::vector<Point> RungsBelow::brackets(std::span<const Point> hang, std::span<const Point> ends) {
   std::vector<Point> out;
@@ -92,8 +104,13 @@ void RungsBelow::lay(const geometry::Segment& way) {
   rung.path = {{way.a, style_.band, 1.F}, {way.b, style_.band, 1.F}};
 }
 
+/// A rung holds what lies beside it, but not what lies past its end or behind a bead: no strand there comes across it.
 bool RungsBelow::is_near(Point p, double by) const {
-  const auto near = [&](const geometry::Segment& way) { return geometry::foot_of(p, way).distance_um < by; };
+  const auto near = [&](const geometry::Segment& way) {
+    const geometry::Foot foot = geometry::foot_of(p, way);
+    return foot.distance_um < by && past_end(p, way) <= style_.line / 2.0 &&
+           !laid_.crosses(p, lerp(way.a, way.b, foot.along));
+  };
   return std::any_of(brackets_.begin(), brackets_.end(), [&](const Bracket& bracket) { return near(bracket.way); }) ||
          std::any_of(out_.begin(), out_.end(), [&](const Bead& rung) { return near(way_of(rung)); });
 }
