@@ -24,6 +24,10 @@ bool Beneath::lies(Point p) const {
   return beads_.nearest(p, line_ * 3 / 4) || areas_.nearest(p, line_ / 4) || areas_.region_at(p);
 }
 
+bool Beneath::leans(Point p) const {
+  return beads_.nearest(p, line_ * 11 / 10) && !lies(p);
+}
+
 /// Walked in steps, each of which lies or does not.
 std::vector<Polyline> Beneath::hanging(const Bead& bead, Um span) const {
   constexpr double step = 300;

@@ -30,6 +30,8 @@ class Beneath {
   Hanging hanging(std::span<const Bead> beads, Um span, Um least) const;
   /// Whether a bead's middle there has a quarter of its width on something.
   bool lies(Point p) const;
+  /// Whether it only leans there on the side of a bead: it is hardly further off than that is wide.
+  bool leans(Point p) const;
 
  private:
   std::vector<Polyline> hanging(const Bead& bead, Um span) const;

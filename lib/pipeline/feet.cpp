@@ -27,18 +27,11 @@ class Walk {
 
   /// The runs over an area.
   std::vector<Stretch> over(const geometry::SegmentIndex& area) const {
-    constexpr double step = 100;
-    std::vector<Stretch> out;
-    bool was = false;
-    const int count = std::max(1, static_cast<int>(length() / step));
-    for (int i = 0; i < count; ++i) {
-      const double from = length() * i / count, to = length() * (i + 1) / count;
-      const bool is = area.region_at(junction((from + to) / 2).at).has_value();
-      if (is && was) out.back().to = to;
-      if (is && !was) out.push_back({from, to});
-      was = is;
-    }
-    return out;
+    return runs([&](Point p) { return area.region_at(p).has_value(); });
+  }
+  /// The runs that what lies on the bead only leans on.
+  std::vector<Stretch> leant_on(const Beneath& above) const {
+    return runs([&](Point p) { return above.leans(p); });
   }
   Bead piece(Stretch part) const {
     Bead out = bead_;
@@ -51,6 +44,20 @@ class Walk {
   }
 
  private:
+  std::vector<Stretch> runs(const auto& are) const {
+    constexpr double step = 100;
+    std::vector<Stretch> out;
+    bool was = false;
+    const int count = std::max(1, static_cast<int>(length() / step));
+    for (int i = 0; i < count; ++i) {
+      const double from = length() * i / count, to = length() * (i + 1) / count;
+      const bool is = are(junction((from + to) / 2).at);
+      if (is && was) out.back().to = to;
+      if (is && !was) out.push_back({from, to});
+      was = is;
+    }
+    return out;
+  }
   Junction junction(double along) const {
     const auto next = std::upper_bound(at_.begin() + 1, at_.end() - 1, along) - at_.begin();
     const auto i = static_cast<std::size_t>(next);
@@ -65,6 +72,21 @@ class Walk {
   std::vector<double> at_;
 };
 
+/// What of runs lies beside stretches that are longer than that.
+std::vector<Stretch> without_long(std::vector<Stretch> runs, const std::vector<Stretch>& stretches,
+                                  double longer_than) {
+  for (const Stretch out : stretches) {
+    if (out.to - out.from <= longer_than) continue;
+    std::vector<Stretch> left;
+    for (const Stretch run : runs) {
+      if (run.from < out.from) left.push_back({run.from, std::min(run.to, out.from)});
+      if (run.to > out.to) left.push_back({std::max(run.from, out.to), run.to});
+    }
+    runs = std::move(left);
+  }
+  return runs;
+}
+
 /// What is left out of a run between its feet.
 void leave_out(Stretch run, bool around, FeetStyle style, std::vector<Stretch>& gaps) {
   constexpr double least_feet = 3;
@@ -78,14 +100,14 @@ void leave_out(Stretch run, bool around, FeetStyle style, std::vector<Stretch>& 
 
 }  // namespace
 
-Beads on_feet(Beads beads, const Regions& on_part, FeetStyle style) {
+Beads on_feet(Beads beads, const Regions& on_part, const Beneath& above, FeetStyle style) {
   if (on_part.empty()) return beads;
   const geometry::SegmentIndex area(on_part);
   Beads out;
   for (Bead& bead : beads) {
     const Walk walk(bead);
     std::vector<Stretch> gaps;
-    for (const Stretch run : walk.over(area))
+    for (const Stretch run : without_long(walk.over(area), walk.leant_on(above), style.apart))
       leave_out(run, bead.closed && run.to - run.from >= walk.length(), style, gaps);
     double from = 0;
     for (const Stretch gap : gaps) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "model/bead.h"
+#include "pipeline/beneath.h"
 
 namespace weft::pipeline {
 
@@ -11,8 +12,11 @@ struct FeetStyle {
 };
 
 /// Of beads that lie on the part only feet are laid there, at the ends of each run over it and evenly in between: so
-/// much less is to be broken off, and to be seen. Runs that are too short for three feet are laid whole.
+/// much less is to be broken off, and to be seen. Runs that are too short for three feet are laid whole, and so are
+/// those that the bead above only leans on, for longer than one crosses: so it does where a narrow column gets wider,
+/// and would have nothing to lean on between feet.
 /// @param on_part  where they lie on it
-Beads on_feet(Beads beads, const Regions& on_part, FeetStyle style);
+/// @param above    what crosses from foot to foot
+Beads on_feet(Beads beads, const Regions& on_part, const Beneath& above, FeetStyle style);
 
 }  // namespace weft::pipeline

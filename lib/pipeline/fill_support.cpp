@@ -41,6 +41,7 @@ class Layers {
                    ? span_
                    : std::max(span_, support::line_distance(settings.support.support_pattern, shares_.band,
                                                             shares_.shares.back()))) {
+    for (const auto& layer : layers) tallest_ = std::max(tallest_, layer.height);
     if (settings.support.support_wall_count.value_or(0) == 0)
       columns_.emplace(settings, layers, near_, origin);
     else
@@ -57,8 +58,9 @@ class Layers {
   }
 
   std::vector<PrintedLayer> filled() && {
-    auto filled = tasks::parallel_map(
-        layers_.size(), [&](std::size_t k) { return fill_support_layer(to_fill(k), columns_of(k), beneath_roof(k)); });
+    auto filled = tasks::parallel_map(layers_.size(), [&](std::size_t k) {
+      return fill_support_layer(to_fill(k), columns_of(k), {.below = beneath_roof(k), .above = upon_feet(k)});
+    });
     const auto hollow = tasks::parallel_map(layers_.size(), [&](std::size_t k) { return hang_of_columns(k); });
     std::vector<std::vector<Point>> hang_above(layers_.size());
     for (std::size_t k = 0; k < layers_.size(); ++k)
@@ -95,16 +97,26 @@ class Layers {
       if (layers_[j].roof == layer.roof && layers_[j].bottom == layer.bottom) return {};
     return beneath(k);
   }
-  Beneath beneath(std::size_t k) const {
+  Beneath beneath(std::size_t k) const { return plastic_of(below(k)); }
+  /// What lies on a layer that has feet.
+  Beneath upon_feet(std::size_t k) const {
+    if (layers_[k].feet.empty()) return {};
+    std::vector<std::size_t> above;
+    for (std::size_t j = k + 1; j < layers_.size() && layers_[j].z <= layers_[k].z + tallest_ * 3 / 2; ++j)
+      if (const auto on = below(j); std::find(on.begin(), on.end(), k) != on.end()) above.push_back(j);
+    return plastic_of(above);
+  }
+  /// What is laid in layers, but for rungs.
+  Beneath plastic_of(const std::vector<std::size_t>& layers) const {
     Regions areas;
     Beads beads;
-    for (const std::size_t j : below(k)) {
-      const support::SupportLayer& under = layers_[j];
-      for (const Regions* some : {&under.roof, &under.bottom, &under.branches, &under.joists.area})
+    for (const std::size_t j : layers) {
+      const support::SupportLayer& layer = layers_[j];
+      for (const Regions* some : {&layer.roof, &layer.bottom, &layer.branches, &layer.joists.area})
         append(areas, *some);
       Beads more = columns_of(j);
       std::move(more.begin(), more.end(), std::back_inserter(beads));
-      for (const auto* lines : {&under.joists.lines, &under.joists.after})
+      for (const auto* lines : {&layer.joists.lines, &layer.joists.after})
         for (const Polyline& line : *lines) {
           Bead& bead = beads.emplace_back();
           for (Point p : line) bead.path.push_back({p, 0, 1.F});
@@ -194,6 +206,7 @@ class Layers {
   Point origin_;
   Um line_, span_;
   Um between_feet_;
+  Um tallest_ = 0;  ///< of the layers' heights
   ColumnShares shares_;
   NearBelow near_;
   Um reach_;                               ///< from a column's lines to where they end above

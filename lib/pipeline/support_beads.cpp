@@ -99,14 +99,14 @@ class Filler {
         usual_band_(columns_.band) {}
 
   /// @param columns  what `column` and `under_roof` made of the layer's
-  /// @param below    what the layer lies on
-  SupportBeads filled(Beads columns, const Beneath& below) && {
-    beads_ = std::move(columns), below_ = &below;
+  SupportBeads filled(Beads columns, const BesideLayer& beside) && {
+    beads_ = std::move(columns), below_ = &beside.below;
     branches();
     interface(layer_.bottom, across());
     interface(layer_.roof, s_.support_infill_angle);
     joists();
-    beads_ = on_feet(std::move(beads_), layer_.feet, {.foot = support::foot_length(line_), .apart = between_feet_});
+    beads_ = on_feet(std::move(beads_), layer_.feet, beside.above,
+                     {.foot = support::foot_length(line_), .apart = between_feet_});
     for (Bead& bead : beads_) {
       const auto tool = bead.role == Role::support ? s_.support_infill_extruder_nr : s_.support_interface_extruder_nr;
       if (tool) bead.tool = static_cast<ToolId>(*tool);
@@ -147,7 +147,7 @@ class Filler {
     const std::size_t from = beads_.size();
     lines_of(wide, 0);
     bend_lone_lines(column, 0, from);
-    const Um half = support::hollow_column(usual_band_, share(0));
+    const Um half = least_half(0);
     if (reaches_further(column, wide, half))
       loops(geometry::opening(geometry::subtract({column}, coarsely(wide, half)), band_ / 4), 1, Role::support, true);
   }
@@ -187,7 +187,8 @@ class Filler {
     return rings.empty() ? Regions{} : geometry::regions_from_rings(rings);
   }
   Um least_half(std::size_t step) const {
-    if (step == 0) return support::hollow_column(usual_band_, share(0));  // also of the first layer
+    // Also of the first layer, which is dense: lines aslant across what is hardly wider than they are would be dabs.
+    if (step == 0) return std::max(support::hollow_column(usual_band_, share(0)), band_);
     return support::least_half(s_.support_pattern, usual_band_, columns_.shares, step);
   }
   /// What of a column is wide enough for lines that far apart.
@@ -488,8 +489,8 @@ Beads fill_under_roof(const SupportToFill& what) {
   return Filler(what).under_roof();
 }
 
-SupportBeads fill_support_layer(const SupportToFill& what, Beads columns, const Beneath& below) {
-  return Filler(what).filled(std::move(columns), below);
+SupportBeads fill_support_layer(const SupportToFill& what, Beads columns, const BesideLayer& beside) {
+  return Filler(what).filled(std::move(columns), beside);
 }
 
 }  // namespace weft::pipeline

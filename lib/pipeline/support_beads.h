@@ -30,8 +30,12 @@ Beads fill_column(const SupportToFill& what, const Region& column, const NearSte
 Beads fill_walled_columns(const SupportToFill& what, const NearSteps& near);
 /// The strands across a layer's columns that a roof lies on.
 Beads fill_under_roof(const SupportToFill& what);
+/// What a layer's beads are told of the layers beside it.
+struct BesideLayer {
+  Beneath below;  ///< what the layer lies on, where it has a roof
+  Beneath above;  ///< what lies on it, where it has feet
+};
 /// @param columns  what became of the layer's, with what a roof lies on
-/// @param below    what the layer lies on
-SupportBeads fill_support_layer(const SupportToFill& what, Beads columns, const Beneath& below);
+SupportBeads fill_support_layer(const SupportToFill& what, Beads columns, const BesideLayer& beside);
 
 }  // namespace weft::pipeline

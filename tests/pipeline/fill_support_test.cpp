@@ -336,12 +336,13 @@ TEST_CASE("support: a roof lies on strands across its column's lines, and its ow
 }
 
 TEST_CASE("support: a strip of roof beside the one below it lies on rungs between that and the next line") {
+  const Um hair = GENERATE(0, 20);  // between the column's outline and the roof's
   const auto s = fine_lines();
   auto of_column = level(2000, 200, &support::SupportLayer::columns, {rectangle(0, 0, 40000, 40000)});
   const std::set<Um> rows = lines_of(s, of_column);
   const Um row = *std::next(rows.begin(), 5), next = *std::next(rows.begin(), 6);
   of_column.columns = {rectangle(0, row + 800, 40000, 40000)};
-  of_column.roof = {rectangle(0, row, 40000, row + 800)};
+  of_column.roof = {rectangle(0, row, 40000, row + 800 - hair)};
   const auto strip = level(2200, 200, &support::SupportLayer::roof, {rectangle(5000, row + 900, 25000, row + 1700)});
   const auto filled = pipeline::fill_support(s, {of_column, strip}, {});
   std::size_t rungs = 0;
@@ -355,6 +356,36 @@ TEST_CASE("support: a strip of roof beside the one below it lies on rungs betwee
   CHECK(rungs >= 5);
   const pipeline::Beneath below({}, filled.front().beads, 400);
   CHECK(below.hanging(filled[1].beads, 5000).um == 0);
+}
+
+TEST_CASE("support: strips on either side of a column's last line lie on brackets and on rungs") {
+  const auto s = fine_lines();
+  const std::set<Um> rows = lines_of(s, column_from(0, 0));
+  const Um last = *std::next(rows.begin(), 5), edge = last - 700;
+  std::vector<support::SupportLayer> stack;
+  for (int i = 0; i < 15; ++i) stack.push_back(column_from(edge, i));
+  auto strips = level(2000 + 200 * 15, 200, &support::SupportLayer::roof, {rectangle(5000, edge, 25000, edge + 400)});
+  strips.roof.push_back(rectangle(5000, last + 600, 25000, last + 1000));
+  stack.push_back(strips);
+  const auto filled = pipeline::fill_support(s, stack, {});
+  const pipeline::Beneath below({}, filled[14].beads, 400);
+  CHECK(below.hanging(filled[15].beads, 5000).um < 0.1 * 2 * 20000);
+}
+
+TEST_CASE("support: on the bed a column hardly wider than a bead is one along it, not dabs aslant") {
+  auto s = fine_lines();
+  s.support.support_infill_angle = 45;
+  s.support.support_initial_layer_density = 90;
+  for (const Um width : {420, 500, 600, 700}) {
+    auto first = level(200, 200, &support::SupportLayer::columns, {rectangle(0, 0, width, 6000)});
+    first.first = true;
+    const auto filled = pipeline::fill_support(s, {first}, {});
+    double longest_mm = 0;
+    for (const Bead& bead : filled.front().beads) longest_mm = std::max(longest_mm, length_mm(bead));
+    INFO(width);
+    CHECK(longest_mm > 5);
+    CHECK(mm3_of(filled.front()) > 0.7 * width / 1000 * 6 * 0.2);
+  }
 }
 
 TEST_CASE("support: where a column gets one more line, that lies on brackets") {
