@@ -11,6 +11,7 @@
 #include "infill/sparse.h"
 #include "model/flow.h"
 #include "pipeline/feet.h"
+#include "pipeline/reaches_further.h"
 #include "support/column_steps.h"
 #include "support/lengths.h"
 
@@ -18,55 +19,12 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 namespace weft::pipeline {
 namespace {
-
-/// Tells of places whether they are further from outlines than that. Those of outlines that run beside them are mostly
-/// near to the edge that the place before was near to, or to one soon after it.
-class Further {
- public:
-  Further(const Regions& than, Um by) : regions_(than), by_(by) {
-    for (const Ring& ring : geometry::rings_of(than))
-      for (std::size_t i = 0; i < ring.size(); ++i) edges_.push_back({ring[i], ring[i + 1 < ring.size() ? i + 1 : 0]});
-  }
-  bool any_of(const Region& region) {
-    const auto any = [this](const Ring& ring) {
-      return std::any_of(ring.begin(), ring.end(), [this](Point p) { return lies(p); });
-    };
-    return any(region.outer) || std::any_of(region.holes.begin(), region.holes.end(), any);
-  }
-
- private:
-  bool lies(Point p) {
-    constexpr std::size_t soon = 128;  // then an index of them all costs less
-    for (std::size_t k = 0; k < std::min(soon, edges_.size()); ++k) {
-      const std::size_t i = (last_ + k) % edges_.size();
-      if (geometry::foot_of(p, edges_[i]).distance_um > by_) continue;
-      last_ = i;
-      return false;
-    }
-    if (!all_) all_.emplace(regions_);
-    const auto nearest = all_->nearest(p, by_);
-    if (nearest) last_ = nearest->segment;
-    return !nearest;
-  }
-
-  const Regions& regions_;
-  double by_;
-  std::vector<geometry::Segment> edges_;
-  std::size_t last_ = 0;
-  std::optional<geometry::SegmentIndex> all_;
-};
-
-/// Whether any corner of a region is further than that from what lies within.
-bool reaches_further(const Region& region, const Regions& within, Um by) {
-  return Further(within, by).any_of(region);
-}
 
 struct PatternRow {
   SupportPattern pattern;

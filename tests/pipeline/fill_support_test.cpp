@@ -388,6 +388,27 @@ TEST_CASE("support: on the bed a column hardly wider than a bead is one along it
   }
 }
 
+TEST_CASE("support: a strip between two wide places of a column is filled, wherever its lines lie") {
+  const Um wide = GENERATE(500, 1400), y = GENERATE(1000, 1900, 2800, 3700);
+  const Region column{{{0, 0},
+                       {10000, 0},
+                       {10000, y},
+                       {24000, y},
+                       {24000, 0},
+                       {34000, 0},
+                       {34000, 10000},
+                       {24000, 10000},
+                       {24000, y + wide},
+                       {10000, y + wide},
+                       {10000, 10000},
+                       {0, 10000}},
+                      {}};
+  const auto filled =
+      pipeline::fill_support(fine_lines(), {level(2000, 200, &support::SupportLayer::columns, {column})}, {});
+  const geometry::SegmentIndex laid = pipeline::segments_of(filled.front().beads);
+  for (Um x = 13000; x <= 21000; x += 1000) CHECK(laid.nearest({x, y + wide / 2}, wide / 2.0));
+}
+
 TEST_CASE("support: where a column gets one more line, that lies on brackets") {
   const auto s = fine_lines();
   const std::set<Um> rows = lines_of(s, column_from(0, 0));
