@@ -102,10 +102,24 @@ SideFit::SideFit(const Outline& outline, const LineSet& lines, std::span<const I
   for (std::uint32_t i = 0; i < beside_.size(); ++i) beside_[i] = beside_[i] || shared_.concerns(i);
 }
 
+/// One straight edge for some that follow each other: least squares.
+SharedMisfit::Edge SideFit::fitted(std::span<const Beside> run) const {
+  double w = 0, x = 0, y = 0, xx = 0, xy = 0;
+  const double x0 = run.front().from;
+  for (const Beside& each : run) {
+    const double l = each.to - each.from, a = each.from - x0, b = each.to - x0, p = each.at_from, q = each.at_to;
+    w += l, x += l * (a + b) / 2, y += l * (p + q) / 2;
+    xx += l * (a * a + a * b + b * b) / 3, xy += l * (2 * a * p + a * q + b * p + 2 * b * q) / 6;
+  }
+  x /= w, y /= w, xx /= w, xy /= w;
+  const double slope = (xy - x * y) / (xx - x * x);
+  const auto knot = [&](double at) { return Knot{at, y + slope * (at - x0 - x) - band_ / 2}; };
+  return {run.front().interval, knot(x0), knot(run.back().to)};
+}
+
 /// Edges along which lines run for long, nearly straight. Pre: by interval and then from left to right
 std::vector<SharedMisfit::Edge> SideFit::straight(const Besides& all) const {
   std::vector<SharedMisfit::Edge> out;
-  const auto knot = [&](double x, double reach) { return Knot{x, reach - band_ / 2}; };
   for (std::size_t first = 0, end = 0; first < all.size(); first = std::max(end, first + 1)) {
     double least = all[first].at_from, most = least;
     for (end = first; end < all.size() && all[end].interval == all[first].interval &&
@@ -118,8 +132,9 @@ std::vector<SharedMisfit::Edge> SideFit::straight(const Besides& all) const {
     if (end == first || all[end - 1].to - all[first].from < 2 * ramp * band_) continue;
     const bool hidden =
         !out.empty() && out.back().interval == all[first].interval && all[first].from < out.back().to.x - touching_um;
-    for (std::size_t i = first; i < end && !hidden; ++i)
-      out.push_back({all[i].interval, knot(all[i].from, all[i].at_from), knot(all[i].to, all[i].at_to)});
+    if (!hidden)
+      out.push_back(
+          fitted({all.begin() + static_cast<std::ptrdiff_t>(first), all.begin() + static_cast<std::ptrdiff_t>(end)}));
   }
   return out;
 }

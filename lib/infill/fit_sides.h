@@ -76,6 +76,7 @@ class SideFit {
   static double reach_at(const Corner& a, const Corner& b, double x);
   std::vector<Corner> side(bool above, std::uint32_t interval) const;
   std::vector<SharedMisfit::Edge> straight(const Besides& all) const;
+  SharedMisfit::Edge fitted(std::span<const Beside> run) const;
   std::vector<Sides> both(std::uint32_t interval) const;
   void keep_within_widths(std::uint32_t interval, std::vector<Sides>& all) const;
 

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -97,31 +98,48 @@ double nearly_across(const Region& region, Um band, double across) {
 /// Which way lines of solid areas run, against X.
 class Directions {
  public:
-  Directions(const ShellSettings& shells, const FillInput& input) : shells_(shells), input_(input) {}
+  Directions(const ShellSettings& shells, const FillInput& input, const SolidStyle& top)
+      : shells_(shells), input_(input) {
+    std::pair most{false, 0.0};  // has long lines, mm²
+    for (const PartAreas& areas : input.areas)
+      for (const Region& region : areas.top) {
+        const double angle = own(top, region);
+        const auto along = angle_of_long_lines(region, angle);
+        const std::pair each{along.has_value(), area_mm2(region)};
+        if (each > most) most = each, seen_ = along.value_or(angle);
+      }
+  }
 
   double of_solid(const SolidStyle& style, const Region& region) const {
     const auto across =
         shells_.skin_angle || !style.turned ? std::nullopt : angle_across_bridges(region, input_.bridges_below);
     return across ? nearly_across(region, style.band, *across) : own(style, region);
   }
-  /// What is seen is laid in long lines: each end is a turn, beside a wall. Below it directions alternate.
+  /// What is seen is laid in long lines: each end is a turn, beside a wall. Below it directions alternate. Tops that
+  /// have about as many ends either way look like the largest of their layer that has not.
   double of_top(const SolidStyle& style, const Region& region) const {
     const double angle = own(style, region);
-    return style.turned && !shells_.skin_angle ? angle_of_long_lines(region, angle).value_or(angle) : angle;
+    if (!style.turned || shells_.skin_angle) return angle;
+    const auto along = angle_of_long_lines(region, angle);
+    return along ? *along : own(style, region, seen_);
   }
 
  private:
-  double own(const SolidStyle& style, const Region& region) const {
+  double own(const SolidStyle& style, const Region& region, std::optional<double> like = {}) const {
     if (style.turned && !shells_.skin_angle) {
       if (const auto along = angle_along_strip(region, style.band)) return *along;
       if (const auto along = angle_along_narrow(region, style.band)) return nearly_across(region, style.band, *along);
     }
-    const double turn = style.turned && input_.index % 2 == 1 ? radians(90) : 0;
-    return turn + (shells_.skin_angle ? radians(*shells_.skin_angle) : angle_along_walls(region).value_or(radians(45)));
+    const auto walls = shells_.skin_angle ? std::optional(radians(*shells_.skin_angle)) : angle_along_walls(region);
+    if (like && !walls) return *like;
+    const bool across =
+        like ? std::abs(std::cos(*walls - *like)) < std::sqrt(0.5) : style.turned && input_.index % 2 == 1;
+    return walls.value_or(radians(45)) + (across ? radians(90) : 0);
   }
 
   const ShellSettings& shells_;
   const FillInput& input_;
+  std::optional<double> seen_;  // direction of the tops that have none of their own
 };
 
 /// How far the outline is from what walls leave inside.
@@ -342,7 +360,7 @@ void fill_sparse_areas(const InfillSettings& infill, const FillInput& input, Spa
 
 FillLayer fill(const InfillSettings& infill, const ShellSettings& shells, const FillInput& input) {
   const Styles styles = styles_of(infill, shells, input);
-  const Directions directions(shells, input);
+  const Directions directions(shells, input, styles.top);
   FillLayer layer;
   std::uint32_t sequence = 0;
   const auto fill_all = [&](const Regions& regions, SolidStyle style, std::optional<InfillPattern> winds,

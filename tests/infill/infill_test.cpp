@@ -365,6 +365,34 @@ TEST_CASE("infill: solid lines cross the strands of the bridge below, unless a d
   CHECK(std::abs(std::sin(direction({}, beside) - direction({}, {}))) < 1e-6);
 }
 
+TEST_CASE("infill: tops whose lines are as long either way run like those of their layer that are not", "[infill]") {
+  const std::size_t index = GENERATE(0U, 1U);
+  const bool upright = GENERATE(false, true);
+  const auto box = [upright](Um x0, Um y0, Um x1, Um y1) {
+    return upright ? rectangle(y0, x0, y1, x1) : rectangle(x0, y0, x1, y1);
+  };
+  Region round;
+  for (int i = 0; i < 60; ++i)
+    round.outer.push_back({rounded(5000 * std::cos(degrees(6.0 * i))), rounded(5000 * std::sin(degrees(6.0 * i)))});
+  LayerAreas areas = solid_area(box(20000, 0, 32000, 12000));
+  areas[0].top = {round, box(20000, 0, 32000, 12000), box(50000, 0, 70000, 5000)};
+  areas[0].solid.clear();
+  const auto all_run = [&](double angle) {
+    const Beads beads = infill::fill({}, {}, input(areas, index)).beads;
+    CHECK(beads.size() >= areas[0].top.size());
+    for (const Bead& bead : beads)
+      for (std::size_t i = 1; i < bead.path.size(); ++i) {
+        const Point a = bead.path[i - 1].at, b = bead.path[i].at;
+        if (distance(a, b) < 3000) continue;  // a turn
+        if (std::abs(std::sin(std::atan2(b.y - a.y, b.x - a.x) - degrees(angle))) > 0.02) return false;
+      }
+    return true;
+  };
+  CHECK(all_run(upright ? 90 : 0));
+  areas[0].top.pop_back();  // of what is left the largest has a direction of its own, from layer to layer
+  CHECK(all_run(index == 1 ? 90 : 0));
+}
+
 TEST_CASE("infill: strips that bend are filled along their edge, as whoever can do that gives their lines",
           "[infill]") {
   const auto ring = [](double inner, double outer) {

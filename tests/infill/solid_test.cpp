@@ -206,6 +206,25 @@ TEST_CASE("solid: lines that share what an edge asks of one lie side by side, an
   for (std::size_t i = 1; i < 7; ++i) CHECK(away[i] - away[i - 1] == Approx(band).margin(2));
 }
 
+TEST_CASE("solid: beside a wall with bumps only the first line bends", "[infill]") {
+  constexpr Um band = 430, apart = 2000;
+  const double lean = GENERATE(0.0, 0.003);  // of the wall
+  Region area{{{12 * apart, 20 * band}, {0, 20 * band}}, {}};
+  for (Um x = 0; x <= 12 * apart; x += apart) {
+    const Um y = rounded(lean * x);
+    area.outer.push_back({x, y});
+    if (x == 12 * apart) break;
+    for (const auto& [away, high] : {std::pair{600, 0}, {900, 70}, {1100, 70}, {1400, 0}})
+      area.outer.push_back({x + away, y + high});
+  }
+  std::size_t bent = 0, all = 0;
+  for (const Bead& bead : filled(area, {.band = band, .angle_rad = 0, .connect = false}))
+    ++all, bent += bead.path.size() > 2;
+  CAPTURE(lean);
+  CHECK(all == 20);
+  CHECK(bent <= 1);
+}
+
 TEST_CASE("solid: lines begin at the wall, and are even beside an edge that is loose", "[infill]") {
   constexpr Um band = 430, length = 12000;
   const Um high = GENERATE(7 * band + 100, 7 * band + 200, 7 * band + 350);
