@@ -33,6 +33,8 @@ class Beneath {
 
  private:
   std::vector<Polyline> hanging(const Bead& bead, Um span) const;
+  /// The same of places along a path.
+  std::vector<char> lying(std::span<const Point> places) const;
 
   geometry::SegmentIndex areas_, beads_;
   double line_ = 0;

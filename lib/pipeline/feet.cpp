@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/feet.h"
 
+#include "geometry/along_path.h"
 #include "geometry/spatial_index.h"
 
 #include <algorithm>
@@ -31,9 +32,12 @@ class Walk {
     std::vector<Stretch> out;
     bool was = false;
     const int count = std::max(1, static_cast<int>(length() / step));
+    std::vector<Point> middles;
+    for (int i = 0; i < count; ++i) middles.push_back(junction(length() * (i + 0.5) / count).at);
+    const std::vector<char> over = geometry::lie_within(middles, area);
     for (int i = 0; i < count; ++i) {
       const double from = length() * i / count, to = length() * (i + 1) / count;
-      const bool is = area.region_at(junction((from + to) / 2).at).has_value();
+      const bool is = over[static_cast<std::size_t>(i)] != 0;
       if (is && was) out.back().to = to;
       if (is && !was) out.push_back({from, to});
       was = is;
@@ -81,8 +85,15 @@ void leave_out(Stretch run, bool around, FeetStyle style, std::vector<Stretch>& 
 Beads on_feet(Beads beads, const Regions& on_part, FeetStyle style) {
   if (on_part.empty()) return beads;
   const geometry::SegmentIndex area(on_part);
+  std::vector<Box> boxes;
+  for (const Region& region : on_part) boxes.push_back(box_of(region.outer));
   Beads out;
   for (Bead& bead : beads) {
+    const Box box = box_of(bead);
+    if (std::none_of(boxes.begin(), boxes.end(), [&](const Box& there) { return there.overlaps(box); })) {
+      out.push_back(std::move(bead));
+      continue;
+    }
     const Walk walk(bead);
     std::vector<Stretch> gaps;
     for (const Stretch run : walk.over(area))
