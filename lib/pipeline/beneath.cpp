@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/beneath.h"
 
+#include "geometry/along_path.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -24,8 +26,29 @@ bool Beneath::lies(Point p) const {
   return beads_.nearest(p, line_ * 3 / 4) || areas_.nearest(p, line_ / 4) || areas_.region_at(p);
 }
 
-bool Beneath::leans(Point p) const {
-  return beads_.nearest(p, line_ * 11 / 10) && !lies(p);
+std::vector<char> Beneath::lying(std::span<const Point> places) const {
+  std::vector<char> out = geometry::lie_near(places, beads_, line_ * 3 / 4);
+  std::vector<std::size_t> which;
+  std::vector<Point> others;
+  const auto or_if = [&](auto&& tell) {
+    which.clear(), others.clear();
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (out[i] == 0) which.push_back(i), others.push_back(places[i]);
+    const std::vector<char> told = tell();
+    for (std::size_t k = 0; k < told.size(); ++k) out[which[k]] = told[k];
+  };
+  if (areas_.segments().empty()) return out;
+  or_if([&] { return geometry::lie_within(others, areas_); });
+  or_if([&] { return geometry::lie_near(others, areas_, line_ / 4); });
+  return out;
+}
+
+std::vector<char> Beneath::leaning(std::span<const Point> places) const {
+  std::vector<char> out = geometry::lie_near(places, beads_, line_ * 11 / 10);
+  const std::vector<char> lies = lying(places);
+  for (std::size_t i = 0; i < out.size(); ++i)
+    if (lies[i] != 0) out[i] = 0;
+  return out;
 }
 
 /// Walked in steps, each of which lies or does not.
@@ -35,8 +58,8 @@ std::vector<Polyline> Beneath::hanging(const Bead& bead, Um span) const {
   std::vector<Polyline> out;
   Polyline since;  // the last rest
   bool rested = false, begins_in_air = false;
-  const auto add = [&](Point a, Point b) {
-    if (!lies(lerp(a, b, 0.5))) {
+  const auto add = [&](Point a, Point b, bool is_held) {
+    if (!is_held) {
       if (since.empty()) since.push_back(a);
       since.push_back(b);
       return;
@@ -47,11 +70,16 @@ std::vector<Polyline> Beneath::hanging(const Bead& bead, Um span) const {
     if (first || length_of(since) > span) out.push_back(std::move(since));
     since.clear();
   };
+  Polyline steps{path.front().at};
   for (std::size_t i = 0, n = path.size(); i + (bead.closed ? 0 : 1) < n; ++i) {
     const Point a = path[i].at, b = path[i + 1 < n ? i + 1 : 0].at;
     const int pieces = std::max(1, static_cast<int>(distance(a, b) / step));
-    for (int k = 0; k < pieces; ++k) add(lerp(a, b, k * 1.0 / pieces), lerp(a, b, (k + 1.0) / pieces));
+    for (int k = 0; k < pieces; ++k) steps.push_back(lerp(a, b, (k + 1.0) / pieces));
   }
+  std::vector<Point> middles;
+  for (std::size_t i = 1; i < steps.size(); ++i) middles.push_back(lerp(steps[i - 1], steps[i], 0.5));
+  const std::vector<char> held = lying(middles);
+  for (std::size_t i = 0; i < held.size(); ++i) add(steps[i], steps[i + 1], held[i] != 0);
   if (bead.closed && begins_in_air) {  // it goes on over the begin
     if (!since.empty()) out.front().insert(out.front().begin(), since.begin(), since.end() - 1);
     if (length_of(out.front()) <= span) out.erase(out.begin());

@@ -30,11 +30,13 @@ class Beneath {
   Hanging hanging(std::span<const Bead> beads, Um span, Um least) const;
   /// Whether a bead's middle there has a quarter of its width on something.
   bool lies(Point p) const;
-  /// Whether it only leans there on the side of a bead: it is hardly further off than that is wide.
-  bool leans(Point p) const;
+  /// Of places along a path, where it only leans on the side of a bead: it is hardly further off than that is wide.
+  std::vector<char> leaning(std::span<const Point> places) const;
 
  private:
   std::vector<Polyline> hanging(const Bead& bead, Um span) const;
+  /// The same of places along a path.
+  std::vector<char> lying(std::span<const Point> places) const;
 
   geometry::SegmentIndex areas_, beads_;
   double line_ = 0;

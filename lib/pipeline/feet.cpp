@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/feet.h"
 
+#include "geometry/along_path.h"
 #include "geometry/spatial_index.h"
 
 #include <algorithm>
@@ -27,11 +28,11 @@ class Walk {
 
   /// The runs over an area.
   std::vector<Stretch> over(const geometry::SegmentIndex& area) const {
-    return runs([&](Point p) { return area.region_at(p).has_value(); });
+    return runs(geometry::lie_within(middles(), area));
   }
   /// The runs that what lies on the bead only leans on.
   std::vector<Stretch> leant_on(const Beneath& above) const {
-    return runs([&](Point p) { return above.leans(p); });
+    return above.empty() ? std::vector<Stretch>{} : runs(above.leaning(middles()));
   }
   Bead piece(Stretch part) const {
     Bead out = bead_;
@@ -44,14 +45,24 @@ class Walk {
   }
 
  private:
-  std::vector<Stretch> runs(const auto& are) const {
+  int pieces() const {
     constexpr double step = 100;
+    return std::max(1, static_cast<int>(length() / step));
+  }
+  Polyline middles() const {
+    const int count = pieces();
+    Polyline out;
+    for (int i = 0; i < count; ++i) out.push_back(junction(length() * (i + 0.5) / count).at);
+    return out;
+  }
+  /// @param are  pieces
+  std::vector<Stretch> runs(const std::vector<char>& are) const {
+    const int count = pieces();
     std::vector<Stretch> out;
     bool was = false;
-    const int count = std::max(1, static_cast<int>(length() / step));
     for (int i = 0; i < count; ++i) {
       const double from = length() * i / count, to = length() * (i + 1) / count;
-      const bool is = are(junction((from + to) / 2).at);
+      const bool is = are[static_cast<std::size_t>(i)] != 0;
       if (is && was) out.back().to = to;
       if (is && !was) out.push_back({from, to});
       was = is;
@@ -103,8 +114,15 @@ void leave_out(Stretch run, bool around, FeetStyle style, std::vector<Stretch>& 
 Beads on_feet(Beads beads, const Regions& on_part, const Beneath& above, FeetStyle style) {
   if (on_part.empty()) return beads;
   const geometry::SegmentIndex area(on_part);
+  std::vector<Box> boxes;
+  for (const Region& region : on_part) boxes.push_back(box_of(region.outer));
   Beads out;
   for (Bead& bead : beads) {
+    const Box box = box_of(bead);
+    if (std::none_of(boxes.begin(), boxes.end(), [&](const Box& there) { return there.overlaps(box); })) {
+      out.push_back(std::move(bead));
+      continue;
+    }
     const Walk walk(bead);
     std::vector<Stretch> gaps;
     for (const Stretch run : without_long(walk.over(area), walk.leant_on(above), style.apart))

@@ -11,6 +11,7 @@
 #include "support/lengths.h"
 #include "support/patches.h"
 #include "support/plastic.h"
+#include "support/thin.h"
 #include "support/tree.h"
 #include "tasks/parallel.h"
 
@@ -36,26 +37,30 @@ class Guess {
         line_(line_width(s_, room.object().nozzle)),
         shares_(column_shares(s_, room.object().nozzle, usual_band(s_, room.object().nozzle))) {}
 
-  ColumnsMm3 columns_mm3(const Patch& patch) const {
-    constexpr Um step = 2_mm, coarse = 0.1_mm;
+  static constexpr Um finest = 2_mm;
+  /// @param step  of the way down: contacts fall from no lower than where one ends, so higher ones mostly tell more
+  ColumnsMm3 columns_mm3(const Patch& patch, Um step = finest) const {
+    constexpr Um coarse = 0.1_mm;
     std::vector<std::pair<Um, const Regions*>> carried;
     for (const auto& [k, regions] : patch.contacts) carried.push_back({stack_.levels[k].z, &regions});
     const NearMm2 near(s_, room_.object().nozzle, shares_, carried);
     double mm3 = 0, saved_mm3 = 0, mm2 = 0;
     std::vector<double> by_mm;
     Regions falling;
-    Lean lean(s_, line_, stack_.levels[patch.contacts.back().first].z - room_.object().floor);
+    Lean lean(s_, line_, height_of(patch));
     Um height = 0;
     bool changed = false;  // since by_mm was reckoned: most columns fall far as they are
     auto next = patch.contacts.rbegin();
     for (std::size_t k = next->first + 1; k-- > 0;) {
-      if (next != patch.contacts.rend() && next->first == k) append(falling, (next++)->second), changed = true;
+      if (next != patch.contacts.rend() && next->first == k)
+        append(falling, rough((next++)->second, coarse)), changed = true;
       height += stack_.levels[k].height;
       if (falling.empty() || (height < step && k > 0)) continue;
       stop_if_asked();
       if (changed) {
         falling = geometry::simplified(geometry::unite(falling), coarse);
-        if (s_.support_join_distance > 0) falling = closed(falling, s_.support_join_distance / 2);
+        if (const Um by = s_.support_join_distance / 2; by > 0)
+          falling = grown(rough(grown(falling, by, coarse), coarse), -by, coarse);
       }
       bool cut = false;
       mm3 += lost(k, falling, cut);
@@ -77,6 +82,8 @@ class Guess {
     mm3 += foot_mm3(falling) - roof_mm3(patch);
     return {mm3 - saved_mm3, mm3};
   }
+
+  Um height_of(const Patch& patch) const { return stack_.levels[patch.contacts.back().first].z - room_.object().floor; }
 
  private:
   /// Takes away what the part keeps off on a level. @return what of it stands on the part, as so much plastic
@@ -127,15 +134,18 @@ class Guess {
 /// What is held is strips too narrow for a roof on branches, on the whole, as under slopes. Each strip would need a row
 /// of tips of its own, as those beside it do not carry it, and each tip as much as one that holds ten times more: where
 /// columns take less than a row of tips does, branches need not be reckoned. High up they may well be less.
-/// @param columns_mm3  what columns take, if it had to be reckoned
+/// @param columns_mm3  what columns take, if it had to be reckoned in fine steps
 bool for_columns_alone(const SupportSettings& settings, const Guess& guess, const Patch& patch,
                        std::optional<ColumnsMm3>& columns_mm3) {
   constexpr double tips_mm3_by_mm = 0.95;  // of a strip's outline: the least of those that share branches low down
   double mm2 = 0, round_mm = 0;
   for (const auto& [k, regions] : patch.contacts) mm2 += area_mm2(regions), round_mm += geometry::outline_mm(regions);
   if (2 * mm2 >= round_mm * to_mm(narrowest_roof(branch_style(settings)))) return false;
+  const double tips_mm3 = tips_mm3_by_mm * round_mm;
+  for (Um step = guess.height_of(patch); step > Guess::finest; step /= 4)
+    if (guess.columns_mm3(patch, step).as_they_are < tips_mm3) return true;
   columns_mm3 = guess.columns_mm3(patch);
-  return columns_mm3->as_they_are < tips_mm3_by_mm * round_mm;
+  return columns_mm3->as_they_are < tips_mm3;
 }
 
 }  // namespace

@@ -64,7 +64,8 @@ class Interfaces {
         line_(line_width(s_, room.object().nozzle)),
         caps_(lowest_caps(stack)) {}
 
-  SupportLayer divided(std::size_t k, const Regions& standing) const {
+  /// @param thinned  boxes of columns of which something had no room for a bead beside a roof: it is left out
+  SupportLayer divided(std::size_t k, const Regions& standing, std::vector<Box>& thinned) const {
     const auto& level = stack_.levels[k];
     SupportLayer out{level.z, level.height, standing, {}, {}, {}, k == 0 && !room_.object().on_raft, {}};
     if (standing.empty()) return out;
@@ -82,7 +83,11 @@ class Interfaces {
       if (near.empty())
         sparse.push_back(std::move(column));
       else if (near != Regions{column})
-        append(sparse, without_thin(geometry::beyond(column, near, beside_by), thin_column(line_)));
+        for (const Region& left : geometry::beyond(column, near, beside_by)) {
+          const Regions wide = without_thin({left}, thin_column(line_));
+          if (area_mm2(left) - area_mm2(wide) > least_to_rest_mm2) thinned.push_back(box_of(left.outer));
+          append(sparse, wide);
+        }
     }
     out.columns = std::move(sparse);
     return out;
@@ -183,14 +188,7 @@ void note_reached(const Object& object, const Stack& stack, const Demand& demand
     out.contact_mm2 = near.contact_mm2;
     // It is a judgement of reach: finer corners do not matter to it.
     constexpr Um coarse = 100;
-    const auto around = [](const Regions& areas) {
-      Regions rough;
-      for (const Region& region : areas) {
-        Region& to = rough.emplace_back(Region{geometry::coarsened(region.outer, coarse), {}});
-        for (const Ring& hole : region.holes) to.holes.push_back(geometry::coarsened(hole, coarse));
-      }
-      return grown(rough, reached, coarse);
-    };
+    const auto around = [](const Regions& areas) { return grown(rough(areas, coarse), reached, coarse); };
     Regions left, wide = around(near.whole);
     if (!near.partly.empty()) {
       const Regions beside = around(geometry::trimmed(all, box_of(near.partly).grown(2 * reached)));
@@ -318,13 +316,27 @@ void add_branches(const Room& room, std::size_t k, const Standing& standing, Sup
   layer.branches = beside(layer.branches, others, 0, half / 2);
 }
 
-/// What of a column has no room for a bead beside a roof is left out: what stands on that alone has nothing below.
-void let_columns_rest(const Room& room, const Stack& stack, std::vector<SupportLayer>& layers) {
+/// What stood on what was left out of columns has nothing below.
+/// @param thinned  by level, where: and what falls there itself leaves more out
+void let_columns_rest(const Room& room, const Stack& stack, std::vector<std::vector<Box>> thinned,
+                      std::vector<SupportLayer>& layers) {
   for (std::size_t k = 1; k < layers.size(); ++k) {
-    const SupportLayer& below = layers[k - 1];
-    if (layers[k].columns.empty() || (below.roof.empty() && below.under_roof.empty() && below.bottom.empty())) continue;
+    const auto& less = thinned[k - 1];
+    if (less.empty()) continue;
     stop_if_asked();
-    rest_on(room, stack.levels[k], all_areas(below), layers[k].columns);
+    const Regions below = all_areas(layers[k - 1]);
+    Regions left;
+    for (Region& region : layers[k].columns) {
+      const Box box = box_of(region.outer);
+      Regions one{std::move(region)};
+      if (std::any_of(less.begin(), less.end(), [&](const Box& there) { return there.overlaps(box); })) {
+        const double mm2 = area_mm2(one);
+        rest_on(room, stack.levels[k], below, one);
+        if (mm2 - area_mm2(one) > least_to_rest_mm2) thinned[k].push_back(box);
+      }
+      append(left, one);
+    }
+    layers[k].columns = std::move(left);
   }
 }
 
@@ -380,15 +392,16 @@ Plan plan(const SupportSettings& settings, const Object& object, const Demand& d
   out.figures.tips = standing.branches.tips_at.size(), out.figures.trunks = standing.branches.trunks;
   out.figures.slenderest = standing.branches.slenderest;
   const Interfaces interfaces(room, stack, standing.under_columns);
+  std::vector<std::vector<Box>> thinned(used);
   out.layers = tasks::parallel_map(used, [&](std::size_t k) {
     stop_if_asked();
-    auto layer = interfaces.divided(k, standing.columns[k]);
+    auto layer = interfaces.divided(k, standing.columns[k], thinned[k]);
     if (settings.gradual_support_infill_steps > 0) layer.carried = carried_on(k, standing, given);
     if (k < standing.branches.areas.size()) add_branches(room, k, standing, layer);
     return layer;
   });
   spare.beside([&] {
-    let_columns_rest(room, stack, out.layers);
+    let_columns_rest(room, stack, std::move(thinned), out.layers);
     let_branches_rest(room, stack, standing, out.layers);
   });
   if (used > 0) spread_first(room, stack, out.layers[0]);

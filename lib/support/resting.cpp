@@ -15,15 +15,14 @@ namespace {
 
 /// What of an area hangs, but for slivers along edges: one that was opened by 0.4 lines is none.
 Regions hanging(const Region& region, const Regions& below) {
-  constexpr double least_mm2 = 0.05;
   constexpr Um least_wide = 60;
   const Regions under = near_to(region, below);
   if (std::find(under.begin(), under.end(), region) != under.end()) return {};
   Regions out;
-  const Regions over = under.empty() ? Regions{region} : geometry::beyond(region, under, beside_by);
+  const Regions over = under.empty() ? Regions{region} : geometry::beyond(region, under, outline_bound);
   for (const Region& piece : over) {
     const double mm2 = area_mm2(piece);
-    if (mm2 < least_mm2) continue;
+    if (mm2 < least_to_rest_mm2) continue;
     if (2e6 * mm2 >= least_wide * perimeter_of(piece.outer))
       out.push_back(piece);
     else
