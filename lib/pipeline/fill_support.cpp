@@ -13,6 +13,7 @@
 #include "support/lengths.h"
 #include "tasks/parallel.h"
 
+#include <algorithm>
 #include <iterator>
 #include <optional>
 #include <span>
@@ -154,7 +155,9 @@ class Layers {
     for (std::size_t k = layers_.size(); k-- > 0;) {
       if (hang[k].empty() && ends[k].empty()) continue;
       stop_if_asked();
-      const auto more = rungs_on(k, filled[k].beads, laid[k]).brackets(hang[k], ends[k]);
+      std::vector<Point> asked = hang[k];
+      asked.insert(asked.end(), ends[k].begin(), ends[k].end());
+      const auto more = rungs_on(k, filled[k].beads, asked, laid[k]).brackets(hang[k], ends[k]);
       for (const std::size_t j : below(k)) ends[j].insert(ends[j].end(), more.begin(), more.end());
     }
     std::vector<Beads> out(layers_.size());
@@ -171,9 +174,16 @@ class Layers {
   }
   /// A bead holds itself one height out at 45°, and no further than it lies on the one below by a third of its width.
   /// Where lines are further apart brackets are longer, and the lowest of each lies on its root by half of itself.
-  RungsBelow& rungs_on(std::size_t k, const Beads& beads, std::optional<RungsBelow>& out) const {
+  /// @param asked  places where something hangs: no rung is further from them than brackets reach
+  RungsBelow& rungs_on(std::size_t k, const Beads& beads, const std::vector<Point>& asked,
+                       std::optional<RungsBelow>& out) const {
     const Um height = layers_[k].height, step = std::min(height, line_ * 2 / 3);
-    return out.emplace(beads, between_beads(k), beneath(k),
+    Regions between = between_beads(k);
+    std::erase_if(between, [&](const Region& region) {
+      const Box reached = box_of(region.outer).grown(reach_);
+      return std::none_of(asked.begin(), asked.end(), [&](Point p) { return reached.contains(p); });
+    });
+    return out.emplace(beads, between, beneath(k),
                        RungStyle{.span = span_,
                                  .out = reach_,
                                  .line = line_,

@@ -5,6 +5,7 @@
 #include "geometry/nudge.h"
 #include "geometry/simplify.h"
 #include "geometry/touching.h"
+#include "geometry/trimmed.h"
 #include "support/falling.h"
 #include "support/lengths.h"
 #include "support/near_edge.h"
@@ -108,9 +109,12 @@ std::vector<Regions> columns(const Room& room, const Stack& stack, const std::ve
         if (under.empty() || !are_reached(region, geometry::beyond(region, under, beside_by), reached))
           bare.push_back(region);
       }
-      if (!bare.empty()) left_mm2 += area_mm2(geometry::subtract(bare, grown(levels[k], reached)));
+      if (bare.empty()) continue;
+      const Regions beside = geometry::trimmed(levels[k], box_of(bare).grown(2 * reached));
+      left_mm2 += area_mm2(geometry::subtract(bare, grown(beside, reached)));
+      if (left_mm2 > s.minimum_support_area) return true;
     }
-    return left_mm2 > s.minimum_support_area;
+    return false;
   };
   const auto under = [&](const Patch& patch, const std::vector<Regions>* drawn_there) {
     Fallen first = fall(air, patch, drawn_there, height_of(patch));
