@@ -101,14 +101,23 @@ class Filler {
   /// What of a column is no further down than the first step.
   void dense_column(const Region& column) {
     const Regions wide = wide_enough({column}, 0);
-    if (wide.empty()) return void(loops({column}, 1, Role::support, true));
+    if (wide.empty()) return narrow_column({column});
     const std::size_t from = beads_.size();
     lines_of(wide, 0);
     bend_lone_lines(column, 0, from);
     const Um half = least_half(0);
     if (reaches_further(column, wide, half))
-      loops(geometry::opening(geometry::subtract({column}, coarsely(wide, half)), band_ / 4), 1, Role::support, true);
+      narrow_column(geometry::opening(geometry::subtract({column}, coarsely(wide, half)), band_ / 4));
   }
+  /// Hollow, but on the bed where that is to be covered.
+  void narrow_column(const Regions& areas) {
+    if (is_dense_foot())
+      loops(areas, most_loops, Role::support);
+    else
+      loops(areas, 1, Role::support, true);
+  }
+  /// Beads beside each other are nearer to the density of the first layer than a loop around nothing.
+  bool is_dense_foot() const { return layer_.first && share(0) > 0.5; }
   /// Lays the lines of what is further down, from the lowest step up.
   /// @return what is no further down than the first step, and what is too narrow for lines of others
   Regions thinned(const Regions& area, const NearSteps& near) {
@@ -145,8 +154,9 @@ class Filler {
     return rings.empty() ? Regions{} : geometry::regions_from_rings(rings);
   }
   Um least_half(std::size_t step) const {
-    // Also of the first layer, which is dense: lines aslant across what is hardly wider than they are would be dabs.
-    if (step == 0) return std::max(support::hollow_column(usual_band_, share(0)), band_);
+    if (step == 0)
+      return is_dense_foot() ? support::narrow_roof / 2  // lines aslant across what is narrower would be dabs
+                             : std::max(support::hollow_column(usual_band_, share(0)), band_);
     return support::least_half(s_.support_pattern, usual_band_, columns_.shares, step);
   }
   /// What of a column is wide enough for lines that far apart.
