@@ -7,11 +7,12 @@
 
 namespace weft::geometry {
 
-/// Of places along a path, each near the one before it, what SegmentIndex tells of each: those that follow each other
-/// are asked for together, as mostly no segment is near any of them, or the same ones are near them all.
-/// Whether a segment is no further away than that.
+/// Whether each place along a path has a segment no further away than that, µm: as SegmentIndex::nearest tells of one.
+/// Places that follow each other are asked for together, as mostly no segment is near any of them, or the same ones are
+/// near them all; any places may be asked for, those of a path at least cost.
+/// Post: as many as places, 1 for each that has, else 0
 std::vector<char> lie_near(std::span<const Point> places, const SegmentIndex& segments, double within);
-/// Whether it lies in any of the index's regions.
+/// The same of whether each lies in any of the index's regions, as SegmentIndex::region_at tells of one.
 std::vector<char> lie_within(std::span<const Point> places, const SegmentIndex& regions);
 
 }  // namespace weft::geometry

@@ -140,6 +140,15 @@ Ring coarsened(const Ring& ring, Um bound) {
   return out.size() >= 3 ? out : ring;
 }
 
+Regions coarsened(const Regions& regions, Um bound) {
+  Regions out;
+  for (const Region& region : regions) {
+    Region& to = out.emplace_back(Region{coarsened(region.outer, bound), {}});
+    for (const Ring& hole : region.holes) to.holes.push_back(coarsened(hole, bound));
+  }
+  return out;
+}
+
 Ring simplified(const Ring& ring, Um bound) {
   if (ring.size() <= 3 || bound <= 0) return ring;
   const Polyline opened = opened_at_extreme(ring);

@@ -20,6 +20,8 @@ Polyline simplified_line(std::span<const Point> line, Um bound);
 
 /// The same for a ring, whatever area it loses; one that would collapse keeps its points.
 Ring coarsened(const Ring& ring, Um bound);
+/// The same for all rings of regions, which may cross then: for judgements, and for what is offset by more than that.
+Regions coarsened(const Regions& regions, Um bound);
 
 /// The same for a ring, whose area changes by 0.75 % at most: a small one gets a smaller bound, one that would
 /// collapse keeps its points. Cost: O(n) for each bound that is tried, three quarters of the one before.

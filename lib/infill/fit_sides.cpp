@@ -102,7 +102,8 @@ SideFit::SideFit(const Outline& outline, const LineSet& lines, std::span<const I
   for (std::uint32_t i = 0; i < beside_.size(); ++i) beside_[i] = beside_[i] || shared_.concerns(i);
 }
 
-/// One straight edge for some that follow each other: least squares.
+/// The straight edge that fits some best that follow each other: least squares over their length.
+/// Pre: of one interval, from left to right, and not all at one place
 SharedMisfit::Edge SideFit::fitted(std::span<const Beside> run) const {
   double w = 0, x = 0, y = 0, xx = 0, xy = 0;
   const double x0 = run.front().from;

@@ -23,11 +23,11 @@ Beneath::Beneath(const Regions& areas, const Beads& beads, Um line)
     : areas_(areas), beads_(segments_of(beads)), line_(line) {}
 
 bool Beneath::lies(Point p) const {
-  return beads_.nearest(p, line_ * 3 / 4) || areas_.nearest(p, line_ / 4) || areas_.region_at(p);
+  return beads_.nearest(p, on_bead()) || areas_.nearest(p, on_area()) || areas_.region_at(p);
 }
 
 std::vector<char> Beneath::lying(std::span<const Point> places) const {
-  std::vector<char> out = geometry::lie_near(places, beads_, line_ * 3 / 4);
+  std::vector<char> out = geometry::lie_near(places, beads_, on_bead());
   std::vector<std::size_t> which;
   std::vector<Point> others;
   const auto or_if = [&](auto&& tell) {
@@ -39,7 +39,7 @@ std::vector<char> Beneath::lying(std::span<const Point> places) const {
   };
   if (areas_.segments().empty()) return out;
   or_if([&] { return geometry::lie_within(others, areas_); });
-  or_if([&] { return geometry::lie_near(others, areas_, line_ / 4); });
+  or_if([&] { return geometry::lie_near(others, areas_, on_area()); });
   return out;
 }
 

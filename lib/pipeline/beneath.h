@@ -14,7 +14,8 @@ struct Hanging {
   std::vector<Point> at;  ///< places no further from each other than a span, of a small loop its middle
 };
 
-/// What beads of support come to lie on: areas without gaps, and beads with gaps between them.
+/// What beads of support come to lie on: areas without gaps, and beads with gaps between them. What lies on a layer is
+/// asked the same way.
 class Beneath {
  public:
   Beneath() = default;
@@ -30,12 +31,16 @@ class Beneath {
   Hanging hanging(std::span<const Bead> beads, Um span, Um least) const;
   /// Whether a bead's middle there has a quarter of its width on something.
   bool lies(Point p) const;
-  /// Of places along a path, where it only leans on the side of a bead: it is hardly further off than that is wide.
+  /// Of places along a path whether a bead there only leans on the side of one of these: less than a quarter of its
+  /// width lies on it, and it is no further off than the two are wide, by no more than a tenth.
+  /// @return 1 for each place where it does, else 0
   std::vector<char> leaning(std::span<const Point> places) const;
 
  private:
+  double on_bead() const { return line_ * 3 / 4; }  ///< so near to a bead's middle a quarter of another lies on it
+  double on_area() const { return line_ / 4; }      ///< … so far beside an area
   std::vector<Polyline> hanging(const Bead& bead, Um span) const;
-  /// The same of places along a path.
+  /// What `lies` tells of places along a path.
   std::vector<char> lying(std::span<const Point> places) const;
 
   geometry::SegmentIndex areas_, beads_;

@@ -23,16 +23,19 @@ class Walk {
     if (bead.closed) path_.push_back(path_.front());
     at_.push_back(0);
     for (std::size_t i = 1; i < path_.size(); ++i) at_.push_back(at_.back() + distance(path_[i - 1].at, path_[i].at));
+    constexpr double step = 100;
+    const int count = std::max(1, static_cast<int>(length() / step));
+    for (int i = 0; i < count; ++i) middles_.push_back(junction(length() * (i + 0.5) / count).at);
   }
   double length() const { return at_.back(); }
 
   /// The runs over an area.
   std::vector<Stretch> over(const geometry::SegmentIndex& area) const {
-    return runs(geometry::lie_within(middles(), area));
+    return runs(geometry::lie_within(middles_, area));
   }
   /// The runs that what lies on the bead only leans on.
   std::vector<Stretch> leant_on(const Beneath& above) const {
-    return above.empty() ? std::vector<Stretch>{} : runs(above.leaning(middles()));
+    return above.empty() ? std::vector<Stretch>{} : runs(above.leaning(middles_));
   }
   Bead piece(Stretch part) const {
     Bead out = bead_;
@@ -45,24 +48,16 @@ class Walk {
   }
 
  private:
-  int pieces() const {
-    constexpr double step = 100;
-    return std::max(1, static_cast<int>(length() / step));
-  }
-  Polyline middles() const {
-    const int count = pieces();
-    Polyline out;
-    for (int i = 0; i < count; ++i) out.push_back(junction(length() * (i + 0.5) / count).at);
-    return out;
-  }
-  /// @param are  pieces
-  std::vector<Stretch> runs(const std::vector<char>& are) const {
-    const int count = pieces();
+  /// Its steps that follow each other, taken together.
+  /// @param of_them  which of them
+  std::vector<Stretch> runs(const std::vector<char>& of_them) const {
+    const auto count = static_cast<double>(middles_.size());
     std::vector<Stretch> out;
     bool was = false;
-    for (int i = 0; i < count; ++i) {
-      const double from = length() * i / count, to = length() * (i + 1) / count;
-      const bool is = are[static_cast<std::size_t>(i)] != 0;
+    for (std::size_t i = 0; i < middles_.size(); ++i) {
+      const auto at = static_cast<double>(i);
+      const double from = length() * at / count, to = length() * (at + 1) / count;
+      const bool is = of_them[i] != 0;
       if (is && was) out.back().to = to;
       if (is && !was) out.push_back({from, to});
       was = is;
@@ -81,6 +76,7 @@ class Walk {
   const Bead& bead_;
   std::vector<Junction> path_;
   std::vector<double> at_;
+  Polyline middles_;  ///< of its steps, of 0.1 mm or nearly
 };
 
 /// What of runs lies beside stretches that are longer than that.

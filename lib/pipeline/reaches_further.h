@@ -4,8 +4,9 @@
 
 namespace weft::pipeline {
 
-/// Whether a region's outline comes further than that from what lies within, to half of it between places that far from
-/// each other. Cost: O(corners) where outlines run beside each other, else that of an index of the outlines within.
+/// Whether a region's outline comes further than `by` µm from the outlines of what lies within. It is looked at in its
+/// corners and, on long edges, in steps of no more than `by`: what comes out between two by less than half of it may be
+/// missed. Pre: by > 0. Cost: O(steps) where outlines run beside each other, else that of an index of those within.
 bool reaches_further(const Region& region, const Regions& within, Um by);
 
 }  // namespace weft::pipeline

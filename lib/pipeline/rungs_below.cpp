@@ -19,15 +19,14 @@ geometry::Segment way_of(const Bead& rung) {
 /// How far past the nearer end of a rung a place lies, along it.
 double past_end(Point p, const geometry::Segment& way) {
   const double length = std::max(distance(way.a, way.b), 1.0);
-  const Point on = way.b - way.a, to = p - way.a;
-  const double along = (static_cast<double>(to.x) * on.x + static_cast<double>(to.y) * on.y) / length;
+  const double along = static_cast<double>(dot(p - way.a, way.b - way.a)) / length;
   return std::max(-along, along - length);
 }
 
 /// Where the middle of a rung may be. Areas of a column and of a roof beside it, which meet but for a hair, are one.
 Regions middles_in(const Regions& area, Um line) {
-  const Regions met = area.size() > 1 ? support::grown(area, support::outline_bound) : area;
-  return geometry::offset(met, {.by = -line * 4 / 10 - (area.size() > 1 ? support::outline_bound : 0)});
+  const Um hair = area.size() > 1 ? support::outline_bound : 0;
+  return geometry::offset(support::grown(area, hair), {.by = -line * 4 / 10 - hair});
 }
 
 }  // namespace
@@ -104,7 +103,6 @@ void RungsBelow::lay(const geometry::Segment& way) {
   rung.path = {{way.a, style_.band, 1.F}, {way.b, style_.band, 1.F}};
 }
 
-/// A rung holds what lies beside it, but not what lies past its end or behind a bead: no strand there comes across it.
 bool RungsBelow::is_near(Point p, double by) const {
   const auto near = [&](const geometry::Segment& way) {
     const geometry::Foot foot = geometry::foot_of(p, way);

@@ -47,6 +47,8 @@ class RungsBelow {
   };
   /// What is no further from a rung is held by it.
   double held() const { return style_.span * 0.4; }
+  /// Whether p lies no further beside a rung or bracket than that. What lies past its end or behind a bead does not: no
+  /// strand there comes across it.
   bool is_near(Point p, double by) const;
   std::optional<geometry::Segment> on_one_below(Point p, const Beads& under);
   std::optional<geometry::Segment> best_through(Point p);

@@ -11,7 +11,6 @@
 #include "support/lengths.h"
 #include "support/patches.h"
 #include "support/plastic.h"
-#include "support/thin.h"
 #include "support/tree.h"
 #include "tasks/parallel.h"
 
@@ -38,7 +37,8 @@ class Guess {
         shares_(column_shares(s_, room.object().nozzle, usual_band(s_, room.object().nozzle))) {}
 
   static constexpr Um finest = 2_mm;
-  /// @param step  of the way down: contacts fall from no lower than where one ends, so higher ones mostly tell more
+  /// @param step  of the way down: contacts fall from no lower than where one ends, so of high ones mostly more comes
+  /// out
   ColumnsMm3 columns_mm3(const Patch& patch, Um step = finest) const {
     constexpr Um coarse = 0.1_mm;
     std::vector<std::pair<Um, const Regions*>> carried;
@@ -47,20 +47,20 @@ class Guess {
     double mm3 = 0, saved_mm3 = 0, mm2 = 0;
     std::vector<double> by_mm;
     Regions falling;
-    Lean lean(s_, line_, height_of(patch));
+    Lean lean(s_, line_, height_of(patch, stack_, room_.object()));
     Um height = 0;
     bool changed = false;  // since by_mm was reckoned: most columns fall far as they are
     auto next = patch.contacts.rbegin();
     for (std::size_t k = next->first + 1; k-- > 0;) {
       if (next != patch.contacts.rend() && next->first == k)
-        append(falling, rough((next++)->second, coarse)), changed = true;
+        append(falling, geometry::coarsened((next++)->second, coarse)), changed = true;
       height += stack_.levels[k].height;
       if (falling.empty() || (height < step && k > 0)) continue;
       stop_if_asked();
       if (changed) {
         falling = geometry::simplified(geometry::unite(falling), coarse);
         if (const Um by = s_.support_join_distance / 2; by > 0)
-          falling = grown(rough(grown(falling, by, coarse), coarse), -by, coarse);
+          falling = grown(geometry::coarsened(grown(falling, by, coarse), coarse), -by, coarse);
       }
       bool cut = false;
       mm3 += lost(k, falling, cut);
@@ -83,7 +83,12 @@ class Guess {
     return {mm3 - saved_mm3, mm3};
   }
 
-  Um height_of(const Patch& patch) const { return stack_.levels[patch.contacts.back().first].z - room_.object().floor; }
+  /// Whether they take less than that by steps coarser than the finest: those cost least, and mostly tell.
+  bool take_less_coarsely(const Patch& patch, double mm3) const {
+    for (Um step = height_of(patch, stack_, room_.object()); step > finest; step /= 4)
+      if (columns_mm3(patch, step).as_they_are < mm3) return true;
+    return false;
+  }
 
  private:
   /// Takes away what the part keeps off on a level. @return what of it stands on the part, as so much plastic
@@ -142,8 +147,7 @@ bool for_columns_alone(const SupportSettings& settings, const Guess& guess, cons
   for (const auto& [k, regions] : patch.contacts) mm2 += area_mm2(regions), round_mm += geometry::outline_mm(regions);
   if (2 * mm2 >= round_mm * to_mm(narrowest_roof(branch_style(settings)))) return false;
   const double tips_mm3 = tips_mm3_by_mm * round_mm;
-  for (Um step = guess.height_of(patch); step > Guess::finest; step /= 4)
-    if (guess.columns_mm3(patch, step).as_they_are < tips_mm3) return true;
+  if (guess.take_less_coarsely(patch, tips_mm3)) return true;
   columns_mm3 = guess.columns_mm3(patch);
   return columns_mm3->as_they_are < tips_mm3;
 }

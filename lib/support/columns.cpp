@@ -95,10 +95,6 @@ std::vector<Regions> columns(const Room& room, const Stack& stack, const std::ve
   if (s.support_type == SupportType::buildplate) shadow = shadows(room, stack);
   const Air air{room, stack, shadow};
   const bool drawn = std::any_of(given.begin(), given.end(), [](const Regions& r) { return !r.empty(); });
-  const auto height_of = [&](const Patch& patch) {
-    const std::size_t top = patch.contacts.empty() ? stack.levels.size() - 1 : patch.contacts.back().first;
-    return stack.levels[top].z - room.object().floor;
-  };
   // What slides takes more than what stands on the slope with toes, so only where that leaves something.
   const auto leaves_some = [&](const Patch& patch, const std::vector<Regions>& levels) {
     double left_mm2 = 0;
@@ -117,7 +113,7 @@ std::vector<Regions> columns(const Room& room, const Stack& stack, const std::ve
     return false;
   };
   const auto under = [&](const Patch& patch, const std::vector<Regions>* drawn_there) {
-    Fallen first = fall(air, patch, drawn_there, height_of(patch));
+    Fallen first = fall(air, patch, drawn_there, height_of(patch, stack, room.object()));
     if (first.lost.empty() || !leaves_some(patch, first.levels)) return std::move(first.levels);
     return slid(air, patch, first);
   };

@@ -9,6 +9,11 @@
 
 namespace weft::support {
 
+Um height_of(const Patch& patch, const Stack& stack, const Object& object) {
+  const std::size_t top = patch.contacts.empty() ? stack.levels.size() - 1 : patch.contacts.back().first;
+  return stack.levels[top].z - object.floor;
+}
+
 Patches::Patches(const std::vector<Regions>& contacts, Um apart) {
   constexpr Um coarse = 100;  // patches are much further apart
   Regions around;

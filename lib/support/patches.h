@@ -13,6 +13,10 @@ struct Patch {
   std::vector<std::pair<std::size_t, Regions>> contacts;  ///< by level, upwards
 };
 
+/// How high its highest contact is above the object's floor; the highest level is, of one that has none.
+/// Pre: there is a level
+Um height_of(const Patch& patch, const Stack& stack, const Object& object);
+
 /// Contacts taken apart by what they are seen from above.
 class Patches {
  public:

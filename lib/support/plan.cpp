@@ -188,7 +188,7 @@ void note_reached(const Object& object, const Stack& stack, const Demand& demand
     out.contact_mm2 = near.contact_mm2;
     // It is a judgement of reach: finer corners do not matter to it.
     constexpr Um coarse = 100;
-    const auto around = [](const Regions& areas) { return grown(rough(areas, coarse), reached, coarse); };
+    const auto around = [](const Regions& areas) { return grown(geometry::coarsened(areas, coarse), reached, coarse); };
     Regions left, wide = around(near.whole);
     if (!near.partly.empty()) {
       const Regions beside = around(geometry::trimmed(all, box_of(near.partly).grown(2 * reached)));

@@ -16,7 +16,7 @@ namespace {
 /// What of an area hangs, but for slivers along edges: one that was opened by 0.4 lines is none.
 Regions hanging(const Region& region, const Regions& below) {
   constexpr Um least_wide = 60;
-  const Regions under = near_to(region, below);
+  const Regions under = near_to(region, below, outline_bound);
   if (std::find(under.begin(), under.end(), region) != under.end()) return {};
   Regions out;
   const Regions over = under.empty() ? Regions{region} : geometry::beyond(region, under, outline_bound);

@@ -7,7 +7,7 @@ namespace weft::support {
 /// What of the part a level comes to lie on, near the box: beads sink so far.
 Regions part_below(const Room& room, const Stack::Level& level, const Box& near);
 
-/// What hangs of a level and is no larger is no piece of it.
+/// What hangs of a level, or is left out of it, and is no larger is not asked for what it rests on or holds.
 inline constexpr double least_to_rest_mm2 = 0.05;
 
 /// How far beads of a level reach beyond what they lie on, µm.

@@ -4,7 +4,6 @@
 #include "geometry/boolean.h"
 #include "geometry/nudge.h"
 #include "geometry/offset.h"
-#include "geometry/simplify.h"
 #include "geometry/spatial_index.h"
 #include "geometry/trimmed.h"
 #include "support/lengths.h"
@@ -26,17 +25,8 @@ Regions boxes_around(const Regions& pieces, Um by) {
 
 }  // namespace
 
-Regions near_to(const Region& region, const Regions& others) {
-  return geometry::trimmed(others, box_of(region.outer).grown(4 * beside_by));
-}
-
-Regions rough(const Regions& regions, Um bound) {
-  Regions out;
-  for (const Region& region : regions) {
-    Region& to = out.emplace_back(Region{geometry::coarsened(region.outer, bound), {}});
-    for (const Ring& hole : region.holes) to.holes.push_back(geometry::coarsened(hole, bound));
-  }
-  return out;
+Regions near_to(const Region& region, const Regions& others, Um hair) {
+  return geometry::trimmed(others, box_of(region.outer).grown(4 * hair));
 }
 
 void thicken(Regions& area, const Regions& fresh, Um line) {

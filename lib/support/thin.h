@@ -8,11 +8,9 @@ namespace weft::support {
 /// do not lie on each other are cut in a third of the time.
 inline constexpr Um beside_by = 3;
 
-/// What of others may lie beside a region, or over it, by that rule; the rest of them is mostly left off.
-Regions near_to(const Region& region, const Regions& others);
-
-/// Outlines with fewer corners, which may cross then: for judgements, to which offsets of them do.
-Regions rough(const Regions& regions, Um bound);
+/// What of others may lie beside a region, or over it, by that rule or by a hair that is wider: as much of them as
+/// geometry::beyond asks for. The rest of them is mostly left off.
+Regions near_to(const Region& region, const Regions& others, Um hair = beside_by);
 
 /// Strips thinner than two lines of what is `fresh`, made as wide as that.
 void thicken(Regions& area, const Regions& fresh, Um line);

@@ -29,12 +29,7 @@ Regions obstacles_of(const TravelSettings& settings, const LayerInput& input) {
   Regions out;
   const auto add = [&](const Regions& more) { out.insert(out.end(), more.begin(), more.end()); };
   // Ring by ring: where chords meet, what is kept off both meets as well.
-  const auto add_coarse = [&](const Regions& more) {
-    for (const Region& region : more) {
-      Region& to = out.emplace_back(Region{geometry::coarsened(region.outer, coarse), {}});
-      for (const Ring& hole : region.holes) to.holes.push_back(geometry::coarsened(hole, coarse));
-    }
-  };
+  const auto add_coarse = [&](const Regions& more) { add(geometry::coarsened(more, coarse)); };
   for (const auto& object : input.objects) {
     if (!object.support && settings.travel_avoid_other_parts) add(object.outline);
     if (object.support && settings.travel_avoid_supports) add_coarse(object.outline);
