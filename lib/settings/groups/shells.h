@@ -89,8 +89,8 @@ inline constexpr Rows shell_schema{
             "nozzle_diameter."),
     setting("skin_angle", Scope::region, &ShellSettings::skin_angle, Unit::degrees, -360, 360,
             "Direction of the lines of solid layers, against X; every second layer is turned by 90°. auto runs along "
-            "straight walls, where lines at a slant would leave gaps at their ends, along tops twice as long as wide, "
-            "and at 45° elsewhere."),
+            "straight walls, where lines at a slant would leave gaps at their ends, along tops twice as long as wide "
+            "and, for a layer's other tops, like those, and at 45° elsewhere."),
     setting(
         "top_pattern", Scope::region, &ShellSettings::top_pattern,
         "How the lines of top surfaces lie: monotonic, each beside the one before; monotonic_lines, not joined at "

@@ -184,8 +184,11 @@ inline constexpr Rows support_schema{
             Unit::mm, 0.1_mm, 1000_mm, "Height of one step of gradual_support_infill_steps, the first below the roof."),
     setting("support_join_distance", Scope::object, &SupportSettings::support_join_distance, Unit::mm, 0_mm, 50_mm,
             "Columns nearer to each other than this become one."),
-    setting("support_initial_layer_density", Scope::object, &SupportSettings::support_initial_layer_density,
-            Unit::percent, 10, 100, "Share of support's first layer that is plastic, so that it sticks."),
+    setting(
+        "support_initial_layer_density", Scope::object, &SupportSettings::support_initial_layer_density, Unit::percent,
+        10, 100,
+        "Share of support's first layer that is plastic, so that it sticks. From 50 % on what is too narrow for its "
+        "lines is loops beside each other."),
     setting("support_brim_width", Scope::object, &SupportSettings::support_brim_width, Unit::mm, 0_mm, 50_mm,
             "How far the first layer of support reaches beyond it."),
     setting("support_roof_enable", Scope::object, &SupportSettings::support_roof_enable,
