@@ -176,12 +176,14 @@ Start random_start(const Bead& bead, std::uint64_t seed) {
   return at_junction(bead, 0);
 }
 
-Start borne_start(const Bead& bead, Start start, const Comb& below) {
-  const auto bears = [&](const Start& s) {
-    return below.part_of(s.at) != Comb::outside ||
-           below.nearest_on_boundary(s.at, bead.path[s.segment].width / 4).has_value();
-  };
-  if (bears(start)) return start;
+double hang_of(const Bead& bead, const Start& start, const Comb& below) {
+  if (below.part_of(start.at) != Comb::outside) return 0;
+  const Um half = bead.path[start.segment].width / 2;
+  const auto edge = below.nearest_on_boundary(start.at, half);
+  return edge ? std::min(1.0, distance(*edge, start.at) / half) : 1.0;
+}
+
+std::vector<Start> borne_places(const Bead& bead, const Comb& below) {
   constexpr double step_um = 500;
   std::vector<Start> places;
   const std::size_t n = bead.path.size();
@@ -189,13 +191,11 @@ Start borne_start(const Bead& bead, Start start, const Comb& below) {
     const Point a = bead.path[i].at, b = bead.path[i + 1 < n ? i + 1 : 0].at;
     const auto steps = static_cast<int>(std::ceil(distance(a, b) / step_um));
     for (int k = 0; k < steps; ++k)
-      places.push_back({static_cast<std::uint32_t>(i), lerp(a, b, static_cast<double>(k) / steps)});
+      if (const Start place{static_cast<std::uint32_t>(i), lerp(a, b, static_cast<double>(k) / steps)};
+          hang_of(bead, place, below) <= most_hang)
+        places.push_back(place);
   }
-  std::stable_sort(places.begin(), places.end(), [&](const Start& a, const Start& b) {
-    return distance2(a.at, start.at) < distance2(b.at, start.at);
-  });
-  const auto found = std::find_if(places.begin(), places.end(), bears);
-  return found != places.end() ? *found : start;
+  return places;
 }
 
 }  // namespace weft::travel

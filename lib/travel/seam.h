@@ -49,9 +49,14 @@ Start rearmost_start(const Bead& bead);
 /// Anywhere on a closed bead, each place as likely as any. Cost: O(n).
 Start random_start(const Bead& bead, std::uint64_t seed);
 
-/// The place nearest to the start where at least a quarter of the wall's width lies on something; the start itself
-/// where that is so nowhere: what begins on nothing is dragged along.
-/// Cost: two questions to `below`; where it hangs O(n log n) and two for each half millimetre that is nearer.
-Start borne_start(const Bead& bead, Start start, const Comb& below);
+/// With more of its outer half over air a wall's beginning is dragged along.
+constexpr double most_hang = 0.5;
+
+/// How much of the outer half of the wall lies on nothing where it begins, 0 … 1.
+double hang_of(const Bead& bead, const Start& start, const Comb& below);
+
+/// Where a closed bead hangs no more than that where it begins. Cost: two questions to `below` for each half
+/// millimetre.
+std::vector<Start> borne_places(const Bead& bead, const Comb& below);
 
 }  // namespace weft::travel

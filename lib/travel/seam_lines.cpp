@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace weft::travel {
 namespace {
@@ -19,6 +20,9 @@ constexpr double sharpest_worth = 30;
 constexpr double worth_of_way_um = 3000;
 /// A line that breaks off costs as much as one that steps that far aside, µm: how far it leaps makes no difference.
 constexpr double break_um = 6000;
+/// To begin with all of its width over air counts against a place as that many of the sharpest corners count for one:
+/// it would be dragged along, so that a line steps millimetres aside for it, and stays there as long as it must.
+constexpr double air_worth = 60;
 /// So many places of a wall are looked at; there are rarely more that a line could pass.
 constexpr std::size_t most_places = 24;
 /// A seam this near to a junction begins at it, µm.
@@ -44,11 +48,24 @@ float step_um(Point a, Point b) {
   return static_cast<float>(std::min(distance(a, b), break_um));
 }
 
+std::optional<Start> nearest_of(const std::vector<Start>& places, Point p) {
+  const auto found = std::min_element(places.begin(), places.end(), [&](const Start& a, const Start& b) {
+    return distance2(a.at, p) < distance2(b.at, p);
+  });
+  return found != places.end() ? std::optional(*found) : std::nullopt;
+}
+
 bool lines_up(SeamType type) {
   return type == SeamType::aligned || type == SeamType::sharpest_corner;
 }
 
 }  // namespace
+
+Start SeamLines::random_place(const Wall& wall, std::uint64_t seed) {
+  const Start start = random_start(*wall.bead, seed);
+  if (!wall.bearing || hang_of(*wall.bead, start, *wall.bearing) <= most_hang) return start;
+  return nearest_of(borne_places(*wall.bead, *wall.bearing), start.at).value_or(start);
+}
 
 /// Which of the places of a wall a line from that point on the wall below goes to at the least cost, and at which.
 std::pair<std::uint32_t, float> SeamLines::onward(const Wall& wall, Point from) const {
@@ -72,19 +89,24 @@ void SeamLines::add_places(const Wall& wall, const Question& ask) {
   const double worth_um =
       !line ? worth_of_way_um
             : (type == SeamType::aligned ? aligned_worth : sharpest_worth) * static_cast<double>(ask.height);
-  const auto own = [&](Point p, double strength, double exposure) {
-    const bool over_air = wall.bearing != nullptr && wall.bearing->part_of(p) == Comb::outside;
-    const double seen = settings.z_seam_visibility_weight * exposure - settings.z_seam_corner_weight * strength +
-                        (over_air ? settings.z_seam_overhang_weight : 0.0);
-    const double way = type == SeamType::user ? distance(p, goal) : type == SeamType::back ? -1.0 * p.y : 0.0;
-    return worth_um * seen + way;
-  };
   std::vector<Place> found;
+  const auto add_one = [&](const Start& start, double seen, double hang) {
+    const Point p = start.at;
+    // Of two places of a line that are alike the one at the back.
+    const double way = type == SeamType::user   ? distance(p, goal)
+                       : type == SeamType::back ? -1.0 * p.y
+                       : line && !below         ? -1e-3 * p.y
+                                                : 0.0;
+    const auto cost = static_cast<float>(worth_um * (seen + air_worth * settings.z_seam_overhang_weight * hang) + way);
+    found.push_back({start, cost, below ? cost + onward(*below, p).second : cost});
+  };
+  std::optional<std::vector<Start>> borne;
   const auto add = [&](const Start& start, double strength, double exposure) {
-    double own_um = own(start.at, strength, exposure);
-    if (line && !below) own_um -= static_cast<double>(start.at.y) / 1000;  // of two that are alike the one at the back
-    const auto cost = static_cast<float>(own_um);
-    found.push_back({start, cost, below ? cost + onward(*below, start.at).second : cost});
+    const double hang = wall.bearing ? hang_of(bead, start, *wall.bearing) : 0;
+    add_one(start, settings.z_seam_visibility_weight * exposure - settings.z_seam_corner_weight * strength, hang);
+    if (hang <= most_hang) return;
+    if (!borne) borne = borne_places(bead, *wall.bearing);
+    if (const auto at = nearest_of(*borne, start.at)) add_one(*at, 0, hang_of(bead, *at, *wall.bearing));
   };
   if (!below) add(type == SeamType::user ? nearest_start(bead, goal, snap_um) : rearmost_start(bead), 0, 0);
   for (const Corner& c : ask.corners)
@@ -134,7 +156,7 @@ void SeamLines::add(const Prepared& layer) {
         });
     wall.begin = static_cast<std::uint32_t>(places_.size());
     if (settings.z_seam_type == SeamType::random)
-      places_.push_back({random_start(*wall.bead, (std::uint64_t{layer.input.time.index} << 32) + s), 0, 0});
+      places_.push_back({random_place(wall, (std::uint64_t{layer.input.time.index} << 32) + s), 0, 0});
     else
       add_places(wall, {settings, seam.corners, height_of(layer.input, block)});
     wall.end = static_cast<std::uint32_t>(places_.size());
@@ -165,10 +187,7 @@ std::vector<std::vector<Start>> SeamLines::chosen() {
   std::size_t w = 0;
   for (const Prepared* layer : layers_) {
     auto& starts = out.emplace_back();
-    for (std::size_t s = 0; s < layer->seams.size(); ++s, ++w) {
-      const Start& start = places_[at[w]].start;
-      starts.push_back(walls_[w].bearing ? borne_start(*walls_[w].bead, start, *walls_[w].bearing) : start);
-    }
+    for (std::size_t s = 0; s < layer->seams.size(); ++s, ++w) starts.push_back(places_[at[w]].start);
   }
   walls_.clear(), places_.clear(), layers_.clear(), tops_.clear();
   return out;

@@ -165,3 +165,25 @@ TEST_CASE("travel: no seam lies on nothing where the wall lies on something else
   CHECK(seam_over_stem({sample::rectangle({-5000, -5000}, {25000, 15000})}, SeamType::back, 0.5) ==
         Point{24800, 14800});
 }
+
+TEST_CASE("travel: a seam line does not leap for what hangs as much everywhere", "[travel]") {
+  // A cone whose walls hang by a little more or less than what still bears a beginning, elsewhere on each layer.
+  std::vector<LayerInput> layers;
+  for (std::size_t i = 0; i < 20; ++i) {
+    Ring ring;
+    for (int k = 0; k < 180; ++k) {
+      const double a = 2 * std::numbers::pi * k / 180;
+      const double r = 15000 + 305.0 * static_cast<double>(i) + 15 * std::sin(3 * a + 2.1 * static_cast<double>(i));
+      ring.push_back({rounded(r * std::cos(a)), rounded(r * std::sin(a))});
+    }
+    layers.push_back(sample::layer({{ring, {}}}, i));
+  }
+  TravelSettings settings;
+  settings.z_seam_type = SeamType::aligned;
+  const auto seams = seams_of(settings, layers);
+  REQUIRE(seams.size() == 20);
+  for (std::size_t i = 1; i < seams.size(); ++i) {
+    INFO("layer " << i);
+    CHECK(distance(seams[i], seams[i - 1]) < 1000);
+  }
+}
