@@ -6,6 +6,7 @@
 #include "geometry/simplify.h"
 #include "infill/bridges.h"
 #include "infill/scan.h"
+#include "infill/small_patches.h"
 
 #include <algorithm>
 #include <cmath>
@@ -143,6 +144,10 @@ void find_internal_bridges(const ShellSettings& settings, const HangingLayer& la
           (rest - rest.opened(cells(sliver / 2 * layer.line, grid))) & bridge.grown(cells(sliver * layer.line, grid));
     add_bridge(kinds, {std::move(bridge), *angle});
   }
+  const SmallPatches small(settings.infill_solid_below_area, sparse);
+  if (kinds.sparse && below.density > 0)
+    for (Hanging& bridge : kinds.hanging)
+      if (bridge.area.meets(hanging)) small.give_to(bridge.area, *kinds.sparse);
 }
 
 }  // namespace weft::infill

@@ -24,22 +24,40 @@ bool lies_on(const Mask& below, const Region& patch) {
   return Mask(grid.window(weft::box_of(patch.outer), grid.cell), {&patch, 1}).shrunk(edge_cells).meets(below);
 }
 
+bool lies_beside(const Mask& area, const Region& patch) {
+  const Grid& grid = area.grid();
+  return Mask(grid.window(weft::box_of(patch.outer), 2 * grid.cell), {&patch, 1}).grown(1).meets(area);
+}
+
 }  // namespace
 
-void SmallPatches::close(Mask& sparse, Mask& solid) const {
+template <class Closes>
+void SmallPatches::close_where(Mask& sparse, Mask& solid, const Closes& closes) const {
   const Mask candidates = parts_of(sparse, least_mm2_, false);
   if (!candidates.any()) return;
-  std::optional<Mask> large;
   Regions small;
   for (Ring& ring : candidates.outlines()) {
     Region patch{std::move(ring), {}};  // looked at without its holes, and no smaller for that
-    if (double_area(patch.outer) < 0 || area_mm2(patch) >= least_mm2_) continue;
-    if (below_ && !large) large = parts_of(*below_, least_mm2_, true);
-    if (!large || !lies_on(*large, patch)) small.push_back(std::move(patch));
+    if (double_area(patch.outer) >= 0 && area_mm2(patch) < least_mm2_ && closes(patch))
+      small.push_back(std::move(patch));
   }
   if (small.empty()) return;
   const Mask closed = Mask(sparse.grid(), small) & sparse;
   sparse -= closed, solid |= closed;
+}
+
+void SmallPatches::close(Mask& sparse, Mask& solid) const {
+  std::optional<Mask> large;
+  close_where(sparse, solid, [&](const Region& patch) {
+    if (below_ && !large) large = parts_of(*below_, least_mm2_, true);
+    return !large || !lies_on(*large, patch);
+  });
+}
+
+void SmallPatches::give_to(Mask& bridge, Mask& sparse) const {
+  if (below_)
+    close_where(sparse, bridge,
+                [&](const Region& patch) { return lies_on(*below_, patch) && lies_beside(bridge, patch); });
 }
 
 bool SmallPatches::closes(const Region& patch) const {

@@ -146,50 +146,70 @@ class Layers {
       if (there.region_at(p)) out.push_back(p);
     return out;
   }
+  /// Of a layer: all that rungs may lie in, and of that what those that were laid were told.
+  struct Rungs {
+    Regions all;
+    std::vector<std::size_t> told;
+    std::optional<RungsBelow> laid;
+  };
   /// @param hang    of each layer places where beads above it hang
   /// @param filled  what each has laid: rungs end on that
   std::vector<Beads> rungs_for(const std::vector<std::vector<Point>>& hang,
                                const std::vector<SupportBeads>& filled) const {
-    std::vector<std::optional<RungsBelow>> laid(layers_.size());
+    // Side by side as far as it is known what hangs; what hangs at ends of brackets is known from above.
+    auto rungs = tasks::parallel_map(layers_.size(), [&](std::size_t k) {
+      return hang[k].empty() ? Rungs{} : rungs_on(k, filled[k].beads, hang[k], between_beads(k));
+    });
     std::vector<std::vector<Point>> ends(layers_.size());  // of brackets that hang
     for (std::size_t k = layers_.size(); k-- > 0;) {
       if (hang[k].empty() && ends[k].empty()) continue;
       stop_if_asked();
+      if (!rungs[k].laid) rungs[k].all = between_beads(k);
       std::vector<Point> asked = hang[k];
       asked.insert(asked.end(), ends[k].begin(), ends[k].end());
-      const auto more = rungs_on(k, filled[k].beads, asked, laid[k]).brackets(hang[k], ends[k]);
+      if (!rungs[k].laid || near_to(asked, rungs[k].all) != rungs[k].told)
+        rungs[k] = rungs_on(k, filled[k].beads, asked, std::move(rungs[k].all));
+      const auto more = rungs[k].laid->brackets(hang[k], ends[k]);
       for (const std::size_t j : below(k)) ends[j].insert(ends[j].end(), more.begin(), more.end());
     }
     std::vector<Beads> out(layers_.size());
     for (std::size_t k = 0; k < layers_.size(); ++k) {
-      if (!laid[k]) continue;
+      if (!rungs[k].laid) continue;
       stop_if_asked();
       Beads under;
       for (const std::size_t j : below(k)) under.insert(under.end(), out[j].begin(), out[j].end());
-      out[k] = std::move(*laid[k]).rungs(hang[k], under);
+      out[k] = std::move(*rungs[k].laid).rungs(hang[k], under);
       if (const auto tool = settings_.support.support_infill_extruder_nr)
         for (Bead& rung : out[k]) rung.tool = static_cast<ToolId>(*tool);
     }
     return out;
   }
+  /// Which regions rungs may lie in that hold places: none is further from them than brackets reach.
+  std::vector<std::size_t> near_to(const std::vector<Point>& asked, const Regions& all) const {
+    std::vector<std::size_t> out;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const Box reached = box_of(all[i].outer).grown(reach_);
+      if (std::any_of(asked.begin(), asked.end(), [&](Point p) { return reached.contains(p); })) out.push_back(i);
+    }
+    return out;
+  }
   /// A bead holds itself one height out at 45°, and no further than it lies on the one below by a third of its width.
   /// Where lines are further apart brackets are longer, and the lowest of each lies on its root by half of itself.
-  /// @param asked  places where something hangs: no rung is further from them than brackets reach
-  RungsBelow& rungs_on(std::size_t k, const Beads& beads, const std::vector<Point>& asked,
-                       std::optional<RungsBelow>& out) const {
+  /// @param asked  places where something hangs
+  Rungs rungs_on(std::size_t k, const Beads& beads, const std::vector<Point>& asked, Regions all) const {
     const Um height = layers_[k].height, step = std::min(height, line_ * 2 / 3);
-    Regions between = between_beads(k);
-    std::erase_if(between, [&](const Region& region) {
-      const Box reached = box_of(region.outer).grown(reach_);
-      return std::none_of(asked.begin(), asked.end(), [&](Point p) { return reached.contains(p); });
-    });
-    return out.emplace(beads, between, beneath(k),
-                       RungStyle{.span = span_,
-                                 .out = reach_,
-                                 .line = line_,
-                                 .band = flow::band(line_, height),
-                                 .step = step,
-                                 .stub = shares_.shares.size() < 2 ? step + line_ : line_});
+    Rungs out{std::move(all), {}, std::nullopt};
+    out.told = near_to(asked, out.all);
+    Regions between;
+    for (const std::size_t i : out.told) between.push_back(out.all[i]);
+    out.laid.emplace(beads, between, beneath(k),
+                     RungStyle{.span = span_,
+                               .out = reach_,
+                               .line = line_,
+                               .band = flow::band(line_, height),
+                               .step = step,
+                               .stub = shares_.shares.size() < 2 ? step + line_ : line_});
+    return out;
   }
   /// What rungs may lie in.
   Regions between_beads(std::size_t k) const {

@@ -173,12 +173,15 @@ void BlockChain::add(BlockPlaces layer) {
 /// Local moves from the order below find what a search from nothing does, but for what adds up over many layers.
 Order BlockChain::one_way(const std::vector<Point>& places, const TourEnds& ends) {
   constexpr int most_alike = 8;
+  constexpr std::size_t last = 2;  // layers of support alone lie between those that the part has too
   std::optional<Order> order;
-  if (kind_ == PathOrder::optimized && !below_.empty() && like_below_ < most_alike) order = order_like(below_, places);
+  if (kind_ == PathOrder::optimized && like_below_ < most_alike)
+    for (auto below = below_.rbegin(); below != below_.rend() && !order; ++below) order = order_like(*below, places);
   like_below_ = order ? like_below_ + 1 : 0;
   order = order ? shortened(places, *order, ends) : tour_of(kind_, places, ends);
-  below_.clear();
-  for (const auto i : *order) below_.push_back(places[i]);
+  if (below_.size() == last) below_.erase(below_.begin());
+  auto& own = below_.emplace_back();
+  for (const auto i : *order) own.push_back(places[i]);
   return *order;
 }
 

@@ -24,7 +24,8 @@ std::vector<std::uint32_t> shortened(const std::vector<Point>& places, const std
 ///
 /// A layer is entered at one of a few blocks and left at one of a few, with the shortest order between; which ones is
 /// chosen for all layers at once by dynamic programming, so that a layer ends where the next may well begin. Layers of
-/// many blocks are ordered one after the other, those of small ones like the one below where it had nearly the same.
+/// many blocks are ordered one after the other, those of small ones like one of
+/// the last below that had nearly the same.
 class BlockChain {
  public:
   explicit BlockChain(PathOrder order);
@@ -43,10 +44,10 @@ class BlockChain {
 
   PathOrder kind_;
   std::vector<Passages> layers_;
-  std::vector<Point> exits_;      // of the passages of the last layer that has any
-  std::vector<double> costs_{0};  // beside exits_; one without a place before the first layer
-  std::vector<Point> below_;      // the places of the last layer of many, in their order
-  int like_below_ = 0;            // so many layers were ordered like the one below them
+  std::vector<Point> exits_;               // of the passages of the last layer that has any
+  std::vector<double> costs_{0};           // beside exits_; one without a place before the first layer
+  std::vector<std::vector<Point>> below_;  // the places of the last layers of small blocks, in their order
+  int like_below_ = 0;                     // so many layers were ordered like one below them
 };
 
 }  // namespace weft::travel
