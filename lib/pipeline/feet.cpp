@@ -34,7 +34,7 @@ class Walk {
     return runs(geometry::lie_within(middles_, area));
   }
   /// The runs that what lies on the bead only leans on.
-  std::vector<Stretch> leant_on(const Beneath& above) const {
+  std::vector<Stretch> leant_on(const LayerPlastic& above) const {
     return above.empty() ? std::vector<Stretch>{} : runs(above.leaning(middles_));
   }
   Bead piece(Stretch part) const {
@@ -107,7 +107,7 @@ void leave_out(Stretch run, bool around, FeetStyle style, std::vector<Stretch>& 
 
 }  // namespace
 
-Beads on_feet(Beads beads, const Regions& on_part, const Beneath& above, FeetStyle style) {
+Beads on_feet(Beads beads, const Regions& on_part, const LayerPlastic& above, FeetStyle style) {
   if (on_part.empty()) return beads;
   const geometry::SegmentIndex area(on_part);
   std::vector<Box> boxes;

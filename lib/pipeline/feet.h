@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "model/bead.h"
-#include "pipeline/beneath.h"
+#include "pipeline/layer_plastic.h"
 
 namespace weft::pipeline {
 
@@ -17,6 +17,6 @@ struct FeetStyle {
 /// and would have nothing to lean on between feet.
 /// @param on_part  where they lie on it
 /// @param above    what crosses from foot to foot
-Beads on_feet(Beads beads, const Regions& on_part, const Beneath& above, FeetStyle style);
+Beads on_feet(Beads beads, const Regions& on_part, const LayerPlastic& above, FeetStyle style);
 
 }  // namespace weft::pipeline

@@ -5,7 +5,7 @@
 #include "geometry/spatial_index.h"
 #include "geometry/touching.h"
 #include "model/flow.h"
-#include "pipeline/beneath.h"
+#include "pipeline/layer_plastic.h"
 #include "pipeline/rungs_below.h"
 #include "pipeline/support_beads.h"
 #include "pipeline/support_columns.h"
@@ -91,16 +91,16 @@ class Layers {
     return out;
   }
   /// What a layer lies on that has a roof, but where that is the same as below.
-  Beneath beneath_roof(std::size_t k) const {
+  LayerPlastic beneath_roof(std::size_t k) const {
     const support::SupportLayer& layer = layers_[k];
     if (layer.roof.empty() && layer.bottom.empty()) return {};
     for (const std::size_t j : below(k))
       if (layers_[j].roof == layer.roof && layers_[j].bottom == layer.bottom) return {};
     return beneath(k);
   }
-  Beneath beneath(std::size_t k) const { return plastic_of(below(k)); }
+  LayerPlastic beneath(std::size_t k) const { return plastic_of(below(k)); }
   /// What lies on a layer that has feet.
-  Beneath upon_feet(std::size_t k) const {
+  LayerPlastic upon_feet(std::size_t k) const {
     if (layers_[k].feet.empty()) return {};
     std::vector<std::size_t> above;
     for (std::size_t j = k + 1; j < layers_.size() && layers_[j].z <= layers_[k].z + tallest_ * 3 / 2; ++j)
@@ -108,7 +108,7 @@ class Layers {
     return plastic_of(above);
   }
   /// What is laid in layers, but for rungs.
-  Beneath plastic_of(const std::vector<std::size_t>& layers) const {
+  LayerPlastic plastic_of(const std::vector<std::size_t>& layers) const {
     Regions areas;
     Beads beads;
     for (const std::size_t j : layers) {
@@ -132,7 +132,7 @@ class Layers {
     auto [beads, lines] = columns_ ? columns_->unlike(k, under.front()) : SupportColumns::Unlike{};
     beads.insert(beads.end(), under_roof_[k].begin(), under_roof_[k].end());
     if (beads.empty() && lines.empty()) return {};
-    const Beneath on = beneath(k);
+    const LayerPlastic on = beneath(k);
     auto out = on.hanging(beads, span_).at;
     // Lines get longer and shorter from level to level: their ends hold on to the rest, a whole new one does not.
     const auto of_lines = on.hanging(lines, span_, 2 * span_).at;

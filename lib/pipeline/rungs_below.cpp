@@ -31,7 +31,7 @@ Regions middles_in(const Regions& area, Um line) {
 
 }  // namespace
 
-RungsBelow::RungsBelow(const Beads& beads, const Regions& area, Beneath below, const RungStyle& style)
+RungsBelow::RungsBelow(const Beads& beads, const Regions& area, LayerPlastic below, const RungStyle& style)
     : laid_(segments_of(beads)), inside_(middles_in(area, style.line)), below_(std::move(below)), style_(style) {}
 
 std::vector<Point> RungsBelow::brackets(std::span<const Point> hang, std::span<const Point> ends) {

@@ -3,7 +3,7 @@
 #include "core/polygon.h"
 #include "geometry/spatial_index.h"
 #include "model/bead.h"
-#include "pipeline/beneath.h"
+#include "pipeline/layer_plastic.h"
 
 #include <optional>
 #include <span>
@@ -27,7 +27,7 @@ class RungsBelow {
   /// @param beads  what is laid already: rungs and brackets end on it
   /// @param area   of support: none leaves it
   /// @param below  what this layer lies on
-  RungsBelow(const Beads& beads, const Regions& area, Beneath below, const RungStyle& style);
+  RungsBelow(const Beads& beads, const Regions& area, LayerPlastic below, const RungStyle& style);
 
   /// @param hang  places where beads above hang
   /// @param ends  where brackets of the layer above do
@@ -62,7 +62,7 @@ class RungsBelow {
   void lay(const geometry::Segment& way);
 
   geometry::SegmentIndex laid_, inside_;
-  Beneath below_;
+  LayerPlastic below_;
   RungStyle style_;
   std::vector<geometry::SegmentIndex::Crossing> found_;
   std::vector<Bracket> brackets_;

@@ -438,7 +438,7 @@ class Filler {
   Um between_feet_, band_;
   ColumnShares columns_;
   Um usual_band_;  ///< at layer_height: what shares are of, so that lines of layers of any height lie on each other
-  const Beneath* below_ = nullptr;
+  const LayerPlastic* below_ = nullptr;
   Beads beads_;
   std::vector<Point> hang_at_;
 };

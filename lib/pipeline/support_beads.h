@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include "model/bead.h"
-#include "pipeline/beneath.h"
+#include "pipeline/layer_plastic.h"
 #include "pipeline/near_below.h"
 #include "settings/settings.h"
 #include "support/support.h"
@@ -32,8 +32,8 @@ Beads fill_walled_columns(const SupportToFill& what, const NearSteps& near);
 Beads fill_under_roof(const SupportToFill& what);
 /// What a layer's beads are told of the layers beside it.
 struct BesideLayer {
-  Beneath below;  ///< what the layer lies on, where it has a roof
-  Beneath above;  ///< what lies on it, where it has feet
+  LayerPlastic below;  ///< what the layer lies on, where it has a roof
+  LayerPlastic above;  ///< what lies on it, where it has feet
 };
 /// @param columns  what became of the layer's, with what a roof lies on
 SupportBeads fill_support_layer(const SupportToFill& what, Beads columns, const BesideLayer& beside);

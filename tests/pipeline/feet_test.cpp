@@ -14,7 +14,7 @@ constexpr pipeline::FeetStyle style{.foot = 1200, .apart = 5000};
 const Regions everywhere{rectangle(-100000, -100000, 100000, 100000)};
 
 /// A layer that lies on all of it.
-const pipeline::Beneath all_above(everywhere, {}, 400);
+const pipeline::LayerPlastic all_above(everywhere, {}, 400);
 
 Bead bead_along(const Polyline& line, bool closed = false) {
   Bead out;
@@ -71,7 +71,7 @@ TEST_CASE("feet: what is too short for three, or lies on support, is laid whole"
 TEST_CASE("feet: what beads above only lean on is laid whole, but where they cross no further than that") {
   const Bead line = bead_along({{0, 0}, {30000, 0}});
   const auto feet_under = [&](const Beads& above) {
-    return pipeline::on_feet({line}, everywhere, pipeline::Beneath({}, above, 400), style);
+    return pipeline::on_feet({line}, everywhere, pipeline::LayerPlastic({}, above, 400), style);
   };
   CHECK(feet_under({bead_along({{0, 420}, {30000, 420}}), bead_along({{0, -420}, {30000, -420}})}) == Beads{line});
   CHECK(feet_under({bead_along({{0, 100}, {30000, 100}})}).size() > 3);

@@ -3,7 +3,7 @@
 
 #include "geometry/spatial_index.h"
 #include "model/flow.h"
-#include "pipeline/beneath.h"
+#include "pipeline/layer_plastic.h"
 #include "rectangle.h"
 #include "support/body.h"
 
@@ -168,7 +168,7 @@ TEST_CASE("support: lines of a column that changes from level to level turn wher
   for (std::size_t k = 1; k < filled.size(); ++k) {
     INFO("level " << k);
     // Half of its turns would lie between two lines where the level below turned on their other side.
-    const double hangs_um = pipeline::Beneath({}, filled[k - 1].beads, 400).hanging(filled[k].beads, 1000).um;
+    const double hangs_um = pipeline::LayerPlastic({}, filled[k - 1].beads, 400).hanging(filled[k].beads, 1000).um;
     double laid_um = 0;
     for (const Bead& bead : filled[k].beads) laid_um += 1000 * length_mm(bead);
     CHECK(hangs_um < 0.01 * laid_um);
@@ -190,14 +190,14 @@ TEST_CASE("support: a line of a column that is joined to no other lies on a stra
     CHECK(leaves_its_chord(wave) > 400);
     CHECK(length_mm(wave) < 1.4 * 28.5);
     const Bead below = straight({500, row}, {29000, row});
-    CHECK(pipeline::Beneath({}, {below}, 400).hanging({&wave, 1}, 4000).um == 0);
+    CHECK(pipeline::LayerPlastic({}, {below}, 400).hanging({&wave, 1}, 4000).um == 0);
   }
 }
 
 TEST_CASE("support: what crosses from rest to rest hangs no more than what lies, loose ends do") {
   const Bead line = straight({0, 0}, {0, 10000});  // along Y
   const Bead next = straight({3000, 0}, {3000, 10000});
-  const pipeline::Beneath below({rectangle(20000, 0, 30000, 10000)}, {line, next}, 400);
+  const pipeline::LayerPlastic below({rectangle(20000, 0, 30000, 10000)}, {line, next}, 400);
   const auto hangs = [&](Point a, Point b) {
     const Bead bead = straight(a, b);
     return below.hanging({&bead, 1}, 4000).um;
@@ -284,7 +284,7 @@ TEST_CASE(
     for (const auto& under : filled)
       if (under.z < layer.z && under.z >= layer.z - layer.height * 3 / 2)
         lower.insert(lower.end(), under.beads.begin(), under.beads.end());
-    const pipeline::Beneath below({}, lower, 800);  // brackets reach a step beyond those below
+    const pipeline::LayerPlastic below({}, lower, 800);  // brackets reach a step beyond those below
     for (const Bead& bead : layer.beads) {
       if (bead.sequence == 0) continue;
       ++rungs;
@@ -314,7 +314,7 @@ TEST_CASE("support: a roof lies on strands across its column's lines, and its ow
       stack.push_back(level(5200, 200, &support::SupportLayer::roof, area));
       const auto filled = pipeline::fill_support(s, stack, {});
       const auto hangs_mm = [&](std::size_t k, Um span) {
-        return pipeline::Beneath({}, filled[k - 1].beads, 400).hanging(filled[k].beads, span).um / 1000;
+        return pipeline::LayerPlastic({}, filled[k - 1].beads, 400).hanging(filled[k].beads, span).um / 1000;
       };
       for (std::size_t k = 14; k <= 16; ++k) {
         const double along = (angle + (k == 15 ? 90 : 0)) * std::numbers::pi / 180;
@@ -354,7 +354,7 @@ TEST_CASE("support: a strip of roof beside the one below it lies on rungs betwee
     CHECK(std::abs(high - next) <= 1);
   }
   CHECK(rungs >= 5);
-  const pipeline::Beneath below({}, filled.front().beads, 400);
+  const pipeline::LayerPlastic below({}, filled.front().beads, 400);
   CHECK(below.hanging(filled[1].beads, 5000).um == 0);
 }
 
@@ -368,7 +368,7 @@ TEST_CASE("support: strips on either side of a column's last line lie on bracket
   strips.roof.push_back(rectangle(5000, last + 600, 25000, last + 1000));
   stack.push_back(strips);
   const auto filled = pipeline::fill_support(s, stack, {});
-  const pipeline::Beneath below({}, filled[14].beads, 400);
+  const pipeline::LayerPlastic below({}, filled[14].beads, 400);
   CHECK(below.hanging(filled[15].beads, 5000).um < 0.1 * 2 * 20000);
 }
 
@@ -418,7 +418,7 @@ TEST_CASE("support: where a column gets one more line, that lies on brackets") {
   const auto hangs_mm = [&](bool on_brackets) {
     Beads below = filled[14].beads;
     if (!on_brackets) std::erase_if(below, [](const Bead& bead) { return bead.sequence != 0; });
-    return pipeline::Beneath({}, below, 400).hanging(filled[15].beads, 4000).um / 1000;
+    return pipeline::LayerPlastic({}, below, 400).hanging(filled[15].beads, 4000).um / 1000;
   };
   CHECK(hangs_mm(false) > 35);
   CHECK(hangs_mm(true) < 5);
@@ -436,7 +436,7 @@ TEST_CASE(
   stack.push_back(level(2000 + 200 * levels, 200, &support::SupportLayer::roof, {rectangle(5000, edge, 25000, last)}));
   const auto filled = pipeline::fill_support(s, stack, {});
   const auto hangs_mm = [](const Beads& beads, const Beads& on) {
-    return pipeline::Beneath({}, on, 400).hanging(beads, 5000).um / 1000;
+    return pipeline::LayerPlastic({}, on, 400).hanging(beads, 5000).um / 1000;
   };
   CHECK(hangs_mm(filled[levels].beads, filled[levels - 1].beads) < 3);  // of 90: two ends beside the outermost brackets
   std::size_t brackets = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/boolean.h"
-#include "pipeline/beneath.h"
 #include "pipeline/fill_support.h"
+#include "pipeline/layer_plastic.h"
 #include "rectangle.h"
 #include "support/body.h"
 #include "support/column_steps.h"
@@ -57,7 +57,7 @@ Beads without_rungs(Beads beads) {
 /// What of a layer's beads has nothing below, and crosses no further than feet are apart, mm.
 double hangs_mm(const Settings& s, const pipeline::PrintedLayer& layer, const Beads& below) {
   const Um span = support::between_feet(s.machine.nozzle_diameter);
-  return pipeline::Beneath({}, below, 400).hanging(without_rungs(layer.beads), span).um / 1000;
+  return pipeline::LayerPlastic({}, below, 400).hanging(without_rungs(layer.beads), span).um / 1000;
 }
 
 Region round_of(Point at, double a, double b, double turn) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/beneath.h"
+#include "pipeline/layer_plastic.h"
 
 #include "geometry/along_path.h"
 
@@ -19,14 +19,14 @@ geometry::SegmentIndex segments_of(const Beads& beads) {
   return geometry::SegmentIndex(std::move(segments));
 }
 
-Beneath::Beneath(const Regions& areas, const Beads& beads, Um line)
+LayerPlastic::LayerPlastic(const Regions& areas, const Beads& beads, Um line)
     : areas_(areas), beads_(segments_of(beads)), line_(line) {}
 
-bool Beneath::lies(Point p) const {
+bool LayerPlastic::lies(Point p) const {
   return beads_.nearest(p, on_bead()) || areas_.nearest(p, on_area()) || areas_.region_at(p);
 }
 
-std::vector<char> Beneath::lying(std::span<const Point> places) const {
+std::vector<char> LayerPlastic::lying(std::span<const Point> places) const {
   std::vector<char> out = geometry::lie_near(places, beads_, on_bead());
   std::vector<std::size_t> which;
   std::vector<Point> others;
@@ -43,7 +43,7 @@ std::vector<char> Beneath::lying(std::span<const Point> places) const {
   return out;
 }
 
-std::vector<char> Beneath::leaning(std::span<const Point> places) const {
+std::vector<char> LayerPlastic::leaning(std::span<const Point> places) const {
   std::vector<char> out = geometry::lie_near(places, beads_, line_ * 11 / 10);
   const std::vector<char> lies = lying(places);
   for (std::size_t i = 0; i < out.size(); ++i)
@@ -52,7 +52,7 @@ std::vector<char> Beneath::leaning(std::span<const Point> places) const {
 }
 
 /// Walked in steps, each of which lies or does not.
-std::vector<Polyline> Beneath::hanging(const Bead& bead, Um span) const {
+std::vector<Polyline> LayerPlastic::hanging(const Bead& bead, Um span) const {
   constexpr double step = 300;
   const auto& path = bead.path;
   std::vector<Polyline> out;
@@ -89,7 +89,7 @@ std::vector<Polyline> Beneath::hanging(const Bead& bead, Um span) const {
   return out;
 }
 
-Hanging Beneath::hanging(std::span<const Bead> beads, Um span, Um least) const {
+Hanging LayerPlastic::hanging(std::span<const Bead> beads, Um span, Um least) const {
   Hanging out;
   for (const Bead& bead : beads)
     for (const Polyline& piece : hanging(bead, span)) {

@@ -14,13 +14,13 @@ struct Hanging {
   std::vector<Point> at;  ///< places no further from each other than a span, of a small loop its middle
 };
 
-/// What beads of support come to lie on: areas without gaps, and beads with gaps between them. What lies on a layer is
-/// asked the same way.
-class Beneath {
+/// The plastic of a layer, for beads of support that come to lie on it or, asked the same way, that it comes to lie on:
+/// areas without gaps, and beads with gaps between them.
+class LayerPlastic {
  public:
-  Beneath() = default;
+  LayerPlastic() = default;
   /// @param line  width of a bead
-  Beneath(const Regions& areas, const Beads& beads, Um line);
+  LayerPlastic(const Regions& areas, const Beads& beads, Um line);
 
   bool empty() const { return areas_.segments().empty() && beads_.segments().empty(); }
 
