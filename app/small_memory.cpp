@@ -50,8 +50,8 @@ constexpr std::size_t kinds = 16;         ///< of sizes: up to 256 bytes
 constexpr std::size_t page_bytes = 4096;  ///< the least that the system takes back
 constexpr std::size_t most_bytes = std::size_t{4} << 30;  ///< of addresses, which cost nothing
 constexpr std::size_t head_bytes = 64;                    ///< of a page
-constexpr std::size_t idle_pages = 1024;  ///< may be kept (to give 4 MiB back and take them again costs 10 ms),
-                                          ///< and of those that were ever used this share:
+constexpr std::size_t idle_pages = 256;                   ///< may be kept, 1 MiB, lest they go to and fro, and of those
+                                                          ///< that were ever used this share:
 constexpr std::size_t idle_share = 64;
 
 struct Piece {

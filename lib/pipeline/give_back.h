@@ -11,7 +11,7 @@ namespace weft::pipeline {
 
 /// Less than that is kept for what comes: to give it back, hole by hole, and to be given it again, page by page, takes
 /// longer than writing as many bytes of G-code.
-inline constexpr std::size_t worth_giving_back = std::size_t{16} << 20U;
+inline constexpr std::size_t worth_giving_back = std::size_t{4} << 20U;
 
 /// Gives back to the system what has been used and freed in pieces, before as much is taken again. Cost: a look at all
 /// pieces that are free, about 0.1 ms; 10 to 100 µs for each hole of a page or more, and faults of the pages that are
