@@ -24,8 +24,8 @@ std::vector<std::uint32_t> shortened(const std::vector<Point>& places, const std
 ///
 /// A layer is entered at one of a few blocks and left at one of a few, with the shortest order between; which ones is
 /// chosen for all layers at once by dynamic programming, so that a layer ends where the next may well begin. Layers of
-/// many blocks are ordered one after the other, those of small ones like one of
-/// the last below that had nearly the same.
+/// many blocks are ordered one after the other, those of small ones like one of the last below that had nearly the
+/// same.
 class BlockChain {
  public:
   explicit BlockChain(PathOrder order);

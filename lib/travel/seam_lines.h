@@ -51,6 +51,7 @@ class SeamLines {
     Um height;
   };
 
+  /// Anywhere on the wall where it hangs no more than it may, if there is such a place.
   static Start random_place(const Wall& wall, std::uint64_t seed);
   std::pair<std::uint32_t, float> onward(const Wall& wall, Point from) const;
   void add_places(const Wall& wall, const Question& ask);
