@@ -14,7 +14,7 @@ class SmallPatches {
   /// @param below the sparse infill of the layer below
   SmallPatches(double least_mm2, const std::optional<Mask>& below) : least_mm2_(least_mm2), below_(below) {}
 
-  /// Closes those among cells that lie on no large patch.
+  /// Closes those among cells that lie on no large patch. Pre: both have one grid.
   void close(Mask& sparse, Mask& solid) const;
 
   /// Those on sparse infill beside a bridge over it are of the bridge.
@@ -25,6 +25,7 @@ class SmallPatches {
   bool closes(const Region& patch) const;
 
  private:
+  /// @param closes  asked of each small patch, without its holes
   template <class Closes>
   void close_where(Mask& sparse, Mask& solid, const Closes& closes) const;
 

@@ -184,7 +184,7 @@ class Layers {
     }
     return out;
   }
-  /// Which regions rungs may lie in that hold places: none is further from them than brackets reach.
+  /// Indices of the regions that rungs may lie in which hold places: none is further from them than brackets reach.
   std::vector<std::size_t> near_to(const std::vector<Point>& asked, const Regions& all) const {
     std::vector<std::size_t> out;
     for (std::size_t i = 0; i < all.size(); ++i) {

@@ -49,14 +49,17 @@ Start rearmost_start(const Bead& bead);
 /// Anywhere on a closed bead, each place as likely as any. Cost: O(n).
 Start random_start(const Bead& bead, std::uint64_t seed);
 
-/// With more of its outer half over air a wall's beginning is dragged along.
+/// With more of the half of its width that stands out over air a wall's beginning is dragged along: at least a quarter
+/// of the width lies on something.
 constexpr double most_hang = 0.5;
 
-/// How much of the outer half of the wall lies on nothing where it begins, 0 … 1.
+/// How much of the half of a closed bead's width that stands out lies on nothing where it begins, 0 … 1: 0 where its
+/// middle lies on something. Cost: two questions to `below`.
+/// @param below  what the wall can lie on
 double hang_of(const Bead& bead, const Start& start, const Comb& below);
 
-/// Where a closed bead hangs no more than that where it begins. Cost: two questions to `below` for each half
-/// millimetre.
+/// Where a closed bead may begin with no more than `most_hang` over air, at its junctions and every half millimetre;
+/// empty: nowhere. Cost: two questions to `below` for each.
 std::vector<Start> borne_places(const Bead& bead, const Comb& below);
 
 }  // namespace weft::travel

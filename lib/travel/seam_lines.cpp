@@ -20,8 +20,9 @@ constexpr double sharpest_worth = 30;
 constexpr double worth_of_way_um = 3000;
 /// A line that breaks off costs as much as one that steps that far aside, µm: how far it leaps makes no difference.
 constexpr double break_um = 6000;
-/// To begin with all of its width over air counts against a place as that many of the sharpest corners count for one:
-/// it would be dragged along, so that a line steps millimetres aside for it, and stays there as long as it must.
+/// z_seam_overhang_weight of a place whose outer half is all over air counts as much against it as z_seam_corner_weight
+/// of so many of the sharpest corners counts for one: what begins there would be dragged along, so that a line steps
+/// millimetres aside for it, and stays there as long as it must.
 constexpr double air_worth = 60;
 /// So many places of a wall are looked at; there are rarely more that a line could pass.
 constexpr std::size_t most_places = 24;
@@ -48,6 +49,7 @@ float step_um(Point a, Point b) {
   return static_cast<float>(std::min(distance(a, b), break_um));
 }
 
+/// None where there are no places.
 std::optional<Start> nearest_of(const std::vector<Start>& places, Point p) {
   const auto found = std::min_element(places.begin(), places.end(), [&](const Start& a, const Start& b) {
     return distance2(a.at, p) < distance2(b.at, p);
@@ -90,7 +92,7 @@ void SeamLines::add_places(const Wall& wall, const Question& ask) {
       !line ? worth_of_way_um
             : (type == SeamType::aligned ? aligned_worth : sharpest_worth) * static_cast<double>(ask.height);
   std::vector<Place> found;
-  const auto add_one = [&](const Start& start, double seen, double hang) {
+  const auto add_place = [&](const Start& start, double seen, double hang) {
     const Point p = start.at;
     // Of two places of a line that are alike the one at the back.
     const double way = type == SeamType::user   ? distance(p, goal)
@@ -103,10 +105,10 @@ void SeamLines::add_places(const Wall& wall, const Question& ask) {
   std::optional<std::vector<Start>> borne;
   const auto add = [&](const Start& start, double strength, double exposure) {
     const double hang = wall.bearing ? hang_of(bead, start, *wall.bearing) : 0;
-    add_one(start, settings.z_seam_visibility_weight * exposure - settings.z_seam_corner_weight * strength, hang);
+    add_place(start, settings.z_seam_visibility_weight * exposure - settings.z_seam_corner_weight * strength, hang);
     if (hang <= most_hang) return;
-    if (!borne) borne = borne_places(bead, *wall.bearing);
-    if (const auto at = nearest_of(*borne, start.at)) add_one(*at, 0, hang_of(bead, *at, *wall.bearing));
+    if (!borne) borne = borne_places(bead, *wall.bearing);  // of these the nearest, which hides nothing
+    if (const auto at = nearest_of(*borne, start.at)) add_place(*at, 0, hang_of(bead, *at, *wall.bearing));
   };
   if (!below) add(type == SeamType::user ? nearest_start(bead, goal, snap_um) : rearmost_start(bead), 0, 0);
   for (const Corner& c : ask.corners)

@@ -22,16 +22,24 @@ std::vector<Point> seams_of(const TravelSettings& settings, const std::vector<La
   return seams;
 }
 
+/// A closed outline by its radius at so many directions, evenly spread.
+/// @param radius  µm, of an angle
+Ring round_outline(int corners, const auto& radius, double turned_rad = 0) {
+  Ring ring;
+  for (int k = 0; k < corners; ++k) {
+    const double a = 2 * std::numbers::pi * k / corners + turned_rad;
+    ring.push_back({rounded(radius(a) * std::cos(a)), rounded(radius(a) * std::sin(a))});
+  }
+  return ring;
+}
+
 /// A vase whose radius changes and whose vertices turn from layer to layer.
 std::vector<LayerInput> vase() {
   std::vector<LayerInput> layers;
   for (std::size_t i = 0; i < 40; ++i) {
-    Ring ring;
-    for (int k = 0; k < 90; ++k) {
-      const double a = 2 * std::numbers::pi * (k + 0.37 * static_cast<double>(i)) / 90;
-      const double r = 15000 + 2000 * std::sin(static_cast<double>(i) / 8);
-      ring.push_back({rounded(r * std::cos(a)), rounded(r * std::sin(a))});
-    }
+    const auto n = static_cast<double>(i);
+    const Ring ring = round_outline(
+        90, [&](double) { return 15000 + 2000 * std::sin(n / 8); }, 2 * std::numbers::pi * 0.37 * n / 90);
     layers.push_back(sample::layer({{ring, {}}}, i));
   }
   return layers;
@@ -69,14 +77,11 @@ TEST_CASE("travel: a corner that lasts wins over one that is sharper for a while
   // A drop with a tip ahead that fades into its round in ten layers, and a blunter one to the left that stays.
   std::vector<LayerInput> layers;
   for (std::size_t i = 0; i < 80; ++i) {
-    Ring ring;
     const double fades = i < 10 ? 1 - 0.1 * static_cast<double>(i) : 0;
-    for (int k = 0; k < 120; ++k) {
-      const double a = 2 * std::numbers::pi * k / 120, side = std::numbers::pi - a;
-      const double r = 15000 + 7000 * fades * std::max(0.0, 1 - 4 * std::min(a, 2 * std::numbers::pi - a)) +
-                       4000 * std::max(0.0, 1 - 3 * std::abs(side));
-      ring.push_back({rounded(r * std::cos(a)), rounded(r * std::sin(a))});
-    }
+    const Ring ring = round_outline(120, [&](double a) {
+      return 15000 + 7000 * fades * std::max(0.0, 1 - 4 * std::min(a, 2 * std::numbers::pi - a)) +
+             4000 * std::max(0.0, 1 - 3 * std::abs(std::numbers::pi - a));
+    });
     layers.push_back(sample::layer({{ring, {}}}, i));
   }
   TravelSettings settings;
@@ -170,12 +175,8 @@ TEST_CASE("travel: a seam line does not leap for what hangs as much everywhere",
   // A cone whose walls hang by a little more or less than what still bears a beginning, elsewhere on each layer.
   std::vector<LayerInput> layers;
   for (std::size_t i = 0; i < 20; ++i) {
-    Ring ring;
-    for (int k = 0; k < 180; ++k) {
-      const double a = 2 * std::numbers::pi * k / 180;
-      const double r = 15000 + 305.0 * static_cast<double>(i) + 15 * std::sin(3 * a + 2.1 * static_cast<double>(i));
-      ring.push_back({rounded(r * std::cos(a)), rounded(r * std::sin(a))});
-    }
+    const auto n = static_cast<double>(i);
+    const Ring ring = round_outline(180, [&](double a) { return 15000 + 305 * n + 15 * std::sin(3 * a + 2.1 * n); });
     layers.push_back(sample::layer({{ring, {}}}, i));
   }
   TravelSettings settings;
